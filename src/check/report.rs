@@ -112,21 +112,24 @@ pub fn finding(path: &str, diagnostic: &Diagnostic, excerpt: Option<&Excerpt>, p
 
 /// Where a book's program goes wrong, what one sees, and the limits.
 fn verdict(path: &str, verdict: &Verdict, lines: &LineIndex<'_>, with_help: bool, paint: Paint<'_>) -> String {
-    let book = verdict.book.label();
-    let shows = OneLine(&verdict.shows);
+    let (shows, outcome) = (OneLine(&verdict.shows), verdict.outcome);
+    let severity = if verdict.is_bad() {
+        Severity::Warning
+    } else {
+        Severity::Note
+    };
+    let word = paint(Ink::Severity(severity), verdict.book.label());
     let mut text = match &verdict.trouble {
         Some(trouble) => {
             let at = trouble.position;
             let place = format!("{path}:{}:{}", at.line, at.column);
             let place = paint(Ink::Place, &OneLine(&place).to_string());
-            let word = paint(Ink::Severity(Severity::Warning), book);
             let (why, excerpt) = (OneLine(&trouble.why), lines.excerpt(at, trouble.length));
-            format!("{place}: {word}: {why}\n{excerpt}   = one sees: {shows}\n")
+            format!("{place}: {word}: {outcome}. {why}\n{excerpt}   = one sees: {shows}\n")
         }
         None => {
             let place = paint(Ink::Place, &OneLine(path).to_string());
-            let word = paint(Ink::Severity(Severity::Note), book);
-            format!("{place}: {word}: It reads the file. One sees: {shows}\n")
+            format!("{place}: {word}: {outcome}. One sees: {shows}\n")
         }
     };
     for limit in &verdict.limits {

@@ -18,7 +18,7 @@ use crate::edit::{Change, Edits};
 use crate::export::Loss;
 use crate::format::Dialect;
 use crate::import::FileFormat;
-use crate::model::{Handedness, JointNames, Model, UpAxis};
+use crate::model::{Front, Handedness, JointNames, Model, UpAxis};
 use crate::session::{self, ExportFormat, ExportJob, File, Maps, OpenModel, ToExport, WrittenModel};
 
 /// Write a model as another file, changed as asked.
@@ -165,15 +165,17 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
         &open.model.materials,
         pictures.into_iter().chain(open.pictures.iter().cloned()),
     );
+    let clips = arguments.clips.as_deref();
     let what = ToExport {
         model: open.model.clone(),
         names: &JointNames::default(),
-        changes: open.mended().collect(),
-        losses: open.left_out().collect(),
+        changes: open.mended(clips).collect(),
+        losses: open.left_out(clips).collect(),
         edits: arguments.edits(format, &open.model),
         maps: &maps,
         format,
         writes_maps: arguments.textures_out.is_some(),
+        turns_green: open.model.front == Front::Positive,
     };
     let WrittenModel {
         bytes,

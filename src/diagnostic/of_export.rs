@@ -109,6 +109,11 @@ pub const ALL: &[ExportCode] = &[
         "Green of normal maps points the other way, down in the books and up in glTF, and the tangents' sign with it.",
         "Use the pictures that are written, not those of the input.",
     ),
+    change(
+        "normal-green-flipped",
+        "Green of normal maps is taken as it was chosen on the page.",
+        "Choose the other direction to write it as in the file.",
+    ),
     loss(
         "normal-green-up",
         "Normal maps have green up as in glTF, and their pictures are not written.",

@@ -5,7 +5,7 @@
 use super::cursor::{Cursor, Token, length_of};
 use super::error::{ParseError, ParseErrorKind, Value, quoted};
 use super::kind::{DiagnosticKind, KindCounts};
-use super::label::{Section, is_bare_ruler, is_ruler, same_as_any};
+use super::label::{Section, is_bare_ruler, is_ruler, same, same_as_any};
 use super::number::{self, Reading};
 use crate::diagnostic::Position;
 
@@ -18,6 +18,8 @@ pub(super) struct Reader<'a> {
     pub(super) section: Section,
     /// A ruler of dashes was seen.
     pub(super) dashes: bool,
+    /// The header's counts that were read, with the spellings of their labels.
+    pub(super) counts: Vec<(&'static [&'static str], Token<'a>)>,
 }
 
 /// How a section begins.
@@ -38,6 +40,7 @@ impl<'a> Reader<'a> {
             kinds: KindCounts::default(),
             section: Section::Header,
             dashes: false,
+            counts: Vec::new(),
         }
     }
 
@@ -99,7 +102,7 @@ impl<'a> Reader<'a> {
             if named.is_none() && is_bare_ruler(ruler.text) {
                 continue;
             }
-            if named.is_none() {
+            if named.is_none() || (section == Section::Header && !same(ruler.text, section.name())) {
                 self.note(
                     ruler,
                     DiagnosticKind::RulerUnknown {
@@ -345,15 +348,25 @@ impl<'a> Reader<'a> {
         ParseError { position, length, kind }
     }
 
-    /// [`row_count`](Self::row_count) of a section whose rows the header announced.
+    /// The error of a section whose rows are not as many as the header announced. Stands at the count of the header, if it has one.
     pub(super) fn section_row_count(&self, rows: &'static str, announced: u32, counted: usize) -> ParseError {
-        self.row_count(ParseErrorKind::RowCount {
+        let kind = |holder| ParseErrorKind::RowCount {
             announcer: "The header".into(),
             rows,
-            holder: format!("the {} section", self.section.name()),
+            holder,
             announced,
             counted: u32::try_from(counted).unwrap_or(u32::MAX),
-        })
+        };
+        let section = format!("the {} section", self.section.name());
+        let count = |rows| self.counts.iter().rfind(|(names, _)| names.contains(&rows));
+        // Without a count of its own the subset table has a row for each material.
+        match count(rows).or_else(|| count("materials").filter(|_| rows == "subsets")) {
+            Some(&(_, count)) => {
+                let end = self.next_position().line;
+                Self::error_at(count, kind(format!("{section}, which ends at line {end},")))
+            }
+            None => self.row_count(kind(section)),
+        }
     }
 
     /// Passes lines up to the next ruler or the end, and says how many of them `counts`.

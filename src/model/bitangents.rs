@@ -51,6 +51,16 @@ impl Model {
         of_materials.into_iter().map(green).collect()
     }
 
+    /// Turns the bitangents of the vertices of such materials, so that green of their normal maps means the other direction.
+    pub fn turn_bitangents(&mut self, is_such: impl Fn(usize) -> bool) {
+        let are_turned = self.vertices_of(is_such);
+        for (tangent, is_turned) in self.mesh.tangents.iter_mut().zip(are_turned) {
+            if is_turned {
+                tangent.w = -tangent.w;
+            }
+        }
+    }
+
     /// Whether each vertex is one of triangles with such a material.
     pub fn vertices_of(&self, is_such: impl Fn(usize) -> bool) -> Vec<bool> {
         let mut are = vec![false; self.mesh.vertex_count()];

@@ -4,6 +4,7 @@ use super::export_job::{ExportFormat, ExportJob, ExportedFile};
 use super::export_plan::ExportPlan;
 use super::load::Progress;
 use crate::edit::Edits;
+use crate::model::{Handedness, UpAxis};
 
 /// How a model is to be written.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -76,6 +77,8 @@ pub(super) enum Made {
 pub(super) struct Stamp {
     pub(super) format: ExportFormat,
     pub(super) edits: Edits,
+    pub(super) space: (Handedness, UpAxis),
+    pub(super) green_flipped: bool,
     pub(super) revisions: [u64; 5],
     pub(super) clip_count: usize,
 }

@@ -11,7 +11,7 @@ use crate::diagnostic::collect::counted;
 use crate::edit::{Change, EditError, EditJob, Edited, Edits};
 use crate::export::{self, EncodedMaps, ExportError, Exported, Loss};
 use crate::format::Dialect;
-use crate::model::{Front, JointNames, MapSlot, Model};
+use crate::model::{JointNames, MapSlot, Model};
 use crate::modes::modes;
 
 modes! {
@@ -58,7 +58,7 @@ pub struct WrittenModel {
 /// A file that was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExportedFile {
-    /// Its name: `soldier.glb`, or `soldier.zip` where pictures come along.
+    /// Its name: `soldier.glb`, `soldier-d3d12.m3d`, or `soldier-d3d12.zip` where pictures come along.
     pub name: String,
     /// Its bytes.
     pub bytes: Vec<u8>,
@@ -132,6 +132,8 @@ pub struct ToExport<'a> {
     pub format: ExportFormat,
     /// Pictures are written beside a file of the books. Otherwise its materials keep their names for them.
     pub writes_maps: bool,
+    /// Green of normal maps may point up, and is turned where a picture is written beside a file of the books.
+    pub turns_green: bool,
 }
 
 /// What became of a job in a step.
@@ -144,7 +146,7 @@ pub enum ExportStep {
 }
 
 impl ExportJob {
-    /// A job that has done nothing yet. `stem` is the file's name without its extension.
+    /// A job that has done nothing yet. `stem` is the file's name without its extension; a file of the books has the book behind it.
     pub fn new(stem: &str, what: ToExport<'_>) -> Self {
         let ToExport {
             model,
@@ -155,12 +157,13 @@ impl ExportJob {
             maps,
             format,
             writes_maps,
+            turns_green,
         } = what;
         let places = || (0..model.materials.len()).flat_map(|material| MapSlot::ALL.map(|slot| (material, slot)));
         let images = places().filter_map(|place| Some((place, Arc::clone(maps.image(place.0, place.1)?))));
         let pictures = places().filter_map(|place| Some((place, maps.file(place.0, place.1)?.clone())));
         Self {
-            stem: stem.to_owned(),
+            stem: stem_of(stem, format),
             format,
             maps: KnownMaps {
                 images: images.collect(),
@@ -170,7 +173,7 @@ impl ExportJob {
                 are_written: writes_maps,
                 for_book: edits.for_book,
                 only_dds: format == ExportFormat::D3d12,
-                turns_green: model.front == Front::Positive,
+                turns_green,
             },
             state: State::Edit(
                 ExportPlan {
@@ -338,6 +341,16 @@ impl ExportJob {
             State::Pack(..) => Ok(None),
         }
     }
+}
+
+/// `soldier-d3d12`: files for both books can lie in one folder.
+fn stem_of(stem: &str, format: ExportFormat) -> String {
+    if format.dialect().is_none() {
+        return stem.to_owned();
+    }
+    let endings = ExportFormat::ALL.map(|other| format!("-{}", other.name()));
+    let plain = endings.iter().find_map(|ending| stem.strip_suffix(ending.as_str()));
+    format!("{}-{}", plain.unwrap_or(stem), format.name())
 }
 
 fn plan_glb(model: &Model, images: &export::MapImages<'_>, plan: &mut ExportPlan) {

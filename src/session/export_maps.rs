@@ -183,12 +183,7 @@ fn turn(model: &mut Model, known: &KnownMaps, asked: MapsAsked, plan: &mut Expor
         pictures += usize::from(is_written);
         kept += usize::from(!turned[material]);
     }
-    let are_turned = model.vertices_of(|material| turned[material]);
-    for (tangent, is_turned) in model.mesh.tangents.iter_mut().zip(are_turned) {
-        if is_turned {
-            tangent.w = -tangent.w;
-        }
-    }
+    model.turn_bitangents(|material| turned[material]);
     if pictures > 0 {
         plan.changes.push(Change {
             code: "normal-green-turned",

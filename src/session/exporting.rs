@@ -4,7 +4,9 @@ use super::Session;
 use super::export::{Export, ExportCommand, ExportOptions, ExportRange, Exporting, Made, Stamp};
 use super::export_job::{ExportJob, ExportStep, ExportedFile, ToExport};
 use super::load::Progress;
+use crate::diagnostic::collect::counted;
 use crate::edit::{Change, Edits};
+use crate::model::Front;
 
 impl Session {
     pub(super) fn apply_to_export(&mut self, command: ExportCommand) {
@@ -101,8 +103,8 @@ impl Session {
         self.exporting.written.take()
     }
 
-    /// A job that writes what is open as one sees it: with the materials that were edited, the names that were given, and the handedness
-    /// and up axis that were chosen. `None` without a model.
+    /// A job that writes what is open as one sees it: with the materials that were edited, the names that were given, and the handedness,
+    /// up axis and green of normal maps that were chosen. `None` without a model.
     pub fn export_job(&self, options: &ExportOptions) -> Option<ExportJob> {
         let open = self.open_model()?;
         let mut model = open.model.clone();
@@ -111,19 +113,34 @@ impl Session {
             .count();
         model.materials = self.materials().to_vec();
         (model.handedness, model.up_axis) = (self.handedness(), self.up_axis());
-        let changes = (edited > 0).then(|| Change {
+        let edited = (edited > 0).then(|| Change {
             code: "materials-edited",
-            message: match edited {
-                1 => "1 material is written as it was edited here.".to_owned(),
-                count => format!("{count} materials are written as they were edited here."),
-            },
+            message: format!(
+                "{} edited here.",
+                counted(
+                    edited,
+                    "material is written as it was",
+                    "materials are written as they were"
+                )
+            ),
         });
-        let name = open.file.base_name();
+        let materials = model.materials.iter();
+        let is_mapped: Vec<bool> = materials.map(|material| material.normal_map.is_some()).collect();
+        let green_flipped = self.look().normal_green_flipped && is_mapped.contains(&true);
+        if green_flipped {
+            model.turn_bitangents(|material| is_mapped[material]);
+        }
+        let flipped = green_flipped.then(|| Change {
+            code: "normal-green-flipped",
+            message: "Green of normal maps is taken as it was chosen here.".to_owned(),
+        });
+        let (name, clips) = (open.file.base_name(), options.clips.as_deref());
         let what = ToExport {
+            turns_green: green_flipped || model.front == Front::Positive,
             model,
             names: self.joint_names(),
-            changes: open.mended().chain(changes).collect(),
-            losses: open.left_out().collect(),
+            changes: open.mended(clips).chain(edited).chain(flipped).collect(),
+            losses: open.left_out(clips).collect(),
             edits: self.edits(options),
             maps: self.maps(),
             format: options.format,
@@ -172,6 +189,8 @@ impl Session {
         Some(Stamp {
             format: options.format,
             edits: self.edits(options),
+            space: (self.handedness(), self.up_axis()),
+            green_flipped: self.look().normal_green_flipped,
             revisions: [
                 revisions.model,
                 revisions.clips,

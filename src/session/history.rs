@@ -35,6 +35,8 @@ pub enum HistoryCommand {
 pub struct History {
     undo: Vec<Step>,
     redo: Vec<Step>,
+    /// What could be redone before what is held did the last step.
+    redo_before: Vec<Step>,
     /// Between [`HistoryCommand::BeginEdit`] and [`HistoryCommand::EndEdit`].
     held: bool,
     /// The last step was done by what is held: more of the same belongs to it.
@@ -146,12 +148,15 @@ impl History {
     }
 
     pub(super) fn record(&mut self, step: Step) {
-        self.redo.clear();
+        let redo = std::mem::take(&mut self.redo);
         self.last = None;
         match self.undo.last_mut() {
             // It holds the oldest value already.
             Some(last) if self.grows && last.is_about_the_same_as(&step) => last.label = step.label,
-            _ => self.undo.push(step),
+            _ => {
+                self.undo.push(step);
+                self.redo_before = redo;
+            }
         }
         if self.undo.len() > MOST_STEPS {
             self.undo.remove(0);
@@ -194,9 +199,13 @@ impl History {
         self.undo.last().filter(|_| grew)
     }
 
-    /// Forgets the last step: it changed nothing in the end.
-    pub(super) fn forget_last(&mut self) {
-        self.undo.pop();
+    /// Forgets the last step where it changed nothing in the end, as if it had not been.
+    pub(super) fn settle_edit(&mut self, is_back: bool) {
+        let redo = std::mem::take(&mut self.redo_before);
+        if is_back {
+            self.undo.pop();
+            self.redo = redo;
+        }
     }
 
     fn tell(&mut self, words: &str, label: &str) {

@@ -158,6 +158,13 @@ pub struct Progress {
     pub total: usize,
 }
 
+impl Progress {
+    /// How much is done, rounded down.
+    pub fn percent(self) -> usize {
+        100 * self.done / self.total.max(1)
+    }
+}
+
 /// What became of a job in a step.
 #[derive(Debug)]
 pub enum LoadStep {

@@ -9,7 +9,7 @@ use glam::Vec3;
 use super::files::{File, FileSet};
 use crate::anim::{self, CompiledClip, JointActivity, LoopGap};
 use crate::check;
-use crate::diagnostic::{Diagnostic, Position, Severity, codes};
+use crate::diagnostic::{Diagnostic, Position, Severity, Subject, codes};
 use crate::edit::Change;
 use crate::export::Loss;
 use crate::format::{self, Document, Excerpt};
@@ -195,34 +195,51 @@ impl OpenModel {
         }
     }
 
-    /// What was mended while the file was read, as changes: it is written as mended. Findings of the checks are none.
-    pub fn mended(&self) -> impl Iterator<Item = Change> {
+    /// What was mended while the file was read, as changes: it is written as mended. Findings of the checks are none. Where only some clips
+    /// are written, it is theirs; `None` is all.
+    pub fn mended(&self, clips: Option<&[String]>) -> impl Iterator<Item = Change> {
         let is_check = |name: &str| {
             let groups = [codes::OF_MESH_AND_RIG, codes::OF_MOTION];
             groups.iter().any(|group| group.iter().any(|row| row.name == name))
         };
-        let warnings = self.reading_warnings();
+        let warnings = self.reading_warnings(clips);
         warnings
             .filter(move |warning| !is_check(warning.code) && !is_loss(warning))
-            .map(|warning| Change {
-                code: warning.code,
-                message: warning.message.clone(),
-            })
+            .map(|Loss { code, message, .. }| Change { code, message })
     }
 
-    /// What of the file was left out while it was read, as losses: no file that is written has it.
-    pub fn left_out(&self) -> impl Iterator<Item = Loss> {
-        let losses = self.reading_warnings().filter(|warning| is_loss(warning));
-        losses.map(|loss| Loss {
-            code: loss.code,
-            message: loss.message.clone(),
-            count: loss.count as usize,
-        })
+    /// What of the file was left out while it was read, as losses: no file that is written has it. `clips` as for [`OpenModel::mended`].
+    pub fn left_out(&self, clips: Option<&[String]>) -> impl Iterator<Item = Loss> {
+        self.reading_warnings(clips).filter(is_loss)
     }
 
-    fn reading_warnings(&self) -> impl Iterator<Item = &Diagnostic> {
+    fn reading_warnings(&self, clips: Option<&[String]>) -> impl Iterator<Item = Loss> {
+        let is_written = move |subject: &&Subject| match (clips, subject) {
+            (Some(names), Subject::Clip(clip)) => {
+                let clip = self.model.clips.get(*clip as usize);
+                clip.is_some_and(|clip| names.contains(&clip.name))
+            }
+            _ => true,
+        };
         let all = self.diagnostics.iter();
-        all.filter(|diagnostic| diagnostic.severity == Severity::Warning)
+        let warnings = all.filter(|diagnostic| diagnostic.severity == Severity::Warning);
+        warnings.filter_map(move |warning| {
+            let known = warning.subjects.len();
+            let written = warning.subjects.iter().filter(is_written).count();
+            let loss = |count, message| Loss {
+                code: warning.code,
+                message,
+                count,
+            };
+            let sentence = || codes::named(warning.code).map_or("", |code| code.sentence);
+            match written {
+                _ if written == known => Some(loss(warning.count as usize, warning.message.clone())),
+                // Of very many not all are known.
+                0 if known < Diagnostic::MOST_PLACES => None,
+                0 | 1 => Some(loss(1, sentence().to_owned())),
+                _ => Some(loss(written, format!("{} It is so in {written} clips.", sentence()))),
+            }
+        })
     }
 
     /// Lines of the file around a diagnostic.
@@ -310,7 +327,7 @@ impl OpenModel {
 }
 
 /// Whether a part of the file is not in the model.
-fn is_loss(warning: &Diagnostic) -> bool {
+fn is_loss(warning: &Loss) -> bool {
     let losses = [
         &codes::GLTF_PRIMITIVE_LEFT_OUT,
         &codes::GLTF_MORPH_ANIMATION_LEFT_OUT,

@@ -4,6 +4,7 @@ use super::Session;
 use super::clip_swap::ClipSwap;
 use super::history::Value;
 use super::submeshes::Visibility;
+use crate::diagnostic::collect::counted;
 
 impl Session {
     /// What was done, in the words of a person. `clips` and `values` lead back to what was before.
@@ -14,7 +15,11 @@ impl Session {
                 (verb, count, _) => format!("{verb} {count} clips"),
             },
             (None, [value]) => self.label_of(value),
-            (None, _) => "change the view".to_owned(),
+            (None, values) => {
+                let first = values.first().map_or_else(String::new, |value| self.label_of(value));
+                let others = values.len().saturating_sub(1);
+                format!("{first} and {}", counted(others, "more change", "more changes"))
+            }
         }
     }
 

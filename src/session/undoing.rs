@@ -50,9 +50,8 @@ impl Session {
             HistoryCommand::BeginEdit => self.history.begin_edit(),
             HistoryCommand::EndEdit => {
                 let values = self.history.end_edit().map_or(Vec::new(), |step| step.values.clone());
-                if !values.is_empty() && values.iter().all(|value| self.now(value) == *value) {
-                    self.history.forget_last();
-                }
+                let is_back = !values.is_empty() && values.iter().all(|value| self.now(value) == *value);
+                self.history.settle_edit(is_back);
             }
         }
     }

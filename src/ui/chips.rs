@@ -1,4 +1,4 @@
-//! Chips over the view: the modes that change what is seen, each with a cross that ends it.
+//! Chips over the view: the modes that change what is seen, and a file that is being written, each with a cross that ends it.
 
 use egui::{FontId, Galley, Rect, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2};
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use super::widgets::{control_size, elided_name, focus_ring, is_touch};
 use super::wording::grouped;
 use crate::actions::{self, Action};
 use crate::anim::SkinView;
-use crate::session::{Command, CrowdCommand, LookCommand, PlayCommand, Session, SubmeshCommand};
+use crate::session::{Command, CrowdCommand, ExportCommand, LookCommand, PlayCommand, Session, SubmeshCommand};
 
 /// Height of a chip that is drawn. Its target is as high as a control.
 const HEIGHT: f32 = 24.0;
@@ -30,38 +30,43 @@ struct Mode {
     /// The key that ends it too, or none.
     key: &'static str,
     ends: Command,
-    /// What comes before the words in the name of the button.
-    article: &'static str,
+    /// What the button is called.
+    name: String,
 }
 
 impl Mode {
     fn new(words: String, action: Option<&Action>, ends: impl Into<Command>) -> Self {
         Self {
+            name: leave("", &words),
             words,
             key: action.map_or("", Action::key),
             ends: ends.into(),
-            article: "",
         }
     }
 
     fn with_article(self) -> Self {
         Self {
-            article: "the ",
+            name: leave("the ", &self.words),
             ..self
         }
     }
+}
 
-    /// `Leave bind pose`, `Leave the range 20–40`.
-    fn name(&self) -> String {
-        let mut letters = self.words.chars();
-        let first = letters.next().map(|letter| letter.to_lowercase().to_string());
-        format!(
-            "Leave {}{}{}",
-            self.article,
-            first.unwrap_or_default(),
-            letters.as_str()
-        )
-    }
+/// `Leave bind pose`, `Leave the range 20–40`.
+fn leave(article: &str, words: &str) -> String {
+    let mut letters = words.chars();
+    let first = letters.next().map(|letter| letter.to_lowercase().to_string());
+    format!("Leave {article}{}{}", first.unwrap_or_default(), letters.as_str())
+}
+
+/// A file that is being written. Its name stays while the number grows.
+fn export(session: &Session) -> Option<Mode> {
+    let progress = session.export()?.saving?;
+    let words = format!("Writing {} {} %", session.export_name()?, progress.percent());
+    Some(Mode {
+        name: "Cancel the export".to_owned(),
+        ..Mode::new(words, None, ExportCommand::Cancel)
+    })
 }
 
 /// The modes that are on, in the order of their chips.
@@ -156,7 +161,7 @@ impl Chip {
     /// Shows it. Returns whether it was pressed.
     fn show(&self, ui: &Ui, index: usize, place: Rect) -> bool {
         let tokens = Tokens::of(ui);
-        let name = self.mode.name();
+        let name = self.mode.name.clone();
         let response = ui.interact(place, ui.scope_id().with(("mode", index)), Sense::click());
         let chip = Rect::from_center_size(place.center(), vec2(place.width(), HEIGHT.min(place.height())));
         let radius = 0.5 * chip.height();
@@ -190,14 +195,22 @@ impl Chip {
     }
 }
 
-/// Shows a chip for each mode, in rows at the top of a room. Returns the lower edge of the last row.
-pub(super) fn show(ui: &Ui, session: &Session, room: Rect, commands: &mut Vec<Command>) -> Option<f32> {
+/// Shows a chip for each mode, in rows at the top of a room, and one for a file that is written while its panel is not open. Returns the
+/// lower edge of the last row.
+pub(super) fn show(
+    ui: &Ui,
+    session: &Session,
+    room: Rect,
+    export_is_open: bool,
+    commands: &mut Vec<Command>,
+) -> Option<f32> {
     if session.open_model().is_none() || room.width() < 2.0 * control_size(ui) {
         return None;
     }
     let most = room.width() - 2.0 * PADDING - GAP - CROSS - 40.0;
     let chips: Vec<Chip> = modes(session)
         .into_iter()
+        .chain(export(session).filter(|_| !export_is_open))
         .map(|mode| Chip::new(ui, mode, most))
         .collect();
     let height = if is_touch(ui) { control_size(ui) } else { HEIGHT };

@@ -1,5 +1,7 @@
 //! Saves the model as a file of another format: what is kept of it, what that changes, and what the format does not hold.
 
+use std::ops::RangeInclusive;
+
 use egui::{Align, Color32, Label, Layout, ProgressBar, Rangef, RichText, Sense, Ui, vec2};
 
 use super::panel::{popover_gap, scrolled};
@@ -19,6 +21,9 @@ const LOOP_SECS: f32 = 0.2;
 const TOLERANCE: f32 = 0.001;
 /// Width of a number that is typed.
 const FIELD_WIDTH: f32 = 76.0;
+/// The least height of what is lost and changed, and of the words about the demo.
+const LEAST_OUTCOME: f32 = 150.0;
+const DEMO_WORDS_HEIGHT: f32 = 32.0;
 /// Gap above the button that saves.
 const FOOT_GAP: f32 = 8.0;
 /// Width of the button that stops writing.
@@ -53,6 +58,7 @@ fn choices(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut V
             open.file.base_name().clone_into(&mut choice.of_file);
             choice.options = ExportOptions {
                 format: choice.options.format,
+                for_book: choice.options.for_book,
                 ..ExportOptions::default()
             };
         }
@@ -84,7 +90,13 @@ fn choices(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut V
     }
     popover_gap(ui);
     let export = session.export().filter(|export| *export.options == choice.options);
-    outcome(ui, export, open.mended().count(), &mut choice.unfolded);
+    let mended = open.mended(choice.options.clips.as_deref()).count();
+    let top = ui.cursor().min.y;
+    outcome(ui, export, mended, &mut choice.unfolded);
+    // It grows while it is open and never shrinks, so that the button that saves stays below the pointer.
+    let height = ui.cursor().min.y - top;
+    choice.outcome_height = choice.outcome_height.max(height).max(LEAST_OUTCOME);
+    ui.add_space(choice.outcome_height - height);
 }
 
 /// A line for each clip, to keep it or leave it out.
@@ -138,88 +150,105 @@ fn only_clip(session: &Session, options: &ExportOptions) -> Option<[f32; 2]> {
     (clip.duration_secs() > 0.0).then_some([clip.start_secs, clip.end_secs])
 }
 
-/// Switches for what is edited before it is written, each with its numbers.
+/// Switches for what is edited before it is written, each with its numbers. They are there, disabled, where they do not apply.
 fn edits(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
     let has_clips = session.open_model().is_some_and(|open| !open.model.clips.is_empty());
     let keeps_some = options.clips.as_ref().is_none_or(|clips| !clips.is_empty());
-    if let Some([start_secs, end_secs]) = only_clip(session, options) {
-        let of_timeline = session.timeline_range(options.clips.as_deref());
-        let range = match options.range {
-            ExportRange::Timeline => of_timeline,
-            ExportRange::Whole => None,
-            ExportRange::Secs(range) => Some(range),
-        };
-        if switch_row(ui, "Only a range", "", range.is_some()).clicked() {
-            options.range = match range {
-                Some(_) => ExportRange::Whole,
-                None => of_timeline.map_or(ExportRange::Secs([start_secs, end_secs]), |_| ExportRange::Timeline),
-            };
-        } else if let Some([from, to]) = range {
-            let span = start_secs..=end_secs;
-            let typed_from = number_row(ui, "First second", "From", "s", (from, span.clone()), (0.01, 3));
-            let typed_to = number_row(ui, "Last second", "To", "s", (to, span), (0.01, 3));
-            if typed_from.is_some() || typed_to.is_some() {
-                options.range = ExportRange::Secs([typed_from.unwrap_or(from), typed_to.unwrap_or(to)]);
-            }
+    range(ui, session, options);
+    ui.add_enabled_ui(has_clips && keeps_some, |ui| {
+        let hint = "The end of each clip is eased into its first pose";
+        let row = ("Seconds of the easing", "Over", "s");
+        let secs = (options.close_loop_secs, LOOP_SECS, 0.01..=10.0, (0.01, 2));
+        options.close_loop_secs = switched_number(ui, ("Close the loop", hint), row, secs);
+        let hint = "Keys are left out as long as no bone and no tip of one moves farther than this";
+        let row = ("Tolerance in % of the size", "Off by", "%");
+        let percent = options.reduce.map(|tolerance| tolerance * 100.0);
+        let percent = (percent, TOLERANCE * 100.0, 0.001..=5.0, (0.005, 3));
+        let reduce = switched_number(ui, ("Reduce keys", hint), row, percent);
+        // One that stays is not rounded again.
+        if reduce != options.reduce.map(|tolerance| tolerance * 100.0) {
+            options.reduce = reduce.map(|percent| percent / 100.0);
         }
-    } else if let ExportRange::Secs(_) = options.range {
-        // A range is of one clip.
-        options.range = ExportRange::Timeline;
-    }
-    if has_clips && keeps_some {
-        let closes = switch_row(ui, "Close the loop", "", options.close_loop_secs.is_some())
-            .on_hover_text("The end of each clip is eased into its first pose");
-        if closes.clicked() {
-            options.close_loop_secs = match options.close_loop_secs {
-                Some(_) => None,
-                None => Some(LOOP_SECS),
-            };
-        } else if let Some(secs) = options.close_loop_secs {
-            let typed = number_row(ui, "Seconds of the easing", "Over", "s", (secs, 0.01..=10.0), (0.01, 2));
-            options.close_loop_secs = typed.or(Some(secs));
-        }
-        let reduces = switch_row(ui, "Reduce keys", "", options.reduce.is_some())
-            .on_hover_text("Keys are left out as long as no bone and no tip of one moves farther than this");
-        if reduces.clicked() {
-            options.reduce = match options.reduce {
-                Some(_) => None,
-                None => Some(TOLERANCE),
-            };
-        } else if let Some(tolerance) = options.reduce {
-            let percent = tolerance * 100.0;
-            let typed = number_row(
-                ui,
-                "Tolerance in % of the size",
-                "Off by",
-                "%",
-                (percent, 0.001..=5.0),
-                (0.005, 3),
-            );
-            options.reduce = Some(typed.map_or(tolerance, |percent| percent / 100.0));
-        }
-    }
-    if options.format.dialect().is_some() {
-        let demo = switch_row(ui, "For the book's demo", "", options.for_book)
+    });
+    let is_of_book = options.format.dialect().is_some();
+    ui.add_enabled_ui(is_of_book, |ui| {
+        let demo = switch_row(ui, "For the book's demo", "", is_of_book && options.for_book)
             .on_hover_text("Size, names, bones and keys as the books' programs need them");
         if demo.clicked() {
             options.for_book = !options.for_book;
         }
-        let words = if options.for_book {
-            "The demo plays one clip, Take1: the first one that is kept. Maps come along as DDS."
-        } else {
-            "As it is, the demo may show nothing: it wants a clip Take1, keys for each bone, a figure of its size, and maps as DDS."
-        };
+    });
+    let words = match (is_of_book, options.for_book) {
+        (false, _) => "A demo of the books reads .m3d only.",
+        (true, true) => "The demo plays one clip, Take1: the first one that is kept. Maps come along as DDS.",
+        (true, false) => {
+            "The demo may show nothing: it wants a clip Take1, keys for each bone, its size, and maps as DDS."
+        }
+    };
+    let size = vec2(ui.available_width(), DEMO_WORDS_HEIGHT);
+    ui.allocate_ui_with_layout(size, Layout::top_down(Align::Min), |ui| {
+        ui.set_min_size(size);
         ui.label(RichText::new(words).size(12.0).color(Tokens::of(ui).muted));
+    });
+}
+
+/// The switch for a part of the only clip, and its first and last second.
+fn range(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
+    let only = only_clip(session, options);
+    if only.is_none() && matches!(options.range, ExportRange::Secs(_)) {
+        // A range is of one clip.
+        options.range = ExportRange::Timeline;
+    }
+    let of_timeline = session.timeline_range(options.clips.as_deref());
+    let range = match options.range {
+        ExportRange::Timeline => of_timeline,
+        ExportRange::Whole => None,
+        ExportRange::Secs(range) => Some(range),
+    };
+    let range = range.filter(|_| only.is_some());
+    let whole = only.unwrap_or_default();
+    ui.add_enabled_ui(only.is_some(), |ui| {
+        if switch_row(ui, "Only a range", "", range.is_some()).clicked() {
+            options.range = match range {
+                Some(_) => ExportRange::Whole,
+                None => of_timeline.map_or(ExportRange::Secs(whole), |_| ExportRange::Timeline),
+            };
+        }
+        ui.add_enabled_ui(range.is_some(), |ui| {
+            let [from, to] = range.unwrap_or(whole);
+            let span = whole[0]..=whole[1];
+            let typed_from = number_row(ui, ("First second", "From", "s"), (from, span.clone()), (0.01, 3));
+            let typed_to = number_row(ui, ("Last second", "To", "s"), (to, span), (0.01, 3));
+            if typed_from.is_some() || typed_to.is_some() {
+                options.range = ExportRange::Secs([typed_from.unwrap_or(from), typed_to.unwrap_or(to)]);
+            }
+        });
+    });
+}
+
+/// A switch, and below it the number of what is on. Returns the number, or `None` where it is off; it begins with the second one.
+fn switched_number(
+    ui: &mut Ui,
+    (label, hint): (&str, &str),
+    row: (&str, &str, &str),
+    (value, first, range, step): (Option<f32>, f32, RangeInclusive<f32>, (f32, usize)),
+) -> Option<f32> {
+    let switch = switch_row(ui, label, "", value.is_some()).on_hover_text(hint);
+    let typed = ui.add_enabled_ui(value.is_some(), |ui| {
+        number_row(ui, row, (value.unwrap_or(first), range), step)
+    });
+    match value {
+        None => switch.clicked().then_some(first),
+        Some(_) if switch.clicked() => None,
+        Some(value) => Some(typed.inner.unwrap_or(value)),
     }
 }
 
 /// A label, a number that is dragged or typed, its unit.
 fn number_row(
     ui: &mut Ui,
-    name: &str,
-    label: &str,
-    unit: &str,
-    (value, range): (f32, std::ops::RangeInclusive<f32>),
+    (name, label, unit): (&str, &str, &str),
+    (value, range): (f32, RangeInclusive<f32>),
     step: (f32, usize),
 ) -> Option<f32> {
     let color = Tokens::of(ui).muted;
@@ -299,12 +328,11 @@ fn sentence(ui: &mut Ui, words: &str, color: Color32) {
 fn save_row(ui: &mut Ui, session: &Session, export: Option<Export<'_>>, commands: &mut Vec<Command>) {
     if let Some(progress) = export.and_then(|export| export.saving) {
         let tokens = Tokens::of(ui);
-        let part = progress.done as f32 / progress.total.max(1) as f32;
         ui.horizontal(|ui| {
             let width = ui.available_width() - CANCEL_WIDTH - ui.spacing().item_spacing.x;
-            let words = RichText::new(format!("Writing {:.0} %", part * 100.0)).color(tokens.text);
+            let words = RichText::new(format!("Writing {} %", progress.percent())).color(tokens.text);
             ui.add(
-                ProgressBar::new(part)
+                ProgressBar::new(progress.percent() as f32 / 100.0)
                     .desired_width(width)
                     .desired_height(control_size(ui))
                     .corner_radius(CONTROL_RADIUS)
@@ -347,14 +375,14 @@ pub(super) fn open(state: &mut UiState, is_wide: bool) {
     }
 }
 
-/// Ends what is planned when it was shut. What is being written goes on, unless Esc shut it.
-pub(super) fn settle(ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    if std::mem::take(&mut state.export.shown) {
-        return;
+/// Ends what is planned when it was shut; what is being written goes on. Returns whether it is open.
+pub(super) fn settle(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) -> bool {
+    let is_open = std::mem::take(&mut state.export.shown);
+    if !is_open {
+        state.export.outcome_height = 0.0;
+        if session.export().is_some_and(|export| export.saving.is_none()) {
+            commands.push(ExportCommand::Plan(None).into());
+        }
     }
-    let Some(export) = session.export() else { return };
-    let escaped = ui.input(|input| input.key_pressed(egui::Key::Escape));
-    if export.saving.is_none() || escaped {
-        commands.push(ExportCommand::Plan(None).into());
-    }
+    is_open
 }

@@ -81,7 +81,7 @@ fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState
     let (words, hint) = if missing {
         ("missing", "Drop it any time.")
     } else {
-        ("unreadable", "See the diagnostics.")
+        ("unreadable", "See Findings.")
     };
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());

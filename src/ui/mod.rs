@@ -113,9 +113,9 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     if std::mem::take(&mut state.wants_export) {
         export::open(state, layout::is_wide(window));
     }
-    export::settle(ui, session, state, &mut commands);
+    let export_is_open = export::settle(session, state, &mut commands);
     split::show(ui, session, window, free, &mut commands);
-    if let Some(bottom) = chips::show(ui, session, uncovered, &mut commands)
+    if let Some(bottom) = chips::show(ui, session, uncovered, export_is_open, &mut commands)
         && !layout::is_wide(window)
         && free.max.y - bottom >= LEAST_BELOW_CHIPS * window.height()
     {

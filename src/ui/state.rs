@@ -150,10 +150,13 @@ pub struct UiState {
 impl UiState {
     /// Everything closed. `coarse_pointer`: the device says that its pointer is a finger.
     pub fn new(coarse_pointer: bool) -> Self {
-        Self {
+        let mut state = Self {
             coarse_pointer,
             ..Self::default()
-        }
+        };
+        // A file of the books is for their demo until the person wants it otherwise.
+        state.export.options.for_book = true;
+        state
     }
 
     /// Every panel as at first, for the same person.
@@ -338,4 +341,6 @@ pub(super) struct ExportChoice {
     pub(super) asked: bool,
     /// It is shown in this pass.
     pub(super) shown: bool,
+    /// The greatest height of the lists of losses and changes since it was opened.
+    pub(super) outcome_height: f32,
 }

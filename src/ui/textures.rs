@@ -42,7 +42,8 @@ pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut
             let users = users_of_name(open, name);
             let details = format!("{name} is missing\n{}", users.join("\n"));
             let color = Tokens::of(ui).muted;
-            list.row(&absent_row(ui, [name, &in_few_words(&users)], color, &details), false);
+            let words = format!("missing · {}", in_few_words(&users));
+            list.row(&absent_row(ui, [name, &words], color, &details), false);
         });
         if !checklist.missing.is_empty() {
             let words = egui::RichText::new("Drop what is missing any time.").size(11.5);

@@ -110,7 +110,7 @@ test("whatever is chosen for an export, the file opens again", {}, async (page) 
     const said = JSON.stringify(options);
     const { name, bytes } = await exported(page, options);
     // For the demo there are maps, though the model came without.
-    const expected = options.forBook ? "plain.zip" : format === "glb" ? "plain.glb" : "plain.m3d";
+    const expected = format === "glb" ? "plain.glb" : `plain-${format}.${options.forBook ? "zip" : "m3d"}`;
     assert.equal(name, expected, said);
     // A .zip opens as the folder in it.
     const { error, model, textures } = await page.evaluate(async ({ name, base64 }) => {

@@ -374,8 +374,8 @@ fn json_tells_what_each_book_makes_of_a_file() {
             "reads": false,
             "line": 9,
             "column": 1,
-            "why": "It takes `Name:` for the label Ambient of material 0. In line 9 it reads Ambient of material 0 and finds \
-                    `skin`, which is no number.",
+            "why": "It takes \"Name:\" for the label Ambient of material 0. In line 9 it reads Ambient of material 0 and finds \
+                    \"skin\", which is no number.",
             "shows": "It ends with an error: it looks for a map without a name.",
             "ends": true,
             "limits": limits,
@@ -401,10 +401,12 @@ fn a_book_is_told_with_the_line_at_which_it_goes_wrong() {
     let text = run(["check", "--book", "d3d12", &file]).fine();
     let line = text
         .lines()
-        .find(|line| line.contains(": D3D12 book: "))
+        .find(|line| line.contains(": D3D12 demo: "))
         .expect("there is a verdict");
     assert!(
-        line.starts_with(&format!("{file}:56:8: D3D12 book: It reads the number of keys")),
+        line.starts_with(&format!(
+            "{file}:56:8: D3D12 demo: cannot read it. It reads the number of keys"
+        )),
         "{text}"
     );
     assert!(
@@ -590,7 +592,7 @@ fn a_map_that_three_materials_name_is_missing_once() {
     assert!(
         missing
             .and_then(|limit| limit["message"].as_str())
-            .is_some_and(|message| message.starts_with("1 map is not there")),
+            .is_some_and(|message| message.starts_with("1 map is missing")),
         "{found}"
     );
 }

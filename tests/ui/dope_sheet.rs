@@ -80,7 +80,7 @@ fn while_the_edge_is_dragged_only_the_first_frames_have_a_second_pass() {
     window.pass_on();
     // Higher than this the panel on the left would give way, and have a second pass of its own.
     let passes = (1..=8).map(|step| {
-        window.harness.hover_at(edge - vec2(0.0, 8.0 * step as f32));
+        window.harness.hover_at(edge - vec2(0.0, 6.0 * step as f32));
         window.harness.step();
         window.harness.output().platform_output.num_completed_passes
     });
@@ -89,7 +89,7 @@ fn while_the_edge_is_dragged_only_the_first_frames_have_a_second_pass() {
     window.pass_on();
     let timeline = window.rect("Height of the dope sheet");
     assert!(
-        (timeline.center().y - (edge.y - 64.0)).abs() < 2.0,
+        (timeline.center().y - (edge.y - 48.0)).abs() < 2.0,
         "it follows to the end: {timeline}"
     );
 }

@@ -5,6 +5,7 @@ use egui::accesskit::{Role, Toggled};
 use egui::{Event, Key, Modifiers};
 
 use crate::findings;
+use crate::joint_tree::drawn;
 use crate::models::{moving, still};
 use crate::page::{PHONE, WIDE, Window, touch_window, window};
 
@@ -25,8 +26,8 @@ fn it_saves_in_the_format_that_was_chosen() {
     let mut window = open();
     assert_eq!(window.node("Format: GLB").role(), Role::RadioButton);
     for (format, name) in [
-        ("Format: .m3d D3D11", "a.m3d"),
-        ("Format: .m3d D3D12", "a.m3d"),
+        ("Format: .m3d D3D11", "a-d3d11.zip"),
+        ("Format: .m3d D3D12", "a-d3d12.zip"),
         ("Format: GLB", "a.glb"),
     ] {
         window.click(format);
@@ -42,6 +43,7 @@ fn what_is_lost_and_changed_is_told_before_it_is_saved() {
     let mut window = open();
     assert!(window.shows("What is lost"));
     window.click("Format: .m3d D3D11");
+    window.click("For the book's demo");
     let lost = window.named(|name| name.starts_with("What is lost · "));
     assert_eq!(lost.len(), 1, "a number of losses");
     window.click("Turn");
@@ -54,7 +56,7 @@ fn what_is_lost_and_changed_is_told_before_it_is_saved() {
 fn clips_are_chosen_and_a_range_is_of_one() {
     let mut window = open();
     window.apply(PlayCommand::SetRangeStart(Some(0.25)));
-    assert!(!window.shows("Only a range"), "there are three clips");
+    assert!(window.node("Only a range").is_disabled(), "there are three clips");
     window.click("Export no clip");
     for clip in ["Bend", "Turn", "Still"] {
         assert_eq!(window.node(clip).toggled(), Some(Toggled::False), "{clip}");
@@ -79,21 +81,23 @@ fn clips_are_chosen_and_a_range_is_of_one() {
         (ExportRange::Whole, Some(vec!["Bend".to_owned()]))
     );
     window.click("Export all clips");
-    assert!(!window.shows("Only a range"));
+    assert!(window.node("Only a range").is_disabled());
 }
 
 #[test]
 fn switches_show_their_numbers_and_what_they_do() {
     let mut window = open();
-    assert!(!window.shows("For the book's demo"), "it is no format of the books");
+    let demo = "For the book's demo";
+    assert!(window.node(demo).is_disabled(), "it is no format of the books");
+    let numbers = ["Seconds of the easing", "Tolerance in % of the size"];
+    assert!(numbers.iter().all(|number| window.node(number).is_disabled()));
     window.click("Close the loop");
     window.click("Reduce keys");
     window.click("Format: .m3d D3D12");
-    window.click("For the book's demo");
     for name in ["Close the loop", "Reduce keys", "For the book's demo"] {
         assert_eq!(window.node(name).toggled(), Some(Toggled::True), "{name}");
     }
-    assert!(window.shows("Seconds of the easing") && window.shows("Tolerance in % of the size"));
+    assert!(!numbers.iter().any(|number| window.node(number).is_disabled()));
     let options = window.session().export().expect("it is planned").options.clone();
     assert_eq!(
         (options.close_loop_secs, options.reduce, options.for_book),
@@ -108,16 +112,90 @@ fn another_file_begins_with_no_edit_and_the_same_one_keeps_them() {
     let mut window = open();
     window.click("Format: .m3d D3D12");
     window.click("Reduce keys");
-    window.click("For the book's demo");
     let options = |window: &Window| {
         let options = window.session().export().expect("it is planned").options;
-        (options.format, options.reduce, options.for_book)
+        (options.format, options.reduce)
     };
     let file = window.session().open_model().expect("open").file.clone();
     window.apply(FileCommand::Add(vec![file]));
-    assert_eq!(options(&window), (ExportFormat::D3d12, Some(0.001), true));
+    assert_eq!(options(&window), (ExportFormat::D3d12, Some(0.001)));
     window.apply(FileCommand::Add(vec![moving("other.m3d")]));
-    assert_eq!(options(&window), (ExportFormat::D3d12, None, false), "the format stays");
+    assert_eq!(options(&window), (ExportFormat::D3d12, None), "the format stays");
+}
+
+#[test]
+fn a_file_of_the_books_is_for_their_demo_unless_one_does_not_want_it_and_that_stays() {
+    let mut window = open();
+    let demo = "For the book's demo";
+    let is_on = |window: &Window| window.node(demo).toggled() == Some(Toggled::True);
+    assert!(!is_on(&window), "a demo reads no GLB");
+    for (format, on) in [(".m3d D3D12", true), (".m3d D3D11", true)] {
+        window.click(&format!("Format: {format}"));
+        assert_eq!(is_on(&window), on, "{format}");
+    }
+    window.click(demo);
+    window.click("Format: GLB");
+    window.click("Format: .m3d D3D12");
+    assert!(!is_on(&window));
+    window.apply(FileCommand::Add(vec![moving("other.m3d")]));
+    assert!(!is_on(&window), "another model");
+    window.press(Modifiers::NONE, Key::Escape);
+    window.press(Modifiers::NONE, Key::E);
+    assert!(!is_on(&window) && !window.node(demo).is_disabled());
+}
+
+#[test]
+fn nothing_is_put_in_or_taken_away_under_the_pointer() {
+    let mut window = open();
+    let rows = [
+        "Only a range",
+        "First second",
+        "Last second",
+        "Close the loop",
+        "Seconds of the easing",
+        "Reduce keys",
+        "Tolerance in % of the size",
+        "For the book's demo",
+    ];
+    let places = |window: &Window| rows.map(|row| window.rect(row).min);
+    let (before, mut foot) = (places(&window), window.rect("Save ").min.y);
+    for click in [
+        "Format: .m3d D3D12",
+        "For the book's demo",
+        "Bend",
+        "Turn",
+        "Only a range",
+        "Close the loop",
+        "Reduce keys",
+        "Export all clips",
+        "Format: GLB",
+        "Export no clip",
+    ] {
+        window.click(click);
+        assert_eq!(places(&window), before, "{click}");
+        let now = window.rect("Save ").min.y;
+        assert!(now >= foot, "{click}: the panel is lower than before");
+        foot = now;
+    }
+}
+
+#[test]
+fn while_its_panel_is_shut_a_chip_tells_how_far_it_is_and_cancels_it() {
+    let mut window = open();
+    window.harness.state_mut().holds_export = true;
+    window.click("Save a.glb");
+    let chips = |window: &Window| window.named(|name| name == "Cancel the export");
+    assert_eq!(chips(&window).len(), 1, "the panel's own button");
+    window.press(Modifiers::NONE, Key::Escape);
+    assert!(!window.shows("Close the loop"), "it is shut");
+    let words = drawn(&window, "Writing a.glb ");
+    assert_eq!(words.len(), 1, "{words:?}");
+    assert!(words[0].ends_with(" %"), "{words:?}");
+    window.click("Cancel the export");
+    assert!(chips(&window).is_empty() && window.session().export().is_none());
+    window.harness.state_mut().holds_export = false;
+    window.pass_on();
+    assert!(saved(&window).is_empty());
 }
 
 #[test]
@@ -125,9 +203,8 @@ fn the_clip_of_the_demo_is_told_before_what_was_mended_on_reading() {
     let mut window = window(WIDE, findings::files());
     window.press(Modifiers::NONE, Key::E);
     window.click("Format: .m3d D3D12");
-    window.click("For the book's demo");
     assert!(window.shows("The demo plays one clip, Take1: the first one that is kept. Maps come along as DDS."));
-    window.click("What changes: show all");
+    window.click_anywhere("What changes: show all");
     let top = |words: &str| {
         let named = window.named(|name| name.contains(words));
         named

@@ -3,7 +3,7 @@
 use bindpose::diagnostic::{Subject, codes};
 use bindpose::format::{Document, Subset};
 use bindpose::model::JointIndex;
-use bindpose::session::{File, FileCommand, JointCommand, PlayCommand, SubmeshCommand};
+use bindpose::session::{ExportFormat, File, FileCommand, JointCommand, PlayCommand, SubmeshCommand};
 use bindpose::ui::{Request, report_name};
 use egui::accesskit::Action;
 use egui::{CursorIcon, Key, Modifiers};
@@ -469,8 +469,8 @@ fn each_book_has_a_line_that_unfolds_to_what_one_sees_and_the_place() {
         if window.shows("Model facts") {
             window.click("Model facts");
         }
-        window.click_anywhere("Books' programs: ");
-        let d3d11 = "D3D11 book: ends with an error: it looks for a map without a name";
+        window.click_anywhere("Books: D3D12 demo: would crash at its first frame");
+        let d3d11 = "D3D11 demo: cannot read it";
         assert!(window.shows(d3d11), "{:?}", window.widgets());
         assert!(!shows_lines(&window) && window.node(d3d11).data().is_expanded() == Some(false));
         window.click(d3d11);
@@ -492,13 +492,13 @@ fn a_book_that_reads_the_file_tells_its_limits() {
     let mut document = models::skinned(&models::CLIPS);
     document.clips[0].name = "Take1".to_owned();
     let mut window = window(WIDE, vec![models::file("take.m3d", &document)]);
-    window.click("Books' programs: D3D12 reads, D3D11 fails");
+    window.click("Books: D3D12 demo: shows it");
     let verdict = window.session().verdicts().last().expect("of the D3D12 book").clone();
     assert!(
         verdict.reads() && !verdict.ends && !verdict.limits.is_empty(),
         "{verdict:?}"
     );
-    window.click("D3D12 book: reads it, with ");
+    window.click("D3D12 demo: shows it · ");
     for limit in &verdict.limits {
         assert!(window.shows(&limit.message) && window.shows(limit.code), "{limit:?}");
     }
@@ -510,7 +510,7 @@ fn the_report_is_copied_as_text_and_saved_by_the_page() {
     let copied = copied_by(&mut window, "Copy report");
     assert_eq!(copied, window.session().report());
     assert!(
-        copied.contains("D3D11 book: It takes `Name:`") && copied.contains("[offset-not-affine]: "),
+        copied.contains("D3D11 demo: cannot read it. It takes \"Name:\"") && copied.contains("[offset-not-affine]: "),
         "{copied}"
     );
     assert!(window.shows("Copied the report"));
@@ -545,6 +545,26 @@ fn with_a_mouse_the_buttons_stay_below_the_rows_and_for_fingers_they_come_after_
             let rect = window.rect(button);
             assert_eq!(rect.max.y > transport.min.y, is_touch, "{button} {rect:?}");
             assert!(!is_touch || rect.height() >= 44.0);
+        }
+    }
+}
+
+#[test]
+fn a_book_that_does_not_show_the_file_leads_to_an_export_for_it() {
+    for (line, book, format) in [
+        ("D3D11 demo: cannot read it", "D3D11 demo", ExportFormat::D3d11),
+        ("D3D12 demo: would crash", "D3D12 demo", ExportFormat::D3d12),
+    ] {
+        for (mut window, is_wide) in [(window(WIDE, files()), true), (phone(files()), false)] {
+            if !is_wide {
+                window.click("Model facts");
+            }
+            window.click_anywhere("Books: D3D12 demo: ");
+            window.click_anywhere(line);
+            window.click_anywhere(&format!("Export for this book: {book}"));
+            window.pass_on();
+            let options = window.session().export().expect("the panel is open").options;
+            assert_eq!((options.format, options.for_book), (format, true));
         }
     }
 }

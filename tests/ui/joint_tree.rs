@@ -378,22 +378,29 @@ fn fingers_name_a_joint_from_its_inspector() {
     assert!(window.shows("Selected: knee"), "and goes again");
 }
 
-/// The words that begin so and are drawn within one of these rows, not wider than it.
+/// The texts that begin so as they are drawn.
+fn texts<'a>(window: &'a Window, start: &'a str) -> impl Iterator<Item = &'a TextShape> {
+    let shapes = window.harness.output().shapes.iter();
+    let texts = shapes.filter_map(|clipped| match &clipped.shape {
+        Shape::Text(text) => Some(text),
+        _ => None,
+    });
+    texts.filter(move |text| text.galley.text().starts_with(start))
+}
+
+/// The words that begin so and are drawn, whatever readers of the screen are told.
+pub(crate) fn drawn(window: &Window, start: &str) -> Vec<String> {
+    texts(window, start).map(|text| text.galley.text().to_owned()).collect()
+}
+
+/// Those that are drawn within one of these rows, not wider than it.
 fn drawn_in(window: &Window, rows: &[Rect], start: &str) -> Vec<String> {
-    let texts = window
-        .harness
-        .output()
-        .shapes
-        .iter()
-        .filter_map(|clipped| match &clipped.shape {
-            Shape::Text(text) => Some(text),
-            _ => None,
-        });
     let fits = |text: &&TextShape| {
         let drawn = Rect::from_min_size(text.pos, text.galley.size());
-        text.galley.text().starts_with(start) && rows.iter().any(|row| row.contains_rect(drawn))
+        rows.iter().any(|row| row.contains_rect(drawn))
     };
-    texts.filter(fits).map(|text| text.galley.text().to_owned()).collect()
+    let fitting = texts(window, start).filter(fits);
+    fitting.map(|text| text.galley.text().to_owned()).collect()
 }
 
 #[test]

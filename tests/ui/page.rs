@@ -22,6 +22,8 @@ pub(crate) struct Page {
     pub(crate) requests: Vec<Request>,
     /// Files that were written.
     pub(crate) exported: Vec<ExportedFile>,
+    /// Nothing is done of what is exported.
+    pub(crate) holds_export: bool,
     was_moving: bool,
 }
 
@@ -35,7 +37,7 @@ impl Page {
         for command in ui::show(ui, &mut self.session, &mut self.state) {
             self.session.apply(command);
         }
-        while self.session.step_export() {
+        while !self.holds_export && self.session.step_export() {
             ui.ctx().request_repaint();
         }
         if let Some(file) = self.session.take_exported() {
@@ -80,6 +82,7 @@ impl Window {
             state: UiState::new(coarse_pointer),
             requests: Vec::new(),
             exported: Vec::new(),
+            holds_export: false,
             was_moving: false,
         };
         let mut harness = Harness::builder()

@@ -8,6 +8,7 @@ use bindpose::session::{CameraCommand, ExportOptions, File, FileCommand, JointCo
 use bindpose::ui::Request;
 use egui::{Key, Modifiers, OutputCommand};
 
+use crate::joint_tree::drawn;
 use crate::models::{self, broken, moving, still};
 use crate::page::{PHONE, WIDE, Window, phone, window};
 
@@ -101,7 +102,7 @@ fn a_click_on_a_finding_shows_its_lines() {
 fn a_sound_model_has_no_findings_and_says_so() {
     let mut window = window(WIDE, vec![still("a.m3d")]);
     window.click("Findings: none");
-    let said = "Nothing found; the D3D12 book's program reads it.";
+    let said = "Nothing found; the D3D12 demo shows it.";
     assert!(window.shows(said), "{:?}", window.widgets());
     assert!(window.shows("Looked at: 24 vertices, 12 triangles, 0 bones, 0 clips, 0 keys."));
     window.click("Findings: none");
@@ -116,7 +117,7 @@ fn of_a_glb_it_is_said_that_the_books_read_their_own_format_only() {
     let mut window = window(WIDE, vec![File::new("a.glb", glb.bytes)]);
     window.click("Findings: none");
     assert!(
-        window.shows("Nothing found; the books' programs read .m3d only."),
+        window.shows("Nothing found; the books' demos read .m3d only."),
         "{:?}",
         window.widgets()
     );
@@ -304,6 +305,11 @@ fn missing_and_damaged_maps_are_listed_with_the_materials_that_want_them() {
     assert!(names(&window).is_empty(), "folded");
     window.click("Maps: 0 of 11, 10 missing, 1 unreadable");
     assert!(window.shows("part1.png is missing\ndiffuse map of Part 1"));
+    assert_eq!(
+        drawn(&window, "missing · ")[0],
+        "missing · diffuse map of Part 1",
+        "it is seen too"
+    );
     let rows = names(&window);
     assert_eq!(rows.len(), 10, "no list that scrolls inside the panel: {rows:?}");
     let unreadable = window.named(|name| name.starts_with("in/part0.png could not be read\npart0.png: the PNG file"));

@@ -288,7 +288,7 @@ fn a_finding_that_leads_to_a_vertex() {
 
 #[test]
 fn the_findings_with_the_lines_of_a_book() {
-    let clicks = ["Findings: ", "D3D11 book: "];
+    let clicks = ["Findings: ", "D3D11 demo: "];
     let then = || vec![FileCommand::Add(crate::findings::files()).into()];
     let low = Vec2::new(844.0, 390.0);
     for (name, size, theme, touch, clicks) in [
@@ -307,7 +307,7 @@ fn the_findings_with_the_lines_of_a_book() {
 
 #[test]
 fn nothing_found() {
-    let clicks = ["Findings: ", "D3D12 book: "];
+    let clicks = ["Findings: ", "D3D12 demo: "];
     compare(
         "wide-dark-no-findings",
         &draw_after(WIDE, Theme::Dark, false, vec![], &clicks),

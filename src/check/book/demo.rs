@@ -19,11 +19,11 @@ pub const DEMO_SCALE: f32 = 0.05;
 pub const SEEN_HEIGHTS: [f32; 2] = [0.9, 14.4];
 
 modes! {
-    /// A book with a loader for the format.
+    /// A book with a loader for the format, and a demo that shows what it reads.
     pub enum Book {
         /// Introduction to 3D Game Programming with DirectX 11.
-        D3d11 = "d3d11", "D3D11 book";
+        D3d11 = "d3d11", "D3D11 demo";
         /// Introduction to 3D Game Programming with DirectX 12.
-        D3d12 = "d3d12", "D3D12 book";
+        D3d12 = "d3d12", "D3D12 demo";
     }
 }

@@ -1,5 +1,7 @@
 //! What the books' demos cannot show, or show otherwise than it is meant, though their loaders read it.
 
+use std::collections::BTreeSet;
+
 use super::demo::{Book, DEMO_CLIP, DEMO_SCALE, MOST_BONES, MOST_VERTICES, SEEN_HEIGHTS};
 use crate::diagnostic::collect::counted;
 use crate::diagnostic::{Code, codes};
@@ -24,8 +26,6 @@ pub struct Limit {
     pub code: &'static str,
     /// One sentence.
     pub message: String,
-    /// Whether the demo ends of it before it shows anything.
-    pub ends: bool,
 }
 
 /// A fourth weight may differ by this from what the shader makes of it: files have six digits.
@@ -53,6 +53,18 @@ pub(super) fn limits(book: Book, document: &Document, known: &Known<'_>) -> Vec<
     limits.0
 }
 
+/// How many maps the materials name.
+pub(super) fn map_count(document: &Document) -> usize {
+    maps(document).collect::<BTreeSet<_>>().len()
+}
+
+fn maps(document: &Document) -> impl Iterator<Item = &String> {
+    let of_each = document.materials.iter();
+    of_each
+        .flat_map(|material| [&material.diffuse_map, &material.normal_map])
+        .flatten()
+}
+
 struct Limits(Vec<Limit>);
 
 impl Limits {
@@ -60,8 +72,6 @@ impl Limits {
         self.0.push(Limit {
             code: code.name,
             message,
-            // A picture that is not opened is an error that the demos do not go on after.
-            ends: [&codes::BOOK_MAP_FORMAT, &codes::MAP_MISSING].contains(&code),
         });
     }
 
@@ -95,14 +105,9 @@ impl Limits {
         }
         let before = bones().filter(|&(bone, &parent)| parent >= bone).count();
         if before > 0 {
-            let message = if before == 1 {
-                "1 bone stands before its parent, whose matrix is still zero: what hangs on it shrinks to a point."
-                    .to_owned()
-            } else {
-                format!(
-                    "{before} bones stand before their parents, whose matrices are still zero: what hangs on them shrinks to a point."
-                )
-            };
+            let one = "bone stands before its parent, whose matrix is still zero: what hangs on it";
+            let many = "bones stand before their parents, whose matrices are still zero: what hangs on them";
+            let message = format!("{} shrinks to a point.", counted(before, one, many));
             self.add(&codes::BONES_REORDERED, message);
         }
     }
@@ -119,13 +124,10 @@ impl Limits {
             .filter(|vertex| with_weight(vertex) > 255)
             .count();
         if above > 0 {
-            let (vertices_name, them) = if above == 1 {
-                ("vertex names", "it")
-            } else {
-                ("vertices name", "them")
-            };
             let message = format!(
-                "{above} {vertices_name} a bone above 255, of which a byte keeps the remainder: another bone moves {them}."
+                "{} a bone above 255, of which a byte keeps the remainder: another bone moves {}.",
+                counted(above, "vertex names", "vertices name"),
+                if above == 1 { "it" } else { "them" }
             );
             self.add(&codes::BONE_INDEX_ABOVE_BYTE, message);
         }
@@ -135,9 +137,9 @@ impl Limits {
         };
         let differing = document.vertices.iter().filter(differs).count();
         if differing > 0 {
-            let vertices_have = if differing == 1 { "vertex has" } else { "vertices have" };
             let message = format!(
-                "The shader takes what the first three weights leave to 1; in the file {differing} {vertices_have} another fourth weight."
+                "The shader takes what the first three weights leave to 1; in the file {} another fourth weight.",
+                counted(differing, "vertex has", "vertices have")
             );
             self.add(&codes::BOOK_FOURTH_WEIGHT, message);
         }
@@ -190,11 +192,7 @@ impl Limits {
         if stretched > 0 {
             let message = format!(
                 "{} of another length than 1: what hangs on the bone is stretched.",
-                if stretched == 1 {
-                    "1 key has a rotation".to_owned()
-                } else {
-                    format!("{stretched} keys have rotations")
-                }
+                counted(stretched, "key has a rotation", "keys have rotations")
             );
             self.add(&codes::ROTATION_NOT_UNIT, message);
         }
@@ -205,11 +203,7 @@ impl Limits {
         if cut > 0 {
             let message = format!(
                 "The demo does not look at AlphaClip: {} drawn without holes.",
-                if cut == 1 {
-                    "1 material is".to_owned()
-                } else {
-                    format!("{cut} materials are")
-                }
+                counted(cut, "material is", "materials are")
             );
             self.add(&codes::BOOK_ALPHA_CLIP, message);
         }
@@ -259,12 +253,6 @@ impl Limits {
     }
 
     fn maps(&mut self, book: Book, document: &Document, missing: Option<&[String]>) {
-        let maps = || {
-            let of_materials = document.materials.iter();
-            of_materials
-                .flat_map(|material| [&material.diffuse_map, &material.normal_map])
-                .flatten()
-        };
         let is_read = |name: &str| {
             let extension = name
                 .rsplit_once('.')
@@ -276,20 +264,16 @@ impl Limits {
             };
             extension.is_some_and(|extension| kinds.contains(&extension.as_str()))
         };
-        if let Some(name) = maps().find(|name| !is_read(name)) {
-            let message = format!("`{name}` is no picture that the demo reads: it ends with an error.");
+        if let Some(name) = maps(document).find(|name| !is_read(name)) {
+            let message = format!("\"{name}\" is no picture that the demo reads: it ends with an error.");
             self.add(&codes::BOOK_MAP_FORMAT, message);
         }
         if let Some(missing) = missing
             && let Some(first) = missing.first()
         {
             let message = format!(
-                "{} not there, `{first}` among them: the demo ends with an error.",
-                if missing.len() == 1 {
-                    "1 map is".to_owned()
-                } else {
-                    format!("{} maps are", missing.len())
-                }
+                "{} missing, \"{first}\" among them: the demo ends with an error unless all lie beside the file.",
+                counted(missing.len(), "map is", "maps are")
             );
             self.add(&codes::MAP_MISSING, message);
         }

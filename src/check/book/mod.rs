@@ -7,6 +7,7 @@ mod demo;
 mod limits;
 mod loader;
 mod number;
+mod outcome;
 mod row;
 mod shows;
 mod stream;
@@ -14,16 +15,22 @@ mod stream;
 pub use demo::{Book, DEMO_CLIP, DEMO_SCALE, MOST_BONES, MOST_VERTICES, SEEN_HEIGHTS};
 pub use limits::{Known, Limit};
 pub use loader::{Counts, Reading, read};
+pub use outcome::Outcome;
 pub use row::Row;
 pub use stream::Trouble;
 
 use crate::diagnostic::{Diagnostic, Position, codes};
+use crate::format::Dialect;
 
 /// What a book's program makes of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Verdict {
     /// Which book's.
     pub book: Book,
+    /// What its demo does.
+    pub outcome: Outcome,
+    /// The file is of the other book's dialect: that this one does not read it is as it should be.
+    pub is_foreign: bool,
     /// Where its loader goes wrong, and how. `None` when it reads the file as it is meant.
     pub trouble: Option<Trouble>,
     /// What one sees then, or sees anyway.
@@ -38,6 +45,16 @@ impl Verdict {
     /// Whether the loader reads the file as it is meant.
     pub fn reads(&self) -> bool {
         self.trouble.is_none()
+    }
+
+    /// Whether the demo shows the file once its maps are there.
+    pub fn is_shown(&self) -> bool {
+        matches!(self.outcome, Outcome::Shows { .. })
+    }
+
+    /// Whether it is a fault of the file that the demo does not show it.
+    pub fn is_bad(&self) -> bool {
+        !self.is_shown() && !self.is_foreign
     }
 
     /// Where it goes wrong, and the limits, as diagnostics.
@@ -68,16 +85,28 @@ pub fn verdict(book: Book, bytes: &[u8], known: &Known<'_>) -> Verdict {
     let trouble = trouble(&reading);
     let document = known.document.or(trouble.is_none().then_some(&reading.document));
     let limits = document.map_or_else(Vec::new, |document| limits::limits(book, document, known));
-    // Maps are opened before anything is shown.
+    // Maps are opened before anything is shown. One that is missing may still come.
     let by_map = limits
         .iter()
-        .any(|limit| limit.ends)
-        .then(|| "It ends with an error about a map.".to_owned());
+        .any(|limit| limit.code == codes::BOOK_MAP_FORMAT.name)
+        .then(|| (Outcome::EndsWithError, "It ends with an error about a map.".to_owned()));
     let end = shows::ends(book, &reading).or(by_map);
+    let outcome = match (&trouble, &end) {
+        (Some(_), _) => Outcome::CannotRead,
+        (None, Some((outcome, _))) => *outcome,
+        (None, None) => Outcome::Shows {
+            missing_maps: known
+                .missing_maps
+                .map_or_else(|| document.map_or(0, limits::map_count), <[String]>::len),
+        },
+    };
+    let dialect = known.document.map(|document| document.dialect);
     Verdict {
         book,
+        outcome,
+        is_foreign: dialect.is_some_and(|dialect| (dialect == Dialect::D3d12) != (book == Book::D3d12)),
         ends: end.is_some(),
-        shows: end.unwrap_or_else(|| shows::shows(&reading)),
+        shows: end.map_or_else(|| shows::shows(&reading), |(_, words)| words),
         limits,
         trouble,
     }

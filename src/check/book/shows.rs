@@ -2,6 +2,7 @@
 
 use super::demo::{Book, DEMO_CLIP, MOST_BONES};
 use super::loader::{Counts, Reading};
+use super::outcome::Outcome;
 use super::row::Row;
 
 /// What one sees of a file with which the demo does not end, in a sentence.
@@ -64,31 +65,31 @@ pub(super) fn is_complete(reading: &Reading) -> bool {
 }
 
 /// How the demo ends before it shows anything, if it does.
-pub(super) fn ends(book: Book, reading: &Reading) -> Option<String> {
+pub(super) fn ends(book: Book, reading: &Reading) -> Option<(Outcome, String)> {
     let Reading {
         document, counts, stop, ..
     } = reading;
+    let error = |why: &str| Some((Outcome::EndsWithError, format!("It ends with an error: {why}.")));
+    let crash = |why: &str| Some((Outcome::Crashes, format!("It crashes at its first frame: {why}.")));
     if counts.vertices == 0 || counts.triangles == 0 {
-        return Some("It ends with an error: a buffer without bytes cannot be made.".to_owned());
+        return error("a buffer without bytes cannot be made");
     }
     let bytes = u64::from(counts.vertices) * bytes_per_vertex(book);
     if bytes > MOST_BYTES {
-        return Some(format!(
-            "It ends with an error: it asks for {} GB for the vertices that the header counts.",
-            bytes >> 30
+        let gigabytes = bytes >> 30;
+        return error(&format!(
+            "it asks for {gigabytes} GB for the vertices that the header counts"
         ));
     }
     if let Some(Row::Header | Row::Material(_)) = stop.as_ref().map(|stop| stop.row) {
-        return Some("It ends with an error: it looks for a map without a name.".to_owned());
+        return error("it looks for a map without a name");
     }
     if counts.bones == 0 {
         return None;
     }
     // Of clips of one name the last one stays.
     let Some(clip) = document.clips.iter().rposition(|clip| clip.name == DEMO_CLIP) else {
-        return Some(format!(
-            "It crashes at its first frame: there is no clip \"{DEMO_CLIP}\"."
-        ));
+        return crash(&format!("there is no clip \"{DEMO_CLIP}\""));
     };
     let read = &document.clips[clip].bones;
     // The keys of the bone in which reading stopped are there, as zeros.
@@ -97,14 +98,15 @@ pub(super) fn ends(book: Book, reading: &Reading) -> Option<String> {
     let there = read.len() + usize::from(in_keys);
     let empty = read.iter().position(|bone| bone.keyframes.is_empty());
     if let Some(bone) = empty.or((there < counts.bones as usize).then_some(there)) {
-        return Some(format!(
-            "It crashes at its first frame: bone {bone} has no keys in \"{DEMO_CLIP}\"."
-        ));
+        return crash(&format!("bone {bone} has no keys in \"{DEMO_CLIP}\""));
     }
     if counts.bones as usize > MOST_BONES {
-        return Some(format!(
-            "It writes {} matrices behind the {MOST_BONES} that it has room for, and crashes or shows anything.",
-            counts.bones as usize - MOST_BONES
+        let surplus = counts.bones as usize - MOST_BONES;
+        return Some((
+            Outcome::Crashes,
+            format!(
+                "It writes {surplus} matrices behind the {MOST_BONES} that it has room for, and crashes or shows anything."
+            ),
         ));
     }
     None

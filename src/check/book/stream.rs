@@ -102,7 +102,7 @@ impl<'a> Stream<'a> {
         if let Some(word) = self.word(format_args!("the line above {section}"))
             && !word.is_ruler()
         {
-            let why = format!("It skips `{}` as if it were the line above {section}.", word.shown());
+            let why = format!("It skips \"{}\" as if it were the line above {section}.", word.shown());
             self.note_mistake(word, why);
         }
     }
@@ -128,7 +128,7 @@ impl<'a> Stream<'a> {
                 .eq(expected.by_ref().map(|byte| byte.to_ascii_lowercase()))
         };
         if word.is_ruler() || (!is(label) && others.iter().any(|other| is(other))) {
-            let why = format!("It takes `{}` for the label {label} of {row}.", word.shown());
+            let why = format!("It takes \"{}\" for the label {label} of {row}.", word.shown());
             self.note_mistake(word, why);
         }
     }
@@ -210,14 +210,14 @@ impl<'a> Stream<'a> {
             Err(_) if word.text.is_empty() => self.fail(word, format!("The file ends where it reads {what} of {row}.")),
             Err(Misfit::NoNumber) => {
                 let why = format!(
-                    "It reads {what} of {row} and finds `{}`, which is no {kind}.",
+                    "It reads {what} of {row} and finds \"{}\", which is no {kind}.",
                     word.shown()
                 );
                 self.fail(word, why);
             }
             Err(Misfit::OutOfRange) => {
                 let why = format!(
-                    "It reads {what} of {row} and finds `{}`, which is out of range for {kind}.",
+                    "It reads {what} of {row} and finds \"{}\", which is out of range for {kind}.",
                     word.shown()
                 );
                 self.fail(word, why);
@@ -358,7 +358,7 @@ mod tests {
         assert_eq!((stop.position.line, stop.position.column, stop.length), (2, 5, 1));
         assert_eq!(
             stop.why,
-            "It reads a number of the header and finds `x`, which is no number."
+            "It reads a number of the header and finds \"x\", which is no number."
         );
     }
 
@@ -375,7 +375,7 @@ mod tests {
         let (_, mistake) = wrong.into_troubles();
         assert_eq!(
             mistake.map(|mistake| mistake.why).as_deref(),
-            Some("It takes `Normal:` for the label Tangent of the header.")
+            Some("It takes \"Normal:\" for the label Tangent of the header.")
         );
     }
 }

@@ -24,7 +24,7 @@ use crate::session::summary::{self, Finding};
 pub(super) enum Deny {
     /// Warnings too.
     Warnings,
-    /// A book that does not read a file, or whose demo ends before it shows anything.
+    /// A book that does not read a file, or whose demo ends before it shows anything, as it does where --textures lacks a map.
     Book,
 }
 
@@ -127,8 +127,12 @@ impl Checked {
         let worst = self.diagnostics.iter().map(|diagnostic| diagnostic.severity).max();
         let is_denied =
             |severity| severity == Severity::Error || (severity == Severity::Warning && deny.contains(&Deny::Warnings));
-        let book_fails =
-            deny.contains(&Deny::Book) && self.verdicts.iter().any(|verdict| !verdict.reads() || verdict.ends);
+        let lacks_maps = |verdict: &Verdict| {
+            let mut limits = verdict.limits.iter();
+            limits.any(|limit| limit.code == codes::MAP_MISSING.name)
+        };
+        let is_shown = |verdict: &Verdict| verdict.is_shown() && !lacks_maps(verdict);
+        let book_fails = deny.contains(&Deny::Book) && !self.verdicts.iter().all(is_shown);
         if book_fails || worst.is_some_and(is_denied) {
             Outcome::FileHasErrors
         } else {

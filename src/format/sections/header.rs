@@ -69,8 +69,10 @@ pub(in crate::format) fn header(reader: &mut Reader<'_>) -> Result<Counts, Parse
         }
         start = start.or(Some(label));
         reader.cursor = behind;
-        let (name, _) = COUNTS[index];
+        let (name, names) = COUNTS[index];
+        let number = reader.cursor.peek_token();
         let count = reader.count(Value::Count(name))?;
+        reader.counts.extend(number.map(|number| (names, number)));
         if found[index].replace(count).is_some() {
             reader.note(label, DiagnosticKind::LabelRepeated(name.into()));
         }

@@ -1,98 +1,67 @@
 //! What the books' programs make of the file: a row of the model panel, and a line for each book above the findings, which unfolds.
 
+use std::sync::Arc;
+
 use egui::text::{LayoutJob, TextFormat, TextWrapping};
-use egui::{Align2, Color32, FontId, Margin, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align, Color32, FontId, Galley, Margin, Rect, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::filter::color;
 use super::row::{INDENT, explanation, mending, tell_fold};
 use super::state::BookLines;
-use crate::check::book::{Limit, Verdict};
+use crate::check::book::{Book, Limit, Verdict};
 use crate::diagnostic::{Severity, codes};
-use crate::session::{OpenModel, Session};
+use crate::session::{ExportFormat, OpenModel, Session};
 use crate::ui::error_card::show_excerpt;
 use crate::ui::state::{Request, UiState};
 use crate::ui::theme::Tokens;
-use crate::ui::widgets::{hint_beside, paint_fold_mark, paint_row_ground, pressed_row, pressed_row_height};
+use crate::ui::widgets::{TextButton, hint_beside, paint_fold_mark, paint_row_ground, pressed_row_height};
+use crate::ui::wording::counted;
 
-/// What a book's program does with a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Outcome {
-    /// It reads it and shows it.
-    Shows,
-    /// It reads it, and ends before it shows anything.
-    Ends,
-    /// It goes wrong while it reads.
-    Fails,
-}
-
-impl Outcome {
-    fn of(verdict: &Verdict) -> Self {
-        match (verdict.reads(), verdict.ends) {
-            (true, false) => Self::Shows,
-            (true, true) => Self::Ends,
-            (false, _) => Self::Fails,
-        }
-    }
-
-    /// In one word, after the book.
-    fn word(self) -> &'static str {
-        match self {
-            Self::Shows => "reads",
-            Self::Ends => "ends",
-            Self::Fails => "fails",
-        }
-    }
-}
-
-/// The row of the model panel. It opens the findings.
+/// The row of the model panel: what the demo of the file's own book does. That the other book's reads no such file is no news. It opens the
+/// findings.
 pub(in crate::ui) fn show_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let tokens = Tokens::of(ui);
     let verdicts = session.verdicts();
-    let (rect, response) = pressed_row(ui, false);
-    let words: Vec<String> = newest_first(verdicts)
-        .map(|verdict| format!("{} {}", short_label(verdict), Outcome::of(verdict).word()))
-        .collect();
-    let value = if words.is_empty() {
-        "read .m3d only".to_owned()
+    let own = newest_first(verdicts).find(|verdict| !verdict.is_foreign);
+    let (label, value) = own.map_or(("Book demos", "read .m3d only".to_owned()), |own| {
+        (own.book.label(), own.outcome.to_string())
+    });
+    let color = if own.is_some_and(Verdict::is_bad) {
+        tokens.warning
     } else {
-        words.join(" · ")
+        tokens.muted
     };
-    // A file is of one book's dialect: that the other fails is no news.
-    let is_shown = words.is_empty() || verdicts.iter().any(|verdict| Outcome::of(verdict) == Outcome::Shows);
-    let color = if is_shown { tokens.muted } else { tokens.warning };
     let font = FontId::proportional(13.0);
-    let width = |text: &str| {
-        ui.painter()
-            .layout_no_wrap(text.to_owned(), font.clone(), color)
-            .size()
-            .x
-    };
-    let long = "Books' programs";
-    let label = if width(long) + 8.0 + width(&value) <= rect.width() {
-        long
-    } else {
-        "Books"
-    };
-    let painter = ui.painter();
-    painter.text(
-        rect.left_center(),
-        Align2::LEFT_CENTER,
-        label,
-        font.clone(),
-        tokens.text,
-    );
-    painter.text(rect.right_center(), Align2::RIGHT_CENTER, &value, font, color);
-    let name = format!("{long}: {}", value.replace(" ·", ","));
+    let label_galley = ui.painter().layout_no_wrap(label.to_owned(), font.clone(), tokens.text);
+    let mut job = LayoutJob::simple(value.clone(), font, color, 0.0);
+    job.wrap = TextWrapping::wrap_at_width(ui.available_width() - label_galley.size().x - 8.0);
+    job.halign = Align::RIGHT;
+    let (rect, response, galley, top) = wrapped_row(ui, job);
+    ui.painter().galley(pos2(rect.min.x, top), label_galley, tokens.text);
+    ui.painter().galley(pos2(rect.max.x, top), galley, color);
+    let name = format!("Books: {label}: {value}");
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, state.diagnostics_open, &name));
     let mut hint: Vec<String> = newest_first(verdicts)
-        .map(|verdict| format!("{}: {}", verdict.book.label(), in_words(verdict)))
+        .map(|verdict| format!("{}: {}", verdict.book.label(), verdict.outcome))
         .collect();
     if hint.is_empty() {
-        hint.push("The books' programs read no glTF.".to_owned());
+        hint.push("The books' demos read no glTF.".to_owned());
     }
     if hint_beside(response, None, &hint.join("\n")).clicked() {
         state.diagnostics_open = !state.diagnostics_open;
     }
+}
+
+/// A row to press, as high as its words, and the y at which they begin.
+fn wrapped_row(ui: &mut Ui, job: LayoutJob) -> (Rect, Response, Arc<Galley>, f32) {
+    let galley = ui.painter().layout_job(job);
+    let one_line = pressed_row_height(ui);
+    let first_middle = galley.rows.first().map_or(0.0, |row| 0.5 * row.height());
+    let height = one_line + galley.size().y - 2.0 * first_middle;
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
+    paint_row_ground(ui, rect, &response, false, response.contains_pointer());
+    let top = rect.min.y + 0.5 * one_line - first_middle;
+    (rect, response, galley, top)
 }
 
 /// A line for each book, and below it what one sees and why while it is unfolded.
@@ -108,23 +77,35 @@ pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut
                 bottom: 8,
                 ..Margin::ZERO
             });
-            frame.show(ui, |ui| details(ui, verdict, lines, &mut state.requests));
+            frame.show(ui, |ui| {
+                details(ui, verdict, lines, &mut state.requests);
+                if !verdict.is_shown() || !verdict.limits.is_empty() {
+                    ui.add_space(8.0);
+                    let name = format!("Export for this book: {}", verdict.book.label());
+                    if TextButton::new("Export for this book", &name).show(ui).clicked() {
+                        state.export.options.format = match verdict.book {
+                            Book::D3d11 => ExportFormat::D3d11,
+                            Book::D3d12 => ExportFormat::D3d12,
+                        };
+                        state.export.options.for_book = true;
+                        state.wants_export = true;
+                    }
+                }
+            });
         }
     }
 }
 
-/// `the D3D12 book's program reads it`, for all verdicts. One that reads it and then ends shows nothing.
-pub(super) fn who_reads(verdicts: &[Verdict]) -> String {
+/// `the D3D12 demo shows it`, for all verdicts.
+pub(super) fn who_shows(verdicts: &[Verdict]) -> String {
     if verdicts.is_empty() {
-        return "the books' programs read .m3d only".to_owned();
+        return "the books' demos read .m3d only".to_owned();
     }
-    let all: Vec<_> = newest_first(verdicts)
-        .filter(|verdict| verdict.reads() && !verdict.ends)
-        .collect();
+    let all: Vec<_> = newest_first(verdicts).filter(|verdict| verdict.is_shown()).collect();
     match all[..] {
-        [] => "but neither book's program shows it".to_owned(),
-        [only] => format!("the {}'s program reads it", only.book.label()),
-        _ => "both books' programs read it".to_owned(),
+        [] => "but neither book's demo shows it".to_owned(),
+        [only] => format!("the {} {}", only.book.label(), only.outcome),
+        [first, ..] => format!("each book's demo {}", first.outcome),
     }
 }
 
@@ -132,50 +113,23 @@ fn newest_first(verdicts: &[Verdict]) -> impl Iterator<Item = &Verdict> {
     verdicts.iter().rev()
 }
 
-/// `D3D12`.
-fn short_label(verdict: &Verdict) -> &'static str {
-    let label = verdict.book.label();
-    label.strip_suffix(" book").unwrap_or(label)
-}
-
-/// What one sees, after the book and a colon.
-fn in_words(verdict: &Verdict) -> String {
-    if verdict.trouble.is_some() || verdict.ends {
-        let shows = verdict.shows.strip_suffix('.').unwrap_or(&verdict.shows);
-        return match shows.strip_prefix("It ") {
-            Some(ends) => ends.to_owned(),
-            None => format!("shows {}", without_capital(shows)),
-        };
-    }
-    match verdict.limits.len() {
-        0 => "reads it".to_owned(),
-        1 => "reads it, with 1 limit".to_owned(),
-        limits => format!("reads it, with {limits} limits"),
-    }
-}
-
-fn without_capital(words: &str) -> String {
-    let mut letters = words.chars();
-    let first = letters.next().map(|first| first.to_ascii_lowercase());
-    first.into_iter().chain(letters).collect()
-}
-
-/// The colour of the worst that there is to tell.
+/// The colour of the worst that there is to tell. One about the other book is neutral.
 fn color_of(ui: &Ui, verdict: &Verdict) -> Color32 {
-    match Outcome::of(verdict) {
-        Outcome::Fails | Outcome::Ends => color(ui, Severity::Warning),
-        Outcome::Shows if verdict.limits.is_empty() => Tokens::of(ui).muted,
-        Outcome::Shows => {
-            let of_limit = |limit: &Limit| codes::named(limit.code).map(|code| code.severity);
-            let worst = verdict.limits.iter().filter_map(of_limit).max();
-            color(ui, worst.unwrap_or(Severity::Note))
-        }
-    }
+    let of_limit = |limit: &Limit| codes::named(limit.code).map(|code| code.severity);
+    let worst = match verdict.is_bad() {
+        true => Some(Severity::Warning),
+        false => verdict.limits.iter().filter_map(of_limit).max(),
+    };
+    let worst = worst.filter(|_| !verdict.is_foreign);
+    worst.map_or(Tokens::of(ui).muted, |worst| color(ui, worst))
 }
 
 fn line(ui: &mut Ui, verdict: &Verdict, is_open: bool) -> Response {
     let tokens = Tokens::of(ui);
-    let (book, words) = (verdict.book.label(), in_words(verdict));
+    let (book, mut words) = (verdict.book.label(), verdict.outcome.to_string());
+    if verdict.is_shown() && !verdict.limits.is_empty() {
+        words += &format!(" · {}", counted(verdict.limits.len(), "limit"));
+    }
     let plain = |color| TextFormat {
         font_id: FontId::proportional(13.0),
         color,
@@ -186,18 +140,12 @@ fn line(ui: &mut Ui, verdict: &Verdict, is_open: bool) -> Response {
     job.append(&words, 0.0, plain(tokens.muted));
     // It is the answer that people came for, so all of it is seen.
     job.wrap = TextWrapping::wrap_at_width(ui.available_width() - 2.0 * INDENT);
-    let galley = ui.painter().layout_job(job);
-    let one_line = pressed_row_height(ui);
-    let first_middle = galley.rows.first().map_or(0.0, |row| 0.5 * row.height());
-    let height = one_line + galley.size().y - 2.0 * first_middle;
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
-    paint_row_ground(ui, rect, &response, false, response.contains_pointer());
-    let at = rect.left_top() + vec2(0.0, 0.5 * one_line);
+    let (rect, response, galley, top) = wrapped_row(ui, job);
+    let y = rect.min.y + 0.5 * pressed_row_height(ui);
     ui.painter()
-        .circle_filled(at + vec2(4.0, 0.0), 3.0, color_of(ui, verdict));
-    let place = at + vec2(INDENT, -first_middle);
-    ui.painter().galley(place, galley, tokens.text);
-    paint_fold_mark(ui.painter(), pos2(rect.max.x - 6.0, at.y), !is_open, tokens.muted);
+        .circle_filled(pos2(rect.min.x + 4.0, y), 3.0, color_of(ui, verdict));
+    ui.painter().galley(pos2(rect.min.x + INDENT, top), galley, tokens.text);
+    paint_fold_mark(ui.painter(), pos2(rect.max.x - 6.0, y), !is_open, tokens.muted);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{book}: {words}")));
     response
 }
@@ -206,15 +154,15 @@ fn line(ui: &mut Ui, verdict: &Verdict, is_open: bool) -> Response {
 fn details(ui: &mut Ui, verdict: &Verdict, lines: &BookLines, requests: &mut Vec<Request>) {
     let tokens = Tokens::of(ui);
     let words = |words: &str, color| RichText::new(words).size(12.5).color(color);
+    let color = if verdict.is_bad() { tokens.warning } else { tokens.text };
     if let Some(trouble) = &verdict.trouble {
         ui.label(words(&trouble.why, tokens.text));
         if let Some(excerpt) = &lines.excerpt {
             ui.add_space(4.0);
-            show_excerpt(ui, excerpt, tokens.warning);
+            show_excerpt(ui, excerpt, color);
             ui.add_space(4.0);
         }
     }
-    let color = if verdict.ends { tokens.warning } else { tokens.text };
     ui.add_space(2.0);
     ui.label(words(&format!("One sees: {}", verdict.shows), color));
     if verdict.trouble.is_some() {

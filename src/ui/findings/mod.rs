@@ -84,7 +84,7 @@ fn found(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState, 
 /// That there is no finding, and what was looked at.
 fn nothing_found(ui: &mut Ui, session: &Session, open: &OpenModel) {
     let tokens = Tokens::of(ui);
-    let words = format!("Nothing found; {}.", books::who_reads(session.verdicts()));
+    let words = format!("Nothing found; {}.", books::who_shows(session.verdicts()));
     ui.label(RichText::new(words).color(tokens.text));
     ui.add_space(2.0);
     let model = &open.model;

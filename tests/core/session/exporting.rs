@@ -6,16 +6,16 @@ use bindpose::edit::{self, Edits};
 use bindpose::export;
 use bindpose::format::Dialect;
 use bindpose::image::encode_png;
-use bindpose::model::{JointNames, MapSlot};
+use bindpose::model::{Handedness, JointNames, MapSlot, UpAxis};
 use bindpose::session::{
-    ExportCommand, ExportFormat, ExportOptions, ExportRange, ExportStep, ExportedFile, File, FileCommand,
-    MaterialCommand, NameCommand, PlayCommand, Session,
+    Command, ExportCommand, ExportFormat, ExportOptions, ExportRange, ExportStep, ExportedFile, File, FileCommand,
+    HistoryCommand, LookCommand, MaterialCommand, NameCommand, PlayCommand, Session,
 };
 
 use image::{ImageFormat, Rgb, RgbImage};
 use serde_json::json;
 
-use super::models::{document, file, moving, still};
+use super::models::{document, file, moving, skinned, still};
 use super::opened;
 use crate::gltf_files::Gltf;
 
@@ -110,7 +110,8 @@ fn a_job_writes_what_edits_and_formats_write_by_themselves() {
     ] {
         let m3d = export::m3d(&edited.model, &edited.names, dialect).expect("it can be written");
         let file = written(&session, &asked(format));
-        assert_eq!((file.name.as_str(), file.bytes), ("a.m3d", m3d.bytes));
+        let name = format!("a-{}.m3d", format.name());
+        assert_eq!((file.name, file.bytes), (name, m3d.bytes));
         assert_eq!(file.plan.losses, m3d.losses);
     }
 }
@@ -140,7 +141,7 @@ fn losses_and_changes_are_known_before_anything_is_written() {
     assert_eq!(plan.changes[0].message, "2 clips are left out.");
     assert!(!plan.losses.is_empty(), "the D3D11 book has other materials");
     assert_eq!(session.take_exported(), None);
-    assert_eq!(session.export_name().as_deref(), Some("a.m3d"));
+    assert_eq!(session.export_name().as_deref(), Some("a-d3d11.m3d"));
 
     session.apply(ExportCommand::Save);
     while session.step_export() {}
@@ -303,7 +304,7 @@ fn pictures_come_along_with_a_file_of_the_books_and_are_inside_a_glb() {
     let file = written(&session, &options(ExportFormat::D3d12));
     assert_eq!(
         (file.name.as_str(), file.plan.maps, file.media_type()),
-        ("box.zip", 1, "application/zip")
+        ("box-d3d12.zip", 1, "application/zip")
     );
     let again = written(&session, &options(ExportFormat::D3d12));
     assert_eq!(file, again, "the time of day is not in it");
@@ -316,7 +317,7 @@ fn pictures_come_along_with_a_file_of_the_books_and_are_inside_a_glb() {
         files.push(File::new(&entry.name().expect("a name in UTF-8"), bytes));
     }
     let names: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
-    assert_eq!(names, ["box.m3d", "red.png"]);
+    assert_eq!(names, ["box-d3d12.m3d", "red.png"]);
     let mut reopened = Session::new(false);
     reopened.apply(FileCommand::Add(files));
     assert_eq!(reopened.maps().used().count(), 1, "the picture is found by its name");
@@ -351,7 +352,7 @@ fn for_the_books_demo_all_maps_come_along_as_dds_with_mips() {
         codes.contains(&"maps-written") && codes.contains(&"maps-added"),
         "{codes:?}"
     );
-    assert_eq!(session.export_name().as_deref(), Some("box.zip"));
+    assert_eq!(session.export_name().as_deref(), Some("box-d3d12.zip"));
     let job = session.export_job(&asked).expect("a model is open");
     let written = job.run_apart().expect("it can be written");
     let names: Vec<&str> = written.maps.iter().map(|(name, _)| name.as_str()).collect();
@@ -418,4 +419,131 @@ fn what_was_left_out_on_reading_is_a_loss_and_no_change() {
         assert!(loss.message.contains("is of points") && loss.count == 1, "{loss:?}");
         assert!(plan.changes.iter().all(|change| change.code != code));
     }
+}
+
+/// The files of a drop that was exported: an archive opens as what is in it.
+fn reopened(file: ExportedFile) -> Session {
+    let mut session = Session::new(false);
+    session.apply(FileCommand::Add(vec![File::new(&file.name, file.bytes)]));
+    assert_eq!(session.error(), None);
+    session
+}
+
+/// Where green of the normal map's first texel leads on the surface of each vertex, as it is drawn.
+fn drawn_green(session: &Session) -> Vec<f32> {
+    let model = &session.open_model().expect("a model").model;
+    let image = session.maps().image(0, MapSlot::Normal).expect("a normal map");
+    let texel = image.to_rgba8(0, 0).expect("texels");
+    let green = f32::from(texel[1]) / 127.5 - 1.0;
+    let flip = if session.look().normal_green_flipped { -1.0 } else { 1.0 };
+    let tangents = model.mesh.tangents.iter();
+    tangents.map(|tangent| tangent.w * green * flip).collect()
+}
+
+#[test]
+fn green_of_normal_maps_is_written_as_it_was_chosen() {
+    let mut document = document();
+    document.materials[0].normal_map = Some("bumps.png".to_owned());
+    let bumps = encode_png(&[128, 200, 230, 255], 1, 1).expect("a picture");
+    let mut session = Session::new(false);
+    session.apply(FileCommand::Add(vec![
+        file("box.m3d", &document),
+        File::new("bumps.png", bumps),
+    ]));
+    let written_as = |session: &mut Session, format, flipped| {
+        session.apply(LookCommand::SetNormalGreenFlipped(flipped));
+        let file = written(session, &options(format));
+        let told = file
+            .plan
+            .changes
+            .iter()
+            .any(|change| change.code == "normal-green-flipped");
+        assert_eq!(told, flipped, "{format:?}");
+        drawn_green(&reopened(file))
+    };
+    for format in ExportFormat::ALL {
+        let [plain, flipped] = [false, true].map(|flipped| written_as(&mut session, format, flipped));
+        let differ = |(plain, flipped): (&f32, &f32)| (plain + flipped).abs() < 0.01 && plain.abs() > 0.5;
+        assert!(
+            plain.iter().zip(&flipped).all(differ),
+            "{format:?} {plain:?} {flipped:?}"
+        );
+        // glTF's space is mirrored.
+        if format != ExportFormat::Glb {
+            assert!(
+                flipped
+                    .iter()
+                    .zip(drawn_green(&session))
+                    .all(|(now, seen)| (now - seen).abs() < 0.01)
+            );
+        }
+    }
+    // The books' demo reads no sign, so the picture is turned for it and the sign is as before.
+    let again = reopened(written(&session, &options(ExportFormat::D3d12)));
+    let texel = again
+        .maps()
+        .image(0, MapSlot::Normal)
+        .and_then(|image| image.to_rgba8(0, 0));
+    assert_eq!(texel.map(|texel| texel[1]), Some(55));
+}
+
+#[test]
+fn a_plan_is_made_anew_when_one_sees_the_model_otherwise() {
+    let others: [Command; 3] = [
+        Command::SetHandedness(Some(Handedness::Right)),
+        Command::SetUpAxis(Some(UpAxis::Z)),
+        LookCommand::SetNormalGreenFlipped(true).into(),
+    ];
+    for other in others {
+        let mut session = opened(still("a.m3d"));
+        let before = written(&session, &ExportOptions::default());
+        session.apply(other.clone());
+        plan(&mut session, ExportOptions::default());
+        session.apply(HistoryCommand::Undo);
+        assert!(session.step_export(), "{other:?}: there is another plan to make");
+        session.apply(other.clone());
+        plan(&mut session, ExportOptions::default());
+        session.apply(HistoryCommand::Undo);
+        while session.step_export() {}
+        session.apply(ExportCommand::Save);
+        while session.step_export() {}
+        assert_eq!(session.take_exported(), Some(before), "{other:?}");
+    }
+}
+
+#[test]
+fn a_file_of_a_book_has_the_book_in_its_name_once() {
+    let session = opened(still("a-d3d12.m3d"));
+    for (format, name) in [
+        (ExportFormat::D3d11, "a-d3d11.m3d"),
+        (ExportFormat::D3d12, "a-d3d12.m3d"),
+        (ExportFormat::Glb, "a-d3d12.glb"),
+    ] {
+        assert_eq!(written(&session, &options(format)).name, name);
+    }
+}
+
+#[test]
+fn what_is_told_of_one_clip_does_not_speak_of_others() {
+    let names = ["A", "B", "C", "D", "E", "F", "Fine"];
+    let mut document = skinned(&names.map(|name| (name, 0.0, 9)));
+    for clip in document.clips.iter_mut().filter(|clip| clip.name != "Fine") {
+        clip.bones[1].keyframes.reverse();
+    }
+    let session = opened(file("a.m3d", &document));
+    let told = |clips: Option<&[&str]>| {
+        let options = ExportOptions {
+            clips: clips.map(|clips| clips.iter().map(|&name| name.to_owned()).collect()),
+            ..options(ExportFormat::Glb)
+        };
+        let changes = written(&session, &options).plan.changes.into_iter();
+        let of_keys: Vec<_> = changes.filter(|change| change.code == "keys-not-sorted").collect();
+        assert!(of_keys.len() < 2, "{of_keys:?}");
+        of_keys.first().map(|change| change.message.clone())
+    };
+    assert!(told(None).is_some_and(|words| words.ends_with("The same holds for 5 more clips.")));
+    let one = told(Some(&["C"])).expect("its keys were sorted");
+    assert!(!one.contains("more clips"), "{one}");
+    assert!(told(Some(&["C", "D", "Fine"])).is_some_and(|words| words.ends_with("It is so in 2 clips.")));
+    assert_eq!(told(Some(&["Fine"])), None);
 }

@@ -444,3 +444,41 @@ proptest! {
         prop_assert_eq!(kept(&session), start);
     }
 }
+
+#[test]
+fn an_edit_that_ends_where_it_began_leaves_what_can_be_redone() {
+    let mut session = opened(three_parts("a.m3d"));
+    let red = session.materials()[0].diffuse[0];
+    session.apply(hide(1));
+    session.apply(Undo);
+    session.apply(BeginEdit);
+    session.apply(paint(&session, 0, 0.125));
+    assert_eq!(session.history().redo_label(), None, "it is an edit so far");
+    session.apply(paint(&session, 0, red));
+    session.apply(EndEdit);
+    assert_eq!(
+        (session.history().undo_label(), session.history().redo_label()),
+        (None, Some("hide Y"))
+    );
+    session.apply(Redo);
+    assert!(!session.submeshes().is_visible(1));
+    // One that ends elsewhere does not.
+    session.apply(Undo);
+    session.apply(BeginEdit);
+    session.apply(paint(&session, 0, 0.125));
+    session.apply(EndEdit);
+    assert_eq!(session.history().redo_label(), None);
+}
+
+#[test]
+fn a_step_of_several_changes_says_the_first_and_how_many_more() {
+    let mut session = opened(three_parts("a.m3d"));
+    let before = session.view_state();
+    session.apply(hide(1));
+    session.apply(Command::SetHandedness(Some(Handedness::Right)));
+    session.apply(Command::SetUpAxis(Some(UpAxis::Z)));
+    session.apply(Command::Restore(Box::new(before)));
+    assert_eq!(session.history().undo_label(), Some("show Y and 2 more changes"));
+    session.apply(Undo);
+    assert!(!session.submeshes().is_visible(1) && session.up_axis() == UpAxis::Z);
+}

@@ -30,15 +30,39 @@ fn each_book_has_a_verdict_that_is_worked_out_once() {
 }
 
 #[test]
-fn maps_are_missing_once_a_picture_came_and_no_longer_when_they_come() {
+fn maps_that_are_missing_give_one_verdict_whether_some_came_or_none() {
     let mut session = opened(mapped("box.m3d", "skin_diff.dds", "skin_norm.dds"));
-    let before = limits(&session);
+    let words = |session: &Session| {
+        let verdict = session.verdicts().iter().find(|verdict| verdict.book == Book::D3d12);
+        verdict.map(|verdict| (verdict.outcome.to_string(), verdict.ends, verdict.is_bad()))
+    };
+    let told = |words: &str| Some((words.to_owned(), false, false));
+    assert_eq!(words(&session), told("shows it, if these 2 maps lie beside it"));
     session.apply(FileCommand::Add(vec![picture("other.png", [0; 4])]));
-    let with_missing = limits(&session);
-    assert_eq!(with_missing.len(), before.len() + 1, "{before:?} {with_missing:?}");
-    let maps = ["skin_diff.png", "skin_norm.png"].map(|name| picture(name, [0; 4]));
-    session.apply(FileCommand::Add(maps.into()));
-    assert_eq!(limits(&session), before);
+    assert_eq!(words(&session), told("shows it, if these 2 maps lie beside it"));
+    session.apply(FileCommand::Add(vec![picture("skin_diff.png", [0; 4])]));
+    assert_eq!(words(&session), told("shows it, if this map lies beside it"));
+    assert!(limits(&session).contains(&codes::MAP_MISSING.name));
+    session.apply(FileCommand::Add(vec![picture("skin_norm.png", [0; 4])]));
+    assert_eq!(words(&session), told("shows it"));
+    assert!(!limits(&session).contains(&codes::MAP_MISSING.name));
+}
+
+#[test]
+fn that_the_other_books_demo_cannot_read_the_file_is_no_fault_of_it() {
+    let session = opened(models::file("a.m3d", &models::skinned(&models::CLIPS)));
+    let told: Vec<_> = session
+        .verdicts()
+        .iter()
+        .map(|verdict| (verdict.outcome.to_string(), verdict.is_foreign, verdict.is_bad()))
+        .collect();
+    assert_eq!(
+        told,
+        [
+            ("cannot read it".to_owned(), true, false),
+            ("would crash at its first frame".to_owned(), false, true)
+        ]
+    );
 }
 
 #[test]
@@ -67,13 +91,13 @@ fn the_report_names_the_file_and_has_a_line_for_each_book() {
     assert!(
         lines
             .iter()
-            .any(|line| line.starts_with("a.m3d:9:1: D3D11 book: It takes `Name:`")),
+            .any(|line| line.starts_with("a.m3d:9:1: D3D11 demo: cannot read it. It takes \"Name:\"")),
         "{report}"
     );
     assert!(
         lines
             .iter()
-            .any(|line| line.starts_with("a.m3d: D3D12 book: It reads the file. One sees: ")),
+            .any(|line| line.starts_with("a.m3d: D3D12 demo: would crash at its first frame. One sees: ")),
         "{report}"
     );
 }
