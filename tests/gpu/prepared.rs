@@ -18,7 +18,7 @@ type Ask = (&'static str, fn(&mut Scene));
 const ASKED: [Ask; 10] = [
     ("nothing", |_| {}),
     ("a picture on nothing", |scene| {
-        scene.options.background = Background::None
+        scene.options.background = Background::None;
     }),
     ("V", |scene| scene.options.light = Light::Book),
     ("the divider", |scene| scene.options.split = Some(0.5)),
