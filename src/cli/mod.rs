@@ -48,7 +48,7 @@ enum Command {
     Info(info::Arguments),
     Check(check::Arguments),
     Pose(pose::Arguments),
-    Render(render::Arguments),
+    Render(Box<render::Arguments>),
     Convert(Box<convert::Arguments>),
 }
 

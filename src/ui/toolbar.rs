@@ -2,7 +2,8 @@
 //! help.
 
 use egui::{
-    Color32, Key, Label, Modifiers, Popup, Rangef, Rect, RectAlign, RichText, Role, Sense, Ui, Vec2, WidgetInfo, vec2,
+    Color32, Key, Label, Modifiers, Popup, Rangef, Rect, RectAlign, RichText, Role, Sense, TextWrapMode, Ui, Vec2,
+    WidgetInfo, vec2,
 };
 
 use super::cost::SteadyCost;
@@ -39,7 +40,7 @@ const SPACING: f32 = 4.0;
 const LEAST_NAME: f32 = 90.0;
 /// Width of the menu of files, and how much of a path it shows.
 const FILES_WIDTH: f32 = 330.0;
-const MOST_OF_PATH: usize = 34;
+const MOST_OF_PATH: usize = 28;
 
 /// Makes buttons that were shown a toolbar for screen readers.
 fn as_toolbar(ui: &Ui) {
@@ -397,6 +398,7 @@ fn file_line(ui: &mut Ui, file: &File, is_open: bool, commands: &mut Vec<Command
         );
         let line = ui.scope(|ui| {
             ui.set_max_width(room);
+            ui.style_mut().wrap_mode = Some(TextWrapMode::Truncate);
             valued_menu_item(ui, &path, &size, is_open)
         });
         let line = hint_beside(line.inner, None, &file.path);

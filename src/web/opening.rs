@@ -50,8 +50,7 @@ impl Viewer {
     /// When the path is no text.
     #[wasm_bindgen(js_name = openModel)]
     pub fn open_model(&self, path: &JsValue) -> Result<bool, JsValue> {
-        self.shared
-            .apply_to_listed("openModel", path, Session::models, FileCommand::Open)
+        self.shared.apply_to_listed("openModel", path, FileCommand::Open)
     }
 
     /// Closes one of the state's `models`, by its path, unless it is the only one. Returns whether it is listed.
@@ -60,8 +59,7 @@ impl Viewer {
     /// When the path is no text.
     #[wasm_bindgen(js_name = closeModel)]
     pub fn close_model(&self, path: &JsValue) -> Result<bool, JsValue> {
-        self.shared
-            .apply_to_listed("closeModel", path, Session::models, FileCommand::Close)
+        self.shared.apply_to_listed("closeModel", path, FileCommand::Close)
     }
 
     /// Begins anew, as a new viewer does: every choice is forgotten and these files are opened, an array as [`Viewer::open`] takes
