@@ -45,7 +45,7 @@ fn tab_goes_in_reading_order_and_every_stop_is_seen() {
     };
     let places = [
         "View mode",
-        "Keys (?)",
+        "Help (?)",
         "Panel: Model",
         "Findings",
         "Model view",
@@ -89,7 +89,7 @@ fn what_opens_takes_the_focus_and_gives_it_back() {
         ("Lighting", "Light: "),
         ("Lines over the model", "Ground grid"),
         ("View from", "Three-quarter"),
-        ("Keys (?)", "Close"),
+        ("Help (?)", "Close"),
         ("Findings", "Close"),
         ("Speed ", ""),
     ] {

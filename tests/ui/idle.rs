@@ -61,7 +61,7 @@ fn what_was_touched_settles() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     for label in [
         "Findings",
-        "Keys (?)",
+        "Help (?)",
         "At the end: loops",
         "Lines over the model",
         "Vertex normals",

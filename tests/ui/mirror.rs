@@ -96,9 +96,9 @@ fn rows_of_a_tree_stand_in_a_tree_with_their_buttons_inside() {
 #[test]
 fn what_is_gone_is_told() {
     let (mut window, all) = mirrored(vec![models::file("one.m3d", &models::skinned(&[("Walk", 0.0, 2)]))]);
-    act(&mut window, id(&all, "button", "Keys (?)"), MirrorAction::Click);
+    act(&mut window, id(&all, "button", "Help (?)"), MirrorAction::Click);
     let help = changes(&window).expect("the table of keys").changed;
-    window.click("Keys (?)");
+    window.click("Help (?)");
     let gone = changes(&window).expect("it is shut").removed;
     assert!(
         help.iter()

@@ -57,8 +57,8 @@ fn transform(mut matrix: [f32; 16]) -> [f32; 16] {
     for index in [1, 2, 3, 4, 8, 12] {
         matrix[index] = 0.0 - matrix[index];
     }
-    for index in 12..15 {
-        matrix[index] = round(f64::from(matrix[index]) * UNITS_PER_METRE, 5);
+    for length in &mut matrix[12..15] {
+        *length = round(f64::from(*length) * UNITS_PER_METRE, 5);
     }
     matrix
 }
