@@ -9,7 +9,7 @@ use std::num::NonZeroUsize;
 
 use egui::{Context, Event, Id, Key, RawInput, Ui};
 
-use super::mirror::MirrorAction;
+use super::mirror::{self, MirrorAction};
 
 /// The most passes of one frame. Events that are left wait for the next frame.
 pub(super) const MOST_PASSES: NonZeroUsize = NonZeroUsize::new(32).unwrap();
@@ -111,23 +111,37 @@ pub(super) enum Grip {
     Pointer,
     /// The text field that has the focus.
     Field(Id),
-    /// An arrow key in the control that has the focus.
-    Arrow(Id),
+    /// A key in the control that has the focus.
+    Key(Id),
+    /// A screen reader presses a control, in this pass only.
+    Request,
 }
 
 impl Grip {
     /// What holds a value as a pass begins.
     pub(super) fn now(ctx: &Context) -> Option<Self> {
-        const ARROWS: [Key; 4] = [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown];
-        if ctx.input(|input| input.pointer.any_down()) {
-            return Some(Self::Pointer);
-        }
-        let focused = ctx.memory(|memory| memory.focused())?;
-        if ctx.text_edit_focused() {
-            Some(Self::Field(focused))
-        } else {
-            let held = ctx.input(|input| ARROWS.into_iter().any(|key| input.key_down(key)));
-            held.then_some(Self::Arrow(focused))
+        const KEYS: [Key; 8] = [
+            Key::ArrowLeft,
+            Key::ArrowRight,
+            Key::ArrowUp,
+            Key::ArrowDown,
+            Key::PageUp,
+            Key::PageDown,
+            Key::Enter,
+            Key::Space,
+        ];
+        let (pointer, key, click) = ctx.input(|input| {
+            let key = KEYS.into_iter().any(|key| input.key_down(key));
+            let click = input.events.iter().any(MirrorAction::is_click);
+            (input.pointer.any_down(), key, click)
+        });
+        let focused = ctx.memory(|memory| memory.focused());
+        let is_held = key || mirror::holds_key(ctx);
+        match focused {
+            _ if pointer => Some(Self::Pointer),
+            Some(field) if ctx.text_edit_focused() => Some(Self::Field(field)),
+            Some(control) if is_held => Some(Self::Key(control)),
+            _ => click.then_some(Self::Request),
         }
     }
 }

@@ -4,7 +4,7 @@
 //! One pass goes from the edges inwards. Each panel gets the room that the panels before it left, and what all of them leave is where
 //! the model is framed.
 
-use egui::{Align2, Id, Margin, Rangef, Rect, Role, Sides, Ui, UiBuilder, Vec2, pos2, vec2};
+use egui::{Align, Align2, Id, Layout, Margin, Rangef, Rect, Role, Sense, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use super::icons::Icon;
 use super::panel::{self, Free, LEAST_ROOM, Panel, mark_transport, scrolled};
@@ -211,15 +211,18 @@ fn narrow(
         .margin(Margin::same(4))
         .width(room.width())
         .show(ui, room, |ui| {
-            let bar = Sides::new().height(widgets::control_size(ui)).shrink_left();
-            bar.show(
-                ui,
-                |ui| {
-                    ui.add_space(8.0);
-                    toolbar::title(ui, session, None, &mut opens);
-                },
-                |ui| toolbar::show_narrow(ui, session, &mut *state, commands),
-            );
+            let size = vec2(ui.available_width(), widgets::control_size(ui));
+            let (bar, _) = ui.allocate_exact_size(size, Sense::hover());
+            let part = |rect| {
+                let layout = Layout::left_to_right(Align::Center);
+                UiBuilder::new().max_rect(rect).layout(layout)
+            };
+            let split = bar.max.x - toolbar::narrow_width(ui);
+            let title = bar.with_min_x(bar.min.x + 8.0);
+            let mut title = ui.new_child(part(title.with_max_x(split - ui.spacing().item_spacing.x)));
+            toolbar::title(&mut title, session, None, &mut opens);
+            let mut buttons = ui.new_child(part(bar.with_min_x(split)));
+            toolbar::show_narrow(&mut buttons, session, &mut *state, commands);
         });
     commands.append(&mut opens);
     free.cut_top(bar);
@@ -294,7 +297,11 @@ fn sheet(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, low: bool
         .margin(margin)
         .width(window.width())
         .show(ui, window.with_min_y(free.room().min.y), |ui| {
-            let handle = widgets::sheet_handle(ui, state.sheet.is_some());
+            let label = match state.sheet {
+                Some(_) => "Close the sheet",
+                None => handle_label(session, state),
+            };
+            let handle = widgets::sheet_handle(ui, label);
             if handle.clicked() {
                 state.sheet = match state.sheet {
                     None => Some(SheetPage::Model),
@@ -343,6 +350,16 @@ fn sheet(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, low: bool
             state.sheet_height.strip = ui.min_rect().max.y - top;
         });
     rect.with_min_y(rect.min.y - rises)
+}
+
+/// What the handle of the shut sheet opens.
+fn handle_label(session: &Session, state: &UiState) -> &'static str {
+    let page = SheetPage::Model;
+    if is_side_page(page, session, state) && state.skeleton.page == SidePage::Model {
+        "Model facts"
+    } else {
+        page_title(page, session, state)
+    }
 }
 
 /// Whether a sheet lies over the view. A tap on the view shuts it.
@@ -437,7 +454,10 @@ fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiStat
         SheetPage::Model if session.submeshes().selected().is_some() => inspector::show(ui, session, state, commands),
         SheetPage::Model => skeleton::show_inspector(ui, session, &mut state.skeleton, commands),
         SheetPage::ViewMode => {
-            toolbar::view_mode_items(ui, session, commands);
+            let choices = UiBuilder::new()
+                .accessibility_role(Role::RadioGroup)
+                .accessibility_label(title);
+            ui.scope_builder(choices, |ui| toolbar::view_mode_items(ui, session, commands));
         }
         SheetPage::Light => light::show(ui, session, &mut state.cost, commands),
         SheetPage::Overlays => overlays::show(ui, session, &mut state.skeleton, commands),

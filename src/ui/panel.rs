@@ -212,21 +212,34 @@ const LEAST_HEIGHT: f32 = 120.0;
 pub(super) const LEAST_ROOM: f32 = 180.0;
 
 /// A popover of the toolbar. The button opens and closes it. A click elsewhere or Esc closes it.
-pub(super) fn popover(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce(&mut Ui)) {
-    unscrolled_popover(ui, button, width, |ui, most| {
+pub(super) fn popover(ui: &Ui, button: &Response, name: &str, width: f32, contents: impl FnOnce(&mut Ui)) {
+    unscrolled_popover(ui, button, name, width, |ui, most| {
         scrolled("popover", most).show(ui, contents);
     });
 }
 
 /// The same for contents that scroll by themselves; they are given the greatest height.
-pub(super) fn unscrolled_popover(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce(&mut Ui, f32)) {
+pub(super) fn unscrolled_popover(
+    ui: &Ui,
+    button: &Response,
+    name: &str,
+    width: f32,
+    contents: impl FnOnce(&mut Ui, f32),
+) {
     let window = ui.ctx().content_rect().shrink(MARGIN);
     let top = below_bars(ui);
     // A person can move the time while a popover is open. It may cover the sheet above the transport.
     let transport = ui.ctx().read_response(id_of("transport"));
     let bottom = transport.map_or(window.max.y, |transport| transport.rect.min.y - 2.0 * MARGIN);
     let corner = (pos2(window.max.x, top), RectAlign::BOTTOM_END);
-    hang(ui, button, corner, vec2(width, bottom - top - around(ui)), contents);
+    hang(
+        ui,
+        button,
+        name,
+        corner,
+        vec2(width, bottom - top - around(ui)),
+        contents,
+    );
 }
 
 /// A menu below a button. A choice closes it. A menu higher than the window scrolls.
@@ -257,8 +270,15 @@ fn around(ui: &Ui) -> f32 {
 }
 
 /// Shows a popover at a corner, no larger than `size`.
-fn hang(ui: &Ui, button: &Response, (at, align): (Pos2, RectAlign), size: Vec2, contents: impl FnOnce(&mut Ui, f32)) {
-    let name = tell_popup(ui, button, HasPopup::Dialog);
+fn hang(
+    ui: &Ui,
+    button: &Response,
+    name: &str,
+    (at, align): (Pos2, RectAlign),
+    size: Vec2,
+    contents: impl FnOnce(&mut Ui, f32),
+) {
+    tell_popup(ui, button, HasPopup::Dialog);
     Popup::from_toggle_button_response(button)
         .accessible_name(name)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
@@ -286,7 +306,7 @@ pub(super) fn popover_gap(ui: &mut Ui) {
 }
 
 /// A popover above a button at the window's lower edge, as far from the window's sides as the panels are.
-pub(super) fn popover_above(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce(&mut Ui)) {
+pub(super) fn popover_above(ui: &Ui, button: &Response, name: &str, width: f32, contents: impl FnOnce(&mut Ui)) {
     let window = ui.ctx().content_rect().shrink(MARGIN);
     // On a phone the strip has two rows. A popover of the lower row is above both, unless the sheet leaves no room there.
     let above = |top: f32| top - MARGIN - 4.0;
@@ -314,7 +334,7 @@ pub(super) fn popover_above(ui: &Ui, button: &Response, width: f32, contents: im
     let width = width.min(window.width() - around);
     let left = button.rect.min.x.min(window.max.x - width - around).max(window.min.x);
     let corner = (pos2(left, bottom), RectAlign::TOP_START);
-    hang(ui, button, corner, vec2(width, room), |ui, most| {
+    hang(ui, button, name, corner, vec2(width, room), |ui, most| {
         scrolled("popover", most).show(ui, contents);
     });
 }

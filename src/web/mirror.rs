@@ -4,13 +4,13 @@
 
 use std::cell::{Cell, RefCell};
 
-use egui::{Context, Event, Key, Modifiers, RawInput};
+use egui::{Context, Event, Modifiers, RawInput};
 use serde::Serialize as _;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::prelude::*;
 
 use super::{field, sleep};
-use crate::ui::{Mirror, MirrorAction, MirrorChanges, MirrorId};
+use crate::ui::{Mirror, MirrorAction, MirrorChanges, MirrorId, MirrorInput};
 
 /// Without input a tree is told no more often than this.
 const PERIOD_MS: i32 = 250;
@@ -21,12 +21,7 @@ const FRAMES_AFTER_INPUT: u8 = 3;
 #[derive(Debug, Default)]
 pub(super) struct MirrorLink {
     wanted: bool,
-    /// An element of the mirror has the focus of the page.
-    focused: Cell<bool>,
-    /// The widget that has the focus in egui is to let go of it.
-    blurs: Cell<bool>,
-    input: RefCell<Vec<Event>>,
-    modifiers: Cell<Modifiers>,
+    input: RefCell<MirrorInput>,
     /// Frames that tell at once.
     eager: Cell<u8>,
     /// No frame without input tells before this has passed.
@@ -55,12 +50,11 @@ impl MirrorLink {
     /// Does what was asked of an element: `{node, action, value}`. An unknown one is ignored.
     pub(super) fn act(&self, asked: &JsValue) {
         let value = field(asked, "value");
+        let mut input = self.input.borrow_mut();
         let action = match field(asked, "action").as_string().as_deref() {
-            Some("blur") => {
-                // What had the focus for a moment needs no more.
-                self.input.borrow_mut().retain(|event| !MirrorAction::is_focus(event));
-                return self.blurs.set(true);
-            }
+            Some("blur") => return input.blur(),
+            Some("hold") => return input.hold_key(true),
+            Some("release") => return input.hold_key(false),
             Some("click") => Some(MirrorAction::Click),
             Some("focus") => Some(MirrorAction::Focus),
             Some("increment") => Some(MirrorAction::Increment),
@@ -77,7 +71,7 @@ impl MirrorLink {
         let node = field(asked, "node").as_string();
         let node = node.and_then(|text| MirrorId::from_text(&text));
         if let (Some(action), Some(node)) = (action, node) {
-            self.input.borrow_mut().push(action.event(node));
+            input.act(node, action);
         }
     }
 
@@ -93,39 +87,12 @@ impl MirrorLink {
             command: held("ctrlKey") || held("metaKey"),
         };
         let mut input = self.input.borrow_mut();
-        if self.modifiers.replace(modifiers) != modifiers {
-            input.push(Event::ModifiersChanged(modifiers));
-        }
-        let pressed = text("type") == "keydown";
-        let words = text("key");
-        if pressed && !modifiers.command && words.chars().count() == 1 {
-            input.push(Event::Text(words.clone()));
-        }
-        let physical_key = Key::from_name(&text("code"));
-        let Some(key) = Key::from_name(&words).or(physical_key) else {
-            return false;
-        };
-        input.push(Event::Key {
-            key,
-            physical_key,
-            pressed,
-            repeat: false,
-            modifiers,
-        });
-        let scrolls = [
-            Key::ArrowUp,
-            Key::ArrowDown,
-            Key::ArrowLeft,
-            Key::ArrowRight,
-            Key::Space,
-        ];
-        pressed && (crate::ui::owns_key(key, modifiers) || (!modifiers.any() && scrolls.contains(&key)))
+        input.press(&text("key"), &text("code"), text("type") == "keydown", modifiers)
     }
 
     /// Hears whether an element of the mirror has the focus of the page.
     pub(super) fn set_focused(&self, focused: bool) {
-        self.focused.set(focused);
-        self.modifiers.take();
+        self.input.borrow_mut().set_focused(focused);
     }
 
     /// Adds what came in to the input of a frame.
@@ -133,15 +100,7 @@ impl MirrorLink {
         if !self.wanted {
             return;
         }
-        input.events.append(&mut self.input.borrow_mut());
-        if self.blurs.take() {
-            ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
-        }
-        if self.focused.get() {
-            // The elements are the viewer's, as its canvas is.
-            input.focused = true;
-            input.events.retain(|event| *event != Event::WindowFocused(false));
-        }
+        self.input.borrow_mut().begin_frame(ctx, input);
         let only_moves = |event: &Event| {
             matches!(
                 event,

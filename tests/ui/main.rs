@@ -35,6 +35,7 @@ mod pointer;
 mod popovers;
 mod refused;
 mod rigs;
+mod roles;
 mod saving;
 #[path = "../common/shared.rs"]
 mod shared;

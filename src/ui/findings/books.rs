@@ -12,7 +12,7 @@ use crate::session::{OpenModel, Session};
 use crate::ui::error_card::show_excerpt;
 use crate::ui::state::{Request, UiState};
 use crate::ui::theme::Tokens;
-use crate::ui::widgets::{hint_beside, paint_fold_mark, paint_row_ground, pressed_row, pressed_row_height};
+use crate::ui::widgets::{hint_beside, paint_fold_mark, paint_row_ground, pressed_row, pressed_row_height, tell_open};
 
 /// What a book's program does with a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,7 +83,8 @@ pub(in crate::ui) fn show_row(ui: &mut Ui, session: &Session, state: &mut UiStat
     );
     painter.text(rect.right_center(), Align2::RIGHT_CENTER, &value, font, color);
     let name = format!("{long}: {}", value.replace(" ·", ","));
-    response.widget_info(|| WidgetInfo::selected(Role::Button, true, state.diagnostics_open, &name));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+    tell_open(&response, state.diagnostics_open);
     let mut hint: Vec<String> = newest_first(verdicts)
         .map(|verdict| format!("{}: {}", verdict.book.label(), in_words(verdict)))
         .collect();

@@ -4,14 +4,17 @@
 //! only lay things out are gone, items stand in the containers that they need, and what did not change is not told again.
 
 mod aria;
+mod input;
 mod record;
 
 use std::collections::{BTreeMap, HashMap};
 
 use egui::accesskit::{Action, HasPopup, Node, NodeId, Role, Toggled, TreeUpdate};
-use egui::{Context, FullOutput};
+use egui::{Context, FullOutput, Rect};
 
 use aria::{Branch, among_others, around, first_words, is_overlay, is_pressed, items_of, role_of, settle};
+pub use input::MirrorInput;
+pub(super) use input::holds_key;
 pub use record::{MirrorAction, MirrorChanges, MirrorId, MirrorNode};
 
 /// Watches what egui says of its widgets: a plugin of the context, which has to have AccessKit enabled.
@@ -33,11 +36,11 @@ impl egui::Plugin for Mirror {
         "mirror"
     }
 
-    fn output_hook(&mut self, _ctx: &Context, output: &mut FullOutput) {
+    fn output_hook(&mut self, ctx: &Context, output: &mut FullOutput) {
         let output = &output.platform_output;
         // A pass that is done over has half of the tree.
         if let Some(update) = output.accesskit_update.as_ref().filter(|_| !output.requested_discard()) {
-            self.now = Snapshot::of(update);
+            self.now = Snapshot::of(update, &visible_rects(ctx));
         }
     }
 }
@@ -88,8 +91,30 @@ impl Mirror {
     }
 }
 
+/// The visible part of each widget of the pass that has ended. Negative where a widget is scrolled out of view.
+fn visible_rects(ctx: &Context) -> HashMap<MirrorId, Rect> {
+    ctx.viewport(|viewport| {
+        let widgets = viewport.prev_pass.widgets.layers().flat_map(|(_, widgets)| widgets);
+        let visible = widgets.map(|widget| (MirrorId(widget.id.accesskit_id().0), widget.interact_rect));
+        visible.collect()
+    })
+}
+
+/// The part of an element that is visible. One that is scrolled out of view lies as a line at the edge where it went, so that it covers no
+/// other element.
+fn clipped([x, y, width, height]: [f32; 4], visible: Rect) -> [f32; 4] {
+    let along = |start: f32, side: f32, first: f32, last: f32| match first < last {
+        true => [start.max(first), (start + side).min(last) - start.max(first)],
+        false if first <= start => [last - 1.0, 1.0],
+        false => [first, 1.0],
+    };
+    let [x, width] = along(x, width, visible.min.x, visible.max.x);
+    let [y, height] = along(y, height, visible.min.y, visible.max.y);
+    [x, y, width.max(0.0), height.max(0.0)]
+}
+
 impl Snapshot {
-    fn of(update: &TreeUpdate) -> Self {
+    fn of(update: &TreeUpdate, visible: &HashMap<MirrorId, Rect>) -> Self {
         let nodes: HashMap<NodeId, &Node> = update.nodes.iter().map(|(id, node)| (*id, node)).collect();
         let root = update.tree.as_ref().map(|tree| tree.root);
         let mut branches = Vec::new();
@@ -103,7 +128,7 @@ impl Snapshot {
         let mut branches = among_others(MirrorId(root.map_or(0, |root| root.0)), branches);
         branches.sort_by_key(|branch| reading_rank(&branch.node));
         let mut snapshot = Self::default();
-        snapshot.children = snapshot.keep(branches, [0.0; 2]);
+        snapshot.children = snapshot.keep(branches, [0.0; 2], visible);
         snapshot.focus = Some(update.focus)
             .filter(|&focus| Some(focus) != root)
             .map(|focus| MirrorId(focus.0));
@@ -135,22 +160,30 @@ impl Snapshot {
     }
 
     /// Keeps these records, placed from a corner. Returns their ids.
-    fn keep(&mut self, branches: Vec<Branch>, [left, top]: [f32; 2]) -> Vec<MirrorId> {
+    fn keep(
+        &mut self,
+        branches: Vec<Branch>,
+        [left, top]: [f32; 2],
+        visible: &HashMap<MirrorId, Rect>,
+    ) -> Vec<MirrorId> {
         let mut ids = Vec::with_capacity(branches.len());
         for mut branch in branches {
             if is_overlay(&branch) && branch.node.name.is_empty() {
                 branch.node.name = first_words(&branch.children);
             }
             let Branch { mut node, mut children } = branch;
-            if let Some(count) = node.of.filter(|_| items_of(node.role).is_some()) {
+            if let Some(count) = node.of.filter(|_| items_of(node.role).is_some() && node.role != "grid") {
                 // ARIA tells the size of a set with its items.
                 node.of = None;
                 for item in &mut children {
                     item.node.of = item.node.of.or(Some(count));
                 }
             }
+            if let Some(&visible) = visible.get(&node.id).filter(|visible| visible.min.is_finite()) {
+                node.bounds = clipped(node.bounds, visible);
+            }
             let [x, y, ..] = node.bounds;
-            node.children = self.keep(children, [x, y]);
+            node.children = self.keep(children, [x, y], visible);
             (node.bounds[0], node.bounds[1]) = (x - left, y - top);
             ids.push(node.id);
             self.nodes.insert(node.id, node);
@@ -280,8 +313,10 @@ fn record(id: NodeId, node: &Node, role: &'static str, name: String, children: &
         settable: node.supports_action(Action::SetValue),
         // AccessKit counts from 0.
         level: node.level().map(|level| level + usize::from(role == "treeitem")),
-        place: node.position_in_set().map(|place| place + 1),
-        of: node.size_of_set(),
+        place: node.position_in_set().or(node.row_index()).map(|place| place + 1),
+        of: node.size_of_set().or(node.row_count()),
+        active: node.active_descendant().map(|id| MirrorId(id.0)),
+        picks: words(node.author_id()),
         bounds,
         children: Vec::new(),
     }

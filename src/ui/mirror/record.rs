@@ -81,6 +81,10 @@ pub struct MirrorNode {
     pub of: Option<usize>,
     /// Left, top, width and height in points, from the corner of the element around it.
     pub bounds: [f32; 4],
+    /// The one inside of it that its keys act on, while it has the focus itself.
+    pub active: Option<MirrorId>,
+    /// The dialog that it opens: `files` or `clips`. Browsers open one only while they handle the click.
+    pub picks: Option<String>,
     /// In reading order.
     pub children: Vec<MirrorId>,
 }
@@ -126,13 +130,16 @@ pub enum MirrorAction {
 impl MirrorAction {
     /// Whether an input gives a widget the focus.
     pub fn is_focus(event: &Event) -> bool {
-        matches!(
-            event,
-            Event::AccessKitActionRequest(ActionRequest {
-                action: Action::Focus,
-                ..
-            })
-        )
+        Self::asks(event, Action::Focus)
+    }
+
+    /// Whether an input presses a widget without a pointer or a key.
+    pub fn is_click(event: &Event) -> bool {
+        Self::asks(event, Action::Click)
+    }
+
+    fn asks(event: &Event, wanted: Action) -> bool {
+        matches!(event, Event::AccessKitActionRequest(request) if request.action == wanted)
     }
 
     /// As input of egui.

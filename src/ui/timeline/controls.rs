@@ -9,7 +9,7 @@ use crate::model::Clip;
 use crate::session::{Command, PlayCommand, Session};
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, Tokens};
-use crate::ui::widgets::{TypedValue, action_button, control_size, push_button};
+use crate::ui::widgets::{TypedValue, action_button, control_size, hint_of_name, push_button};
 use crate::ui::wording::trimmed;
 
 /// The round button that plays and pauses.
@@ -36,7 +36,7 @@ pub(super) fn play_button(ui: &mut Ui, session: &Session, diameter: f32, command
         actions::PLAY.hint()
     };
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
-    if response.on_hover_text(label).clicked() {
+    if hint_of_name(response, &label).clicked() {
         commands.extend(actions::PLAY.command(session));
     }
 }

@@ -13,8 +13,9 @@ pub(super) use button::{
 pub(super) use color::{color_button, color_picker, gradient_shape, paint_swatch};
 pub(super) use control::{
     SliderNode, arrow_steps, by_finger, chip, chip_size, control_size, elided_name, focus_ring, focused_keys,
-    hint_beside, is_touch, paint_chip, paint_elided, paint_focus_ring, paint_fold_mark, paint_name, paint_row_ground,
-    pressed_chip, pressed_row_height, retain_plain_keys, size_for_touch, slider_keys, tell_popup, walked,
+    hint_beside, hint_of_name, is_touch, paint_chip, paint_elided, paint_focus_ring, paint_fold_mark, paint_name,
+    paint_row_ground, pressed_chip, pressed_row_height, retain_plain_keys, size_for_touch, slider_keys, tell_open,
+    tell_picker, tell_popup, tell_push, walked,
 };
 pub(super) use number::{Slider, TypedValue, number_field};
 pub(super) use row::{

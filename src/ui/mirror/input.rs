@@ -1,0 +1,102 @@
+//! What is done with the elements of the page, on its way to a frame.
+
+use egui::{Context, Event, Id, Key, Modifiers, RawInput};
+
+use super::record::{MirrorAction, MirrorId};
+
+/// Collects what is done with the elements between two frames.
+#[derive(Debug, Default)]
+pub struct MirrorInput {
+    events: Vec<Event>,
+    /// An element has the focus of the page.
+    focused: bool,
+    /// The widget that has the focus in egui is to let go of it.
+    blurs: bool,
+    /// A key is down that the browser turns into clicks or values.
+    holds_key: bool,
+}
+
+impl MirrorInput {
+    /// Does something with an element.
+    pub fn act(&mut self, node: MirrorId, action: MirrorAction) {
+        self.events.push(action.event(node));
+    }
+
+    /// Takes the focus from the widget that has it in egui.
+    pub fn blur(&mut self) {
+        // What had the focus for a moment needs no more.
+        self.events.retain(|event| !MirrorAction::is_focus(event));
+        self.blurs = true;
+    }
+
+    /// Hears whether a key is down that the browser turns into clicks or values: until it is up, what changes is one step to undo.
+    pub fn hold_key(&mut self, holds: bool) {
+        self.holds_key = holds;
+    }
+
+    /// Takes a key of an element, by the names that browsers give to it and to its place. Returns whether the browser should leave it
+    /// alone.
+    pub fn press(&mut self, name: &str, place: &str, pressed: bool, modifiers: Modifiers) -> bool {
+        // Always, since the pointer may have told of others meanwhile.
+        self.events.push(Event::ModifiersChanged(modifiers));
+        if pressed && !modifiers.command && name.chars().count() == 1 {
+            self.events.push(Event::Text(name.to_owned()));
+        }
+        let physical_key = Key::from_name(place);
+        let Some(key) = Key::from_name(name).or(physical_key) else {
+            return false;
+        };
+        self.events.push(Event::Key {
+            key,
+            physical_key,
+            pressed,
+            repeat: false,
+            modifiers,
+        });
+        let scrolls = [
+            Key::ArrowUp,
+            Key::ArrowDown,
+            Key::ArrowLeft,
+            Key::ArrowRight,
+            Key::Space,
+        ];
+        pressed && (crate::ui::owns_key(key, modifiers) || (!modifiers.any() && scrolls.contains(&key)))
+    }
+
+    /// Hears whether an element has the focus of the page.
+    pub fn set_focused(&mut self, focused: bool) {
+        if self.focused != focused {
+            // Keys that come up elsewhere are not heard of.
+            self.events.push(Event::ModifiersChanged(Modifiers::NONE));
+            self.holds_key = false;
+        }
+        self.focused = focused;
+    }
+
+    /// Adds all of it to the input of a frame.
+    pub fn begin_frame(&mut self, ctx: &Context, input: &mut RawInput) {
+        input.events.append(&mut self.events);
+        if std::mem::take(&mut self.blurs) {
+            ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
+        }
+        ctx.data_mut(|data| data.insert_temp(holds_key_id(), self.holds_key));
+        if self.focused {
+            // The elements are the viewer's, as its canvas is. egui would forget the modifiers when the window loses the focus.
+            input.focused = true;
+            for event in &mut input.events {
+                if *event == Event::WindowFocused(false) {
+                    *event = Event::ModifiersChanged(Modifiers::NONE);
+                }
+            }
+        }
+    }
+}
+
+/// Whether a key is down that the browser turns into clicks or values.
+pub(in crate::ui) fn holds_key(ctx: &Context) -> bool {
+    ctx.data(|data| data.get_temp(holds_key_id())).unwrap_or(false)
+}
+
+fn holds_key_id() -> Id {
+    Id::unique("an element of the page holds a key")
+}
