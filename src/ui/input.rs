@@ -104,6 +104,11 @@ fn first_pass(events: &VecDeque<Event>) -> usize {
     events.iter().position(waits).unwrap_or(events.len())
 }
 
+/// Whether it is an arrow key.
+pub(super) fn is_arrow(key: Key) -> bool {
+    matches!(key, Key::ArrowUp | Key::ArrowDown | Key::ArrowLeft | Key::ArrowRight)
+}
+
 /// What holds a value while it changes. What changes until it lets go is one step to undo.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Grip {
@@ -120,24 +125,13 @@ pub(super) enum Grip {
 impl Grip {
     /// What holds a value as a pass begins.
     pub(super) fn now(ctx: &Context) -> Option<Self> {
-        const KEYS: [Key; 8] = [
-            Key::ArrowLeft,
-            Key::ArrowRight,
-            Key::ArrowUp,
-            Key::ArrowDown,
-            Key::PageUp,
-            Key::PageDown,
-            Key::Enter,
-            Key::Space,
-        ];
+        let holds = |&key: &Key| is_arrow(key) || matches!(key, Key::PageUp | Key::PageDown | Key::Enter | Key::Space);
         let (pointer, key, click) = ctx.input(|input| {
-            let key = KEYS.into_iter().any(|key| input.key_down(key));
-            let click = input.events.iter().any(MirrorAction::is_click);
-            (input.pointer.any_down(), key, click)
+            let click = input.events.iter().any(|event| MirrorAction::clicked(event).is_some());
+            (input.pointer.any_down(), input.keys_down.iter().any(holds), click)
         });
-        let focused = ctx.memory(|memory| memory.focused());
         let is_held = key || mirror::holds_key(ctx);
-        match focused {
+        match ctx.memory(|memory| memory.focused()) {
             _ if pointer => Some(Self::Pointer),
             Some(field) if ctx.text_edit_focused() => Some(Self::Field(field)),
             Some(control) if is_held => Some(Self::Key(control)),

@@ -213,16 +213,14 @@ fn narrow(
         .show(ui, room, |ui| {
             let size = vec2(ui.available_width(), widgets::control_size(ui));
             let (bar, _) = ui.allocate_exact_size(size, Sense::hover());
-            let part = |rect| {
-                let layout = Layout::left_to_right(Align::Center);
-                UiBuilder::new().max_rect(rect).layout(layout)
-            };
             let split = bar.max.x - toolbar::narrow_width(ui);
-            let title = bar.with_min_x(bar.min.x + 8.0);
-            let mut title = ui.new_child(part(title.with_max_x(split - ui.spacing().item_spacing.x)));
-            toolbar::title(&mut title, session, None, &mut opens);
-            let mut buttons = ui.new_child(part(bar.with_min_x(split)));
-            toolbar::show_narrow(&mut buttons, session, &mut *state, commands);
+            let left = bar.min.x + 8.0..=split - ui.spacing().item_spacing.x;
+            let [mut left, mut right] = [left, split..=bar.max.x].map(|x| {
+                let part = UiBuilder::new().max_rect(Rect::from_x_y_ranges(x, bar.y_range()));
+                ui.new_child(part.layout(Layout::left_to_right(Align::Center)))
+            });
+            toolbar::title(&mut left, session, None, &mut opens);
+            toolbar::show_narrow(&mut right, session, &mut *state, commands);
         });
     commands.append(&mut opens);
     free.cut_top(bar);
@@ -297,9 +295,11 @@ fn sheet(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, low: bool
         .margin(margin)
         .width(window.width())
         .show(ui, window.with_min_y(free.room().min.y), |ui| {
+            let shows_facts = is_side_page(SheetPage::Model, session, state) && state.skeleton.page == SidePage::Model;
             let label = match state.sheet {
                 Some(_) => "Close the sheet",
-                None => handle_label(session, state),
+                None if shows_facts => "Model facts",
+                None => page_title(SheetPage::Model, session, state),
             };
             let handle = widgets::sheet_handle(ui, label);
             if handle.clicked() {
@@ -350,16 +350,6 @@ fn sheet(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, low: bool
             state.sheet_height.strip = ui.min_rect().max.y - top;
         });
     rect.with_min_y(rect.min.y - rises)
-}
-
-/// What the handle of the shut sheet opens.
-fn handle_label(session: &Session, state: &UiState) -> &'static str {
-    let page = SheetPage::Model;
-    if is_side_page(page, session, state) && state.skeleton.page == SidePage::Model {
-        "Model facts"
-    } else {
-        page_title(page, session, state)
-    }
 }
 
 /// Whether a sheet lies over the view. A tap on the view shuts it.
@@ -454,10 +444,7 @@ fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiStat
         SheetPage::Model if session.submeshes().selected().is_some() => inspector::show(ui, session, state, commands),
         SheetPage::Model => skeleton::show_inspector(ui, session, &mut state.skeleton, commands),
         SheetPage::ViewMode => {
-            let choices = UiBuilder::new()
-                .accessibility_role(Role::RadioGroup)
-                .accessibility_label(title);
-            ui.scope_builder(choices, |ui| toolbar::view_mode_items(ui, session, commands));
+            widgets::choices(ui, title, |ui| toolbar::view_mode_items(ui, session, commands));
         }
         SheetPage::Light => light::show(ui, session, &mut state.cost, commands),
         SheetPage::Overlays => overlays::show(ui, session, &mut state.skeleton, commands),

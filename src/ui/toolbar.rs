@@ -12,7 +12,7 @@ use super::state::{Request, SheetPage, UiState};
 use super::theme::{self, LOW_HEIGHT, LOW_WIDTH, Tokens};
 use super::widgets::{
     ICON_SIZE, MenuLine, TextButton, action_button, chip, chip_size, control_size, hint_beside, hint_of_name,
-    icon_button, keyed_menu_item, menu_item, pressed_chip, push_button, section_name, tell_open, tell_picker,
+    icon_button, keyed_menu_item, menu_item, pressed_chip, push_action, push_button, section_name, tell_open,
     untold_icon_button, valued_menu_item,
 };
 use super::wording::shortened_front;
@@ -67,15 +67,12 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         light_button(ui, session, &mut state.cost, commands);
         overlays_button(ui, session, &mut state.skeleton, commands);
         view_from_menu(ui, session, commands);
-        let frame = &actions::FRAME_MODEL;
-        if push_button(ui, Icon::Frame, &frame.hint()).clicked() {
-            commands.extend(frame.command(session));
-        }
+        push_action(ui, session, &actions::FRAME_MODEL, Icon::Frame, commands);
         action_button(ui, session, &actions::TURNTABLE, Icon::Turntable, commands);
         let save = &actions::SAVE_PICTURE;
         let hint = format!("Picture… ({} saves one at once)", save.key());
         let camera = push_button(ui, Icon::Camera, &hint);
-        popover(ui, &camera, "Picture", 224.0, |ui| {
+        popover(ui, (&camera, "Picture"), 224.0, |ui| {
             section_name(ui, "Picture");
             picture::show(ui, session, state);
         });
@@ -152,7 +149,7 @@ fn light_button(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands:
     let hint = format!("Light and background ({}: {})", other.key(), other.does);
     let icon = button.rect.left_center() + vec2(ui.spacing().button_padding.x + 0.5 * ICON_SIZE, 0.0);
     let button = light::mark_button(ui, session, button, icon, &hint);
-    popover(ui, &button, "Lighting", LIGHT_WIDTH, |ui| {
+    popover(ui, (&button, "Lighting"), LIGHT_WIDTH, |ui| {
         light::show(ui, session, cost, commands)
     });
 }
@@ -164,14 +161,16 @@ fn lighting(session: &Session) -> String {
 fn overlays_button(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
     let on = overlays::any_beside_the_grid(session);
     let button = icon_button(ui, Icon::Layers, "Lines over the model", on);
-    popover(ui, &button, "Lines over the model", 236.0, |ui| {
+    popover(ui, (&button, "Lines over the model"), 236.0, |ui| {
         overlays::show(ui, session, state, commands)
     });
 }
 
 fn open_button(ui: &mut Ui, state: &mut UiState) {
     let open = push_button(ui, Icon::Open, "Open files…");
-    tell_picker(&open, "files");
+    // The page opens the dialog at once, which browsers let it only within the click.
+    ui.ctx()
+        .accesskit_node_builder(open.id, |node| node.set_author_id("files"));
     if open.clicked() {
         state.requests.push(Request::PickFiles);
     }
@@ -182,7 +181,7 @@ fn export_button(ui: &mut Ui, session: &Session, state: &mut UiState, commands: 
     if std::mem::take(&mut state.export.asked) {
         Popup::toggle_id(ui.ctx(), Popup::default_response_id(&button));
     }
-    unscrolled_popover(ui, &button, "Export", export::WIDTH, |ui, most| {
+    unscrolled_popover(ui, (&button, "Export"), export::WIDTH, |ui, most| {
         let top = ui.cursor().min.y;
         section_name(ui, "Export");
         let most = most - (ui.cursor().min.y - top);
@@ -385,11 +384,7 @@ fn file_name(ui: &mut Ui, session: &Session, open: &OpenModel, most: f32, comman
     let Some(place) = place.filter(|_| models.len() > 1) else {
         let words = RichText::new(name).color(Tokens::of(ui).muted);
         let words = Label::new(words).truncate().show_tooltip_when_elided(false);
-        let label = ui.add(words);
-        match name == path {
-            true => hint_of_name(label, name),
-            false => label.on_hover_text(path),
-        };
+        hint_of_name(ui.add(words), path);
         return;
     };
     let text = format!("{name} · {} of {}", place + 1, models.len());

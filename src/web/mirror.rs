@@ -4,13 +4,13 @@
 
 use std::cell::{Cell, RefCell};
 
-use egui::{Context, Event, Modifiers, RawInput};
+use egui::{Context, Event, Key, Modifiers, RawInput};
 use serde::Serialize as _;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::prelude::*;
 
 use super::{field, sleep};
-use crate::ui::{Mirror, MirrorAction, MirrorChanges, MirrorId, MirrorInput};
+use crate::ui::{Mirror, MirrorAction, MirrorId, MirrorInput, owns_key};
 
 /// Without input a tree is told no more often than this.
 const PERIOD_MS: i32 = 250;
@@ -57,8 +57,6 @@ impl MirrorLink {
             Some("release") => return input.hold_key(false),
             Some("click") => Some(MirrorAction::Click),
             Some("focus") => Some(MirrorAction::Focus),
-            Some("increment") => Some(MirrorAction::Increment),
-            Some("decrement") => Some(MirrorAction::Decrement),
             Some("expand") => Some(MirrorAction::Expand),
             Some("collapse") => Some(MirrorAction::Collapse),
             Some("scrollIntoView") => Some(MirrorAction::ScrollIntoView),
@@ -86,8 +84,10 @@ impl MirrorLink {
             mac_cmd: held("metaKey"),
             command: held("ctrlKey") || held("metaKey"),
         };
+        let pressed = text("type") == "keydown";
         let mut input = self.input.borrow_mut();
-        input.press(&text("key"), &text("code"), text("type") == "keydown", modifiers)
+        let key = input.press(&text("key"), &text("code"), pressed, modifiers);
+        key.is_some_and(|key| pressed && (owns_key(key, modifiers) || (!modifiers.any() && scrolls(key))))
     }
 
     /// Hears whether an element of the mirror has the focus of the page.
@@ -140,15 +140,15 @@ impl MirrorLink {
     }
 }
 
-/// What changed since the last call; `None` when nothing did.
-pub(super) fn take_changes(ctx: &Context) -> Option<JsValue> {
-    let changes = ctx.plugin::<Mirror>().lock().take_changes()?;
-    Some(plain(&changes))
+/// Whether a browser scrolls with a key.
+fn scrolls(key: Key) -> bool {
+    use Key::{ArrowDown, ArrowLeft, ArrowRight, ArrowUp, Space};
+    matches!(key, ArrowUp | ArrowDown | ArrowLeft | ArrowRight | Space)
 }
 
-/// As plain objects; a copy with other keys would take longer than the rest.
-fn plain(changes: &MirrorChanges) -> JsValue {
-    let changes = changes.serialize(&Serializer::json_compatible());
+/// What changed since the last call, as plain objects; `None` when nothing did.
+pub(super) fn take_changes(ctx: &Context) -> Option<JsValue> {
+    let changes = ctx.plugin::<Mirror>().lock().take_changes()?;
     // All of our values can be written.
-    changes.unwrap_or(JsValue::NULL)
+    changes.serialize(&Serializer::json_compatible()).ok()
 }

@@ -445,12 +445,10 @@ fn owns_event(event: &egui::Event) -> bool {
 fn fit_canvas(canvas: &HtmlCanvasElement, input: &mut egui::RawInput) {
     let scale = web_sys::window().map_or(1.0, |window| window.device_pixel_ratio()) as f32;
     let points = egui::vec2(canvas.client_width() as f32, canvas.client_height() as f32);
-    let (pixels, wanted) = (
-        egui::vec2(canvas.width() as f32, canvas.height() as f32),
-        (points * scale).round(),
-    );
+    let wanted = (points * scale).round();
+    let off = (wanted - egui::vec2(canvas.width() as f32, canvas.height() as f32)).abs();
     // The points are whole ones, so that the browser's pixels may be some more or less.
-    if points.min_elem() > 0.0 && (pixels - wanted).abs().max_elem() > 2.0 * scale.max(1.0) {
+    if points.min_elem() > 0.0 && off.max_elem() > 2.0 * scale.max(1.0) {
         canvas.set_width(wanted.x as u32);
         canvas.set_height(wanted.y as u32);
         input.screen_rect = Some(egui::Rect::from_min_size(egui::Pos2::ZERO, points));

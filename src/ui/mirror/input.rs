@@ -4,6 +4,8 @@ use egui::{Context, Event, Id, Key, Modifiers, RawInput};
 
 use super::record::{MirrorAction, MirrorId};
 
+const HOLDS_KEY: &str = "an element of the page holds a key";
+
 /// Collects what is done with the elements between two frames.
 #[derive(Debug, Default)]
 pub struct MirrorInput {
@@ -34,18 +36,15 @@ impl MirrorInput {
         self.holds_key = holds;
     }
 
-    /// Takes a key of an element, by the names that browsers give to it and to its place. Returns whether the browser should leave it
-    /// alone.
-    pub fn press(&mut self, name: &str, place: &str, pressed: bool, modifiers: Modifiers) -> bool {
+    /// Takes a key of an element, by the names that browsers give to it and to its place. Returns egui's name of it.
+    pub fn press(&mut self, name: &str, place: &str, pressed: bool, modifiers: Modifiers) -> Option<Key> {
         // Always, since the pointer may have told of others meanwhile.
         self.events.push(Event::ModifiersChanged(modifiers));
         if pressed && !modifiers.command && name.chars().count() == 1 {
             self.events.push(Event::Text(name.to_owned()));
         }
         let physical_key = Key::from_name(place);
-        let Some(key) = Key::from_name(name).or(physical_key) else {
-            return false;
-        };
+        let key = Key::from_name(name).or(physical_key)?;
         self.events.push(Event::Key {
             key,
             physical_key,
@@ -53,24 +52,15 @@ impl MirrorInput {
             repeat: false,
             modifiers,
         });
-        let scrolls = [
-            Key::ArrowUp,
-            Key::ArrowDown,
-            Key::ArrowLeft,
-            Key::ArrowRight,
-            Key::Space,
-        ];
-        pressed && (crate::ui::owns_key(key, modifiers) || (!modifiers.any() && scrolls.contains(&key)))
+        Some(key)
     }
 
     /// Hears whether an element has the focus of the page.
     pub fn set_focused(&mut self, focused: bool) {
-        if self.focused != focused {
+        if std::mem::replace(&mut self.focused, focused) != focused {
             // Keys that come up elsewhere are not heard of.
             self.events.push(Event::ModifiersChanged(Modifiers::NONE));
-            self.holds_key = false;
         }
-        self.focused = focused;
     }
 
     /// Adds all of it to the input of a frame.
@@ -79,24 +69,20 @@ impl MirrorInput {
         if std::mem::take(&mut self.blurs) {
             ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
         }
-        ctx.data_mut(|data| data.insert_temp(holds_key_id(), self.holds_key));
+        ctx.data_mut(|data| data.insert_temp(Id::unique(HOLDS_KEY), self.holds_key));
         if self.focused {
             // The elements are the viewer's, as its canvas is. egui would forget the modifiers when the window loses the focus.
             input.focused = true;
-            for event in &mut input.events {
-                if *event == Event::WindowFocused(false) {
-                    *event = Event::ModifiersChanged(Modifiers::NONE);
-                }
-            }
+            let lost = input
+                .events
+                .iter_mut()
+                .filter(|event| **event == Event::WindowFocused(false));
+            lost.for_each(|event| *event = Event::ModifiersChanged(Modifiers::NONE));
         }
     }
 }
 
 /// Whether a key is down that the browser turns into clicks or values.
 pub(in crate::ui) fn holds_key(ctx: &Context) -> bool {
-    ctx.data(|data| data.get_temp(holds_key_id())).unwrap_or(false)
-}
-
-fn holds_key_id() -> Id {
-    Id::unique("an element of the page holds a key")
+    ctx.data(|data| data.get_temp(Id::unique(HOLDS_KEY))).unwrap_or(false)
 }

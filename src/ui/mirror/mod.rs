@@ -92,11 +92,13 @@ impl Mirror {
 }
 
 /// The visible part of each widget of the pass that has ended. Negative where a widget is scrolled out of view.
-fn visible_rects(ctx: &Context) -> HashMap<MirrorId, Rect> {
+fn visible_rects(ctx: &Context) -> HashMap<NodeId, Rect> {
     ctx.viewport(|viewport| {
         let widgets = viewport.prev_pass.widgets.layers().flat_map(|(_, widgets)| widgets);
-        let visible = widgets.map(|widget| (MirrorId(widget.id.accesskit_id().0), widget.interact_rect));
-        visible.collect()
+        let known = widgets.filter(|widget| widget.rect.is_finite());
+        known
+            .map(|widget| (widget.id.accesskit_id(), widget.interact_rect))
+            .collect()
     })
 }
 
@@ -114,11 +116,11 @@ fn clipped([x, y, width, height]: [f32; 4], visible: Rect) -> [f32; 4] {
 }
 
 impl Snapshot {
-    fn of(update: &TreeUpdate, visible: &HashMap<MirrorId, Rect>) -> Self {
+    fn of(update: &TreeUpdate, visible: &HashMap<NodeId, Rect>) -> Self {
         let nodes: HashMap<NodeId, &Node> = update.nodes.iter().map(|(id, node)| (*id, node)).collect();
         let root = update.tree.as_ref().map(|tree| tree.root);
         let mut branches = Vec::new();
-        let reader = Reader { nodes: &nodes };
+        let reader = Reader { nodes: &nodes, visible };
         for &child in root
             .and_then(|root| nodes.get(&root))
             .map_or(&[][..], |root| root.children())
@@ -128,7 +130,7 @@ impl Snapshot {
         let mut branches = among_others(MirrorId(root.map_or(0, |root| root.0)), branches);
         branches.sort_by_key(|branch| reading_rank(&branch.node));
         let mut snapshot = Self::default();
-        snapshot.children = snapshot.keep(branches, [0.0; 2], visible);
+        snapshot.children = snapshot.keep(branches, [0.0; 2]);
         snapshot.focus = Some(update.focus)
             .filter(|&focus| Some(focus) != root)
             .map(|focus| MirrorId(focus.0));
@@ -160,12 +162,7 @@ impl Snapshot {
     }
 
     /// Keeps these records, placed from a corner. Returns their ids.
-    fn keep(
-        &mut self,
-        branches: Vec<Branch>,
-        [left, top]: [f32; 2],
-        visible: &HashMap<MirrorId, Rect>,
-    ) -> Vec<MirrorId> {
+    fn keep(&mut self, branches: Vec<Branch>, [left, top]: [f32; 2]) -> Vec<MirrorId> {
         let mut ids = Vec::with_capacity(branches.len());
         for mut branch in branches {
             if is_overlay(&branch) && branch.node.name.is_empty() {
@@ -179,11 +176,8 @@ impl Snapshot {
                     item.node.of = item.node.of.or(Some(count));
                 }
             }
-            if let Some(&visible) = visible.get(&node.id).filter(|visible| visible.min.is_finite()) {
-                node.bounds = clipped(node.bounds, visible);
-            }
             let [x, y, ..] = node.bounds;
-            node.children = self.keep(children, [x, y], visible);
+            node.children = self.keep(children, [x, y]);
             (node.bounds[0], node.bounds[1]) = (x - left, y - top);
             ids.push(node.id);
             self.nodes.insert(node.id, node);
@@ -208,6 +202,7 @@ fn reading_rank(node: &MirrorNode) -> usize {
 
 struct Reader<'a> {
     nodes: &'a HashMap<NodeId, &'a Node>,
+    visible: &'a HashMap<NodeId, Rect>,
 }
 
 impl Reader<'_> {
@@ -235,6 +230,9 @@ impl Reader<'_> {
             node: record(id, node, role, name, &children),
             children,
         };
+        if let Some(&visible) = self.visible.get(&id) {
+            branch.node.bounds = clipped(branch.node.bounds, visible);
+        }
         settle(&mut branch);
         // A control cannot have others in it, so what hangs from it follows it, and is called by it.
         let mut hung = match is_pressed(role) {

@@ -115,10 +115,6 @@ pub enum MirrorAction {
     SetNumber(f64),
     /// Sets the text of a field.
     SetText(String),
-    /// One step more.
-    Increment,
-    /// One step less.
-    Decrement,
     /// Unfolds it.
     Expand,
     /// Folds it.
@@ -130,16 +126,15 @@ pub enum MirrorAction {
 impl MirrorAction {
     /// Whether an input gives a widget the focus.
     pub fn is_focus(event: &Event) -> bool {
-        Self::asks(event, Action::Focus)
+        matches!(event, Event::AccessKitActionRequest(request) if request.action == Action::Focus)
     }
 
-    /// Whether an input presses a widget without a pointer or a key.
-    pub fn is_click(event: &Event) -> bool {
-        Self::asks(event, Action::Click)
-    }
-
-    fn asks(event: &Event, wanted: Action) -> bool {
-        matches!(event, Event::AccessKitActionRequest(request) if request.action == wanted)
+    /// The widget that an input presses without a pointer or a key.
+    pub fn clicked(event: &Event) -> Option<NodeId> {
+        match event {
+            Event::AccessKitActionRequest(request) if request.action == Action::Click => Some(request.target_node),
+            _ => None,
+        }
     }
 
     /// As input of egui.
@@ -149,8 +144,6 @@ impl MirrorAction {
             Self::Focus => (Action::Focus, None),
             Self::SetNumber(number) => (Action::SetValue, Some(ActionData::NumericValue(number))),
             Self::SetText(text) => (Action::SetValue, Some(ActionData::Value(text.into()))),
-            Self::Increment => (Action::Increment, None),
-            Self::Decrement => (Action::Decrement, None),
             Self::Expand => (Action::Expand, None),
             Self::Collapse => (Action::Collapse, None),
             Self::ScrollIntoView => (Action::ScrollIntoView, None),

@@ -136,20 +136,13 @@ fn relatives(
         Some(parent) => links(ui, session, state, ["Parent"; 2], &[parent], commands),
         None => drop(value_row(ui, "Parent", "none, it is a root")),
     }
-    match children.len() {
-        0 => drop(value_row(ui, "Children", "none")),
-        count if count <= CHILDREN => links(ui, session, state, ["Children", "Child"], &children, commands),
-        count => {
-            links(
-                ui,
-                session,
-                state,
-                ["Children", "Child"],
-                &children[..CHILDREN],
-                commands,
-            );
-            value_row(ui, "", &format!("and {} more in the tree", count - CHILDREN));
-        }
+    let shown = &children[..children.len().min(CHILDREN)];
+    match shown {
+        [] => drop(value_row(ui, "Children", "none")),
+        _ => links(ui, session, state, ["Children", "Child"], shown, commands),
+    }
+    if let more @ 1.. = children.len() - shown.len() {
+        value_row(ui, "", &format!("and {more} more in the tree"));
     }
     if let Some(partner) = state.mirrored.partner(session, joint) {
         links(ui, session, state, ["Mirror"; 2], &[partner], commands);

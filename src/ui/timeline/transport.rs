@@ -228,7 +228,7 @@ fn speed_button(
         actions::NORMAL_SPEED.key(),
     );
     let response = response.on_hover_text(hint);
-    popover_above(ui, &response, "Speed, range and loop gap", options::WIDTH, |ui| {
+    popover_above(ui, (&response, "Speed, range and loop gap"), options::WIDTH, |ui| {
         options::show(ui, session, state, with_steps, commands);
     });
 }

@@ -60,6 +60,13 @@ pub(crate) fn action_button(ui: &mut Ui, session: &Session, action: &Action, ico
     }
 }
 
+/// The same for an action that does something once.
+pub(crate) fn push_action(ui: &mut Ui, session: &Session, action: &Action, icon: Icon, commands: &mut Vec<Command>) {
+    if push_button(ui, icon, &action.hint()).clicked() {
+        commands.extend(action.command(session));
+    }
+}
+
 /// A button with words, as wide as they need within its least and greatest width. Longer words end in an ellipsis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TextButton<'a> {
@@ -188,11 +195,17 @@ fn menu_line(ui: &mut Ui, text: &str, behind: &str, font_behind: FontId, line: M
         MenuLine::Switch(_) => (Role::MenuItemCheckBox, Role::CheckBox),
     };
     let role = if in_menu { role } else { other_role };
-    response.widget_info(|| match line {
-        MenuLine::Action => WidgetInfo::labeled(role, true, text),
-        _ => WidgetInfo::selected(role, true, on, text),
-    });
+    response.widget_info(|| WidgetInfo::selected(role, true, on, text));
+    if line == MenuLine::Action {
+        tell_push(&response);
+    }
     response
+}
+
+/// A group of choices, one of which is in force, for screen readers. In a menu the lines are that by themselves.
+pub(crate) fn choices<R>(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui) -> R) -> R {
+    let group = UiBuilder::new().accessibility_role(Role::RadioGroup);
+    ui.scope_builder(group.accessibility_label(name), contents).inner
 }
 
 /// The least room on either side of the label of a part.

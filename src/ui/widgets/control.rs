@@ -191,13 +191,6 @@ pub(crate) fn tell_push(response: &Response) {
         .accesskit_node_builder(response.id, |node| node.clear_toggled());
 }
 
-/// Tells the page which file dialog a button opens, `files` or `clips`: the page opens it at once.
-pub(crate) fn tell_picker(button: &Response, dialog: &str) {
-    button
-        .ctx
-        .accesskit_node_builder(button.id, |node| node.set_author_id(dialog));
-}
-
 /// A tooltip at the side of a row of a panel, so that it covers no other row. `row` is the row that the widget is in, if it is not one
 /// itself.
 pub(crate) fn hint_beside(response: Response, row: Option<Rect>, words: &str) -> Response {
