@@ -53,8 +53,7 @@ impl MirrorLink {
         let mut input = self.input.borrow_mut();
         let action = match field(asked, "action").as_string().as_deref() {
             Some("blur") => return input.blur(),
-            Some("hold") => return input.hold_key(true),
-            Some("release") => return input.hold_key(false),
+            Some(how @ ("hold" | "release")) => return input.holds_key = how == "hold",
             Some("click") => Some(MirrorAction::Click),
             Some("focus") => Some(MirrorAction::Focus),
             Some("expand") => Some(MirrorAction::Expand),
@@ -69,7 +68,7 @@ impl MirrorLink {
         let node = field(asked, "node").as_string();
         let node = node.and_then(|text| MirrorId::from_text(&text));
         if let (Some(action), Some(node)) = (action, node) {
-            input.act(node, action);
+            input.events.push(action.event(node));
         }
     }
 

@@ -225,12 +225,12 @@ fn a_key_that_the_page_holds_on_a_slider_is_one_step() {
     let focus = ask_of(&window, "Roughness", Action::Focus);
     page_frame(&mut window, &mut page, [focus]);
     for _ in 0..2 {
-        page.hold_key(true);
+        page.holds_key = true;
         for _ in 0..6 {
             let more = ask_of(&window, "Roughness", Action::Increment);
             page_frame(&mut window, &mut page, [more]);
         }
-        page.hold_key(false);
+        page.holds_key = false;
         page_frame(&mut window, &mut page, []);
     }
     assert_ne!(window.session().materials(), before);

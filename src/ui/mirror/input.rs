@@ -2,38 +2,29 @@
 
 use egui::{Context, Event, Id, Key, Modifiers, RawInput};
 
-use super::record::{MirrorAction, MirrorId};
+use super::record::MirrorAction;
 
 const HOLDS_KEY: &str = "an element of the page holds a key";
 
 /// Collects what is done with the elements between two frames.
 #[derive(Debug, Default)]
 pub struct MirrorInput {
-    events: Vec<Event>,
+    /// Clicks and other actions, as [`MirrorAction::event`] makes them, and keys.
+    pub events: Vec<Event>,
+    /// A key is down that the browser turns into clicks or values: until it is up, what changes is one step to undo.
+    pub holds_key: bool,
     /// An element has the focus of the page.
     focused: bool,
     /// The widget that has the focus in egui is to let go of it.
     blurs: bool,
-    /// A key is down that the browser turns into clicks or values.
-    holds_key: bool,
 }
 
 impl MirrorInput {
-    /// Does something with an element.
-    pub fn act(&mut self, node: MirrorId, action: MirrorAction) {
-        self.events.push(action.event(node));
-    }
-
     /// Takes the focus from the widget that has it in egui.
     pub fn blur(&mut self) {
         // What had the focus for a moment needs no more.
         self.events.retain(|event| !MirrorAction::is_focus(event));
         self.blurs = true;
-    }
-
-    /// Hears whether a key is down that the browser turns into clicks or values: until it is up, what changes is one step to undo.
-    pub fn hold_key(&mut self, holds: bool) {
-        self.holds_key = holds;
     }
 
     /// Takes a key of an element, by the names that browsers give to it and to its place. Returns egui's name of it.

@@ -105,14 +105,12 @@ fn visible_rects(ctx: &Context) -> HashMap<NodeId, Rect> {
 /// The part of an element that is visible. One that is scrolled out of view lies as a line at the edge where it went, so that it covers no
 /// other element.
 fn clipped([x, y, width, height]: [f32; 4], visible: Rect) -> [f32; 4] {
-    let along = |start: f32, side: f32, first: f32, last: f32| match first < last {
-        true => [start.max(first), (start + side).min(last) - start.max(first)],
-        false if first <= start => [last - 1.0, 1.0],
-        false => [first, 1.0],
-    };
-    let [x, width] = along(x, width, visible.min.x, visible.max.x);
-    let [y, height] = along(y, height, visible.min.y, visible.max.y);
-    [x, y, width.max(0.0), height.max(0.0)]
+    let (top, bottom) = (y.max(visible.min.y), (y + height).min(visible.max.y));
+    match (top < bottom, visible.min.y <= y) {
+        (true, _) => [x, top, width, bottom - top],
+        (false, true) => [x, visible.max.y - 1.0, width, 1.0],
+        (false, false) => [x, visible.min.y, width, 1.0],
+    }
 }
 
 impl Snapshot {
@@ -230,7 +228,7 @@ impl Reader<'_> {
             node: record(id, node, role, name, &children),
             children,
         };
-        if let Some(&visible) = self.visible.get(&id) {
+        if let Some(&visible) = self.visible.get(&id).filter(|_| node.bounds().is_some()) {
             branch.node.bounds = clipped(branch.node.bounds, visible);
         }
         settle(&mut branch);

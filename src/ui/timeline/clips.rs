@@ -33,6 +33,7 @@ pub(super) fn button(ui: &mut Ui, session: &Session, state: &mut UiState, width:
         ui.spacing_mut().item_spacing.y = 2.0;
         section_name(ui, &counted(open.model.clips.len(), "clip"));
         let shown = choices(ui, "Clip", |ui| list(ui, session, open, commands));
+        ui.add_space(4.0);
         let add = TextButton::new("Add clips…", "Add clips…").icon(Icon::Plus).show(ui);
         ui.ctx()
             .accesskit_node_builder(add.id, |node| node.set_author_id("clips"));
@@ -63,7 +64,6 @@ fn list(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<Com
             }
         }
     });
-    ui.add_space(4.0);
     chosen
 }
 

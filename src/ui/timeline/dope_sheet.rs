@@ -125,7 +125,7 @@ impl Sheet<'_> {
                 let mut ui = ui.new_child(place.accessibility_parent(response.id).accessibility_role(Role::Row));
                 ui.ctx()
                     .accesskit_node_builder(ui.unique_id(), |node| node.set_row_index(index));
-                let name = self.show_row(&mut ui, rect, row, &response, state, &mut shape, commands);
+                let name = self.show_row(&mut ui, row, &response, state, &mut shape, commands);
                 self.show_cursor(&ui, &response, row.row, &name, &rows, state);
             }
             shape.paint(&ui.painter().with_clip_rect(keys.intersect(ui.clip_rect())));

@@ -107,19 +107,17 @@ impl Sheet<'_> {
         self.activity.get(joint.index()).copied().unwrap_or_default()
     }
 
-    /// Shows it, and adds its marks to those of the other rows. Returns its name.
-    #[expect(clippy::too_many_arguments, reason = "what is shown, and where")]
+    /// Shows it over the whole of `ui`, and adds its marks to those of the other rows. Returns its name.
     pub(super) fn show_row(
         &self,
         ui: &mut Ui,
-        rect: Rect,
         SeenRow { row, folded }: SeenRow<'_>,
         keys: &Response,
         state: &mut TimelineState,
         shape: &mut MarkShape,
         commands: &mut Vec<Command>,
     ) -> Response {
-        let tokens = Tokens::of(ui);
+        let (tokens, rect) = (Tokens::of(ui), ui.max_rect());
         let name_rect = Rect::from_x_y_ranges(rect.min.x..=self.split - 4.0, rect.y_range());
         let time_rect = Rect::from_x_y_ranges(self.split..=rect.max.x, rect.y_range());
         let activity = self.activity_of(row.joint);
