@@ -150,7 +150,7 @@ fn light_button(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands:
     let icon = button.rect.left_center() + vec2(ui.spacing().button_padding.x + 0.5 * ICON_SIZE, 0.0);
     let button = light::mark_button(ui, session, button, icon, &hint);
     popover(ui, (&button, "Lighting"), LIGHT_WIDTH, |ui| {
-        light::show(ui, session, cost, commands)
+        light::show(ui, session, cost, commands);
     });
 }
 
@@ -162,7 +162,7 @@ fn overlays_button(ui: &mut Ui, session: &Session, state: &mut SkeletonState, co
     let on = overlays::any_beside_the_grid(session);
     let button = icon_button(ui, Icon::Layers, "Lines over the model", on);
     popover(ui, (&button, "Lines over the model"), 236.0, |ui| {
-        overlays::show(ui, session, state, commands)
+        overlays::show(ui, session, state, commands);
     });
 }
 
