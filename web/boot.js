@@ -267,7 +267,7 @@ function hideShell() {
   const shell = element("shell");
   shell.classList.add("leaving");
   // The button that has the focus is about to be hidden.
-  if (shell.contains(document.activeElement)) focusView();
+  if (shell.contains(shell.getRootNode().activeElement)) focusView();
   setTimeout(() => (shell.hidden = true), 200);
 }
 
@@ -367,7 +367,7 @@ function keepVisit() {
 function showMirror(detail) {
   if (detail.changes.fresh) {
     mirror?.remove();
-    mirror = mirrorOf(viewer, view.querySelector("canvas"));
+    mirror = mirrorOf(viewer, view.querySelector("canvas"), pick);
   }
   mirror?.take(detail);
 }
@@ -375,7 +375,7 @@ function showMirror(detail) {
 /** A slider that has the focus speaks for itself. */
 function sayUnlessHeard({ text, assertive }) {
   if (assertive) say(text, "alarm");
-  else if (document.activeElement?.type !== "range") say(text);
+  else if (view.getRootNode().activeElement?.type !== "range") say(text);
 }
 
 /** A panic is reported with its words; the error that ends the program follows, and comes alone in old browsers. */

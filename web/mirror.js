@@ -13,7 +13,7 @@ const ON = {
 /** What else is on is chosen, where ARIA knows such a state. */
 const CHOSEN = new Set(["option", "tab", "treeitem", "row", "gridcell", "columnheader", "rowheader"]);
 /** Roles that ARIA lets be folded. */
-const FOLDED = new Set(["button", "link", "row", "tab", "treeitem", "gridcell", "checkbox", "switch", "menuitem", "menuitemcheckbox", "menuitemradio"]);
+const FOLDED = new Set(["button", "link", "row", "tab", "treeitem", "gridcell", "rowheader", "checkbox", "switch", "menuitem", "menuitemcheckbox", "menuitemradio"]);
 /** Roles that have a place among their like. */
 const PLACED = new Set(["treeitem", "option", "listitem", "radio", "tab", "menuitem", "menuitemradio"]);
 /** Roles that are called by `aria-label`; a name of others would be ignored or forbidden. */
@@ -29,14 +29,22 @@ const KEYS_OUT_OF_FIELD = new Set(["Enter", "Escape", "ArrowUp", "ArrowDown"]);
 const LABEL_EVERY_MS = 1000;
 /** How long the viewer has to say where the focus is when its element is gone. */
 const HEIR_AFTER_MS = 400;
+/** A value of the slider that has the focus is read out when it has stood still for so long, unless the person moved it. */
+const RESTS_MS = 600;
+/** What the viewer tells this long after the person moved a slider is what came of it. */
+const ANSWERS_MS = 1000;
 /** So many times the viewer may tell of something else before it has the focus that it was asked for. */
 const MOST_ANSWERS = 4;
 
+/** Ids of elements hold for the whole page. */
+let mirrors = 0;
+
 /**
- * Mirrors the controls of `viewer`, which was made with `mirrored`, behind the canvas that it runs on. Gives what takes its `mirror`
- * events, and `remove()`.
+ * Mirrors the controls of `viewer`, which was made with `mirrored`, behind the canvas that it runs on. `pick(what)` opens the dialog for
+ * "files" or "clips"; a browser may let it only within the click. Gives what takes the viewer's `mirror` events, and `remove()`.
  */
-export function mirrorOf(viewer, canvas) {
+export function mirrorOf(viewer, canvas, pick) {
+  const prefix = `mirror${++mirrors}-`;
   const root = document.createElement("div");
   // By its style object, since a page may forbid styles in attributes.
   Object.assign(root.style, {
@@ -64,11 +72,15 @@ export function mirrorOf(viewer, canvas) {
   let returning = 0; // The timer after which the viewer is told where the focus of the page is.
   let pressing = false; // A pointer went down on the canvas, and takes the focus there by itself.
   const held = new Set(); // Keys that the viewer was told of and that are not up again.
+  const turned = new Set(); // Keys that are down and that the browser turns into clicks and values.
+  let left = false; // The focus went from an element to something else.
 
   const idOf = (element) => element?.closest?.("[data-mirror]")?.dataset.mirror;
   const elementOf = (id) => mirrored.get(id)?.element;
   const active = () => root.getRootNode().activeElement;
   const hasFocus = () => root.contains(active());
+  // In a shadow root it is null that has no focus.
+  const nothingHasFocus = () => [null, root.ownerDocument.body].includes(active());
   const act = (element, action, value) => viewer.act({ node: idOf(element), action, value });
   const askFocus = (id) => {
     // What has it already does not answer.
@@ -86,6 +98,7 @@ export function mirrorOf(viewer, canvas) {
   const create = (record) => {
     const element = document.createElement(tagOf(record));
     element.dataset.mirror = record.id;
+    element.id = prefix + record.id;
     element.style.position = "absolute";
     element.style.margin = element.style.padding = "0";
     element.style.border = "0";
@@ -125,6 +138,9 @@ export function mirrorOf(viewer, canvas) {
     if (on) set(on, record.on);
     if (FOLDED.has(role)) set("aria-expanded", record.expanded);
     set("aria-haspopup", record.popup);
+    set("aria-activedescendant", record.active && prefix + record.active);
+    if (role === "grid") set("aria-rowcount", record.of);
+    if (role === "row") set("aria-rowindex", record.place);
     set("aria-modal", record.modal || null);
     if (role === "treeitem" || role === "heading") set("aria-level", record.level ?? (role === "heading" ? 2 : null));
     if (PLACED.has(role)) {
@@ -151,8 +167,15 @@ export function mirrorOf(viewer, canvas) {
       element.min = record.min ?? 0;
       element.max = record.max ?? 1;
       element.step = record.step ?? "any";
-      element.value = record.number ?? 0;
-      set("aria-valuetext", record.value);
+      entry.show = () => {
+        entry.rests = clearTimeout(entry.rests);
+        element.value = record.number ?? 0;
+        set("aria-valuetext", record.value);
+      };
+      clearTimeout(entry.rests);
+      // What changes by itself, as the time does while a clip plays, would be read out without an end.
+      if (element !== active() || performance.now() - entry.movedAt < ANSWERS_MS) entry.show();
+      else entry.rests = setTimeout(entry.show, RESTS_MS);
       return;
     }
     set("placeholder", record.placeholder);
@@ -177,7 +200,7 @@ export function mirrorOf(viewer, canvas) {
     clearTimeout(lost?.timer);
     const timer = setTimeout(() => {
       lost = null;
-      if (active() !== root.ownerDocument.body) return;
+      if (!nothingHasFocus()) return;
       const away = (element) => {
         const box = element.getBoundingClientRect();
         return Math.hypot(box.left + box.width / 2 - left - width / 2, box.top + box.height / 2 - top - height / 2);
@@ -193,8 +216,8 @@ export function mirrorOf(viewer, canvas) {
   const take = ({ changes, view }) => {
     describe(view);
     const had = active();
-    const within = hasFocus() || (lost !== null && had === root.ownerDocument.body);
-    const place = within && had.getBoundingClientRect();
+    const within = hasFocus() || (lost !== null && nothingHasFocus());
+    const place = within && (had ?? canvas).getBoundingClientRect();
     const opened = [];
     for (const record of changes.changed) {
       const entry = mirrored.get(record.id);
@@ -265,7 +288,14 @@ export function mirrorOf(viewer, canvas) {
     }, LABEL_EVERY_MS);
   };
 
+  /** The viewer makes one step to undo of what a key does until it is up, however often it repeats. */
+  const release = () => {
+    if (turned.size) viewer.act({ action: "release" });
+    turned.clear();
+  };
+
   root.addEventListener("focusin", ({ target }) => {
+    left = false;
     viewer.setMirrorFocused(true);
     if (!follows) {
       askFocus(idOf(target));
@@ -278,7 +308,9 @@ export function mirrorOf(viewer, canvas) {
       entry.typed = undefined;
       update(entry, entry.record);
     }
+    release();
     if (!root.contains(relatedTarget)) {
+      left = relatedTarget !== input;
       viewer.setMirrorFocused(false);
       held.clear();
     }
@@ -286,6 +318,7 @@ export function mirrorOf(viewer, canvas) {
   root.addEventListener("click", ({ target }) => {
     const { record } = mirrored.get(idOf(target)) ?? {};
     if (!record?.clickable || record.disabled) return;
+    if (record.picks && pick) return pick(record.picks);
     // From here on the viewer says where the focus is: what opens may take it before the viewer has told that it was here.
     asked = undefined;
     act(target, "click");
@@ -293,24 +326,34 @@ export function mirrorOf(viewer, canvas) {
   root.addEventListener("input", ({ target }) => {
     const entry = mirrored.get(idOf(target));
     if (!entry) return;
-    if (target.type === "range") return act(target, "setValue", target.valueAsNumber);
-    if (entry.record.role === "spinbutton") return;
+    if (target.type === "range") {
+      entry.movedAt = performance.now();
+      return act(target, "setValue", target.valueAsNumber);
+    }
     entry.typed = target.value;
-    act(target, "setValue", target.value);
+    // A number is taken when it is complete.
+    if (entry.record.role !== "spinbutton") act(target, "setValue", target.value);
   });
-  // A number is taken when it is complete.
   root.addEventListener("change", ({ target }) => {
     const entry = mirrored.get(idOf(target));
     if (entry?.record.role !== "spinbutton") return;
     const number = Number.parseFloat(target.value.replace(",", "."));
     if (Number.isFinite(number)) act(target, "setValue", number);
+    entry.typed = undefined;
     update(entry, entry.record);
   });
   root.addEventListener("keydown", (event) => {
     const { key, code, target } = event;
     if (key === "Tab" || event.isComposing) return;
-    const { record } = mirrored.get(idOf(target)) ?? {};
-    if (!record || isOwnKey(target, record, event)) return;
+    const { record, rests, show } = mirrored.get(idOf(target)) ?? {};
+    if (!record) return;
+    if (isOwnKey(target, record, event)) {
+      if (target.type === "text") return;
+      // A step begins at the value of now.
+      if (rests) show();
+      if (!turned.size) viewer.act({ action: "hold" });
+      return void turned.add(code);
+    }
     if (target.localName === "input" && target.type === "text" && key === "Enter") target.dispatchEvent(new Event("change", { bubbles: true }));
     if ((key === "Enter" || key === " ") && record.clickable && target.localName === "div") {
       event.preventDefault();
@@ -329,6 +372,7 @@ export function mirrorOf(viewer, canvas) {
   });
   root.addEventListener("keyup", (event) => {
     if (held.delete(event.code)) viewer.press(event);
+    if (turned.has(event.code)) release();
   });
 
   // Tab leaves the canvas for the element that the viewer's focus is at, and goes on from there.
@@ -343,9 +387,10 @@ export function mirrorOf(viewer, canvas) {
     pressing = true;
     setTimeout(() => (pressing = false));
   };
-  const leavesForCanvas = ({ relatedTarget }) => {
-    // The keyboard came here from a control, which the viewer still has in its focus.
-    if (!pressing && root.contains(relatedTarget)) askFocus(null);
+  const leavesForCanvas = () => {
+    // The keyboard came here from a control, perhaps by way of the browser's own, and the viewer still has it in its focus.
+    if (!pressing && left) askFocus(null);
+    left = false;
   };
   globalThis.addEventListener("keydown", onTab, true);
   canvas.addEventListener("pointerdown", onPointer, true);

@@ -82,7 +82,7 @@ export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, putAside
       for (let failures = 0; !isOver(); ) {
         // The viewer's hidden input and its mirror stand behind its canvas.
         if (performance.now() - startedAt < SOON_MS) await pause(FIRST_PAUSE_MS);
-        hadFocus ||= document.activeElement !== document.body && canvas.parentElement.contains(document.activeElement);
+        hadFocus ||= canvas.parentElement.contains(canvas.getRootNode().activeElement);
         viewer.stop();
         lostMeanwhile = null;
         endEarlyLosses(reason);

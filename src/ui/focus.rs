@@ -8,6 +8,7 @@ use std::cmp::Reverse;
 use egui::accesskit::{self, Action, ActionRequest};
 use egui::{Context, Event, FocusDirection, Id, Key, LayerId, Modifiers, Order, Popup, Ui};
 
+use super::mirror::MirrorAction;
 use super::panel;
 use super::widgets::paint_focus_ring;
 
@@ -339,12 +340,7 @@ fn is_shown(ctx: &Context, id: Id) -> bool {
 
 /// The widget that a program asks to click.
 fn asked_to_click(ctx: &Context) -> Option<Id> {
-    let target = ctx.input(|input| {
-        input.events.iter().find_map(|event| match event {
-            Event::AccessKitActionRequest(request) if request.action == Action::Click => Some(request.target_node),
-            _ => None,
-        })
-    })?;
+    let target = ctx.input(|input| input.events.iter().find_map(MirrorAction::clicked))?;
     ctx.viewport(|viewport| {
         let widgets = &viewport.this_pass.widgets;
         let mut ids = widgets

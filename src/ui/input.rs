@@ -9,7 +9,7 @@ use std::num::NonZeroUsize;
 
 use egui::{Context, Event, Id, Key, RawInput, Ui};
 
-use super::mirror::MirrorAction;
+use super::mirror::{self, MirrorAction};
 
 /// The most passes of one frame. Events that are left wait for the next frame.
 pub(super) const MOST_PASSES: NonZeroUsize = NonZeroUsize::new(32).unwrap();
@@ -104,6 +104,11 @@ fn first_pass(events: &VecDeque<Event>) -> usize {
     events.iter().position(waits).unwrap_or(events.len())
 }
 
+/// Whether it is an arrow key.
+pub(super) fn is_arrow(key: Key) -> bool {
+    matches!(key, Key::ArrowUp | Key::ArrowDown | Key::ArrowLeft | Key::ArrowRight)
+}
+
 /// What holds a value while it changes. What changes until it lets go is one step to undo.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Grip {
@@ -111,23 +116,26 @@ pub(super) enum Grip {
     Pointer,
     /// The text field that has the focus.
     Field(Id),
-    /// An arrow key in the control that has the focus.
-    Arrow(Id),
+    /// A key in the control that has the focus.
+    Key(Id),
+    /// A screen reader presses a control, in this pass only.
+    Request,
 }
 
 impl Grip {
     /// What holds a value as a pass begins.
     pub(super) fn now(ctx: &Context) -> Option<Self> {
-        const ARROWS: [Key; 4] = [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown];
-        if ctx.input(|input| input.pointer.any_down()) {
-            return Some(Self::Pointer);
-        }
-        let focused = ctx.memory(|memory| memory.focused())?;
-        if ctx.text_edit_focused() {
-            Some(Self::Field(focused))
-        } else {
-            let held = ctx.input(|input| ARROWS.into_iter().any(|key| input.key_down(key)));
-            held.then_some(Self::Arrow(focused))
+        let holds = |&key: &Key| is_arrow(key) || matches!(key, Key::PageUp | Key::PageDown | Key::Enter | Key::Space);
+        let (pointer, key, click) = ctx.input(|input| {
+            let click = input.events.iter().any(|event| MirrorAction::clicked(event).is_some());
+            (input.pointer.any_down(), input.keys_down.iter().any(holds), click)
+        });
+        let is_held = key || mirror::holds_key(ctx);
+        match ctx.memory(|memory| memory.focused()) {
+            _ if pointer => Some(Self::Pointer),
+            Some(field) if ctx.text_edit_focused() => Some(Self::Field(field)),
+            Some(control) if is_held => Some(Self::Key(control)),
+            _ => click.then_some(Self::Request),
         }
     }
 }

@@ -4,6 +4,7 @@ use egui::{Event, Key, Modifiers, Ui};
 
 use super::export;
 use super::findings;
+use super::input::is_arrow;
 use super::layout;
 use super::state::{Request, UiState};
 use super::viewport::{self, FLIGHT_KEYS};
@@ -48,11 +49,6 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
 
 fn is_flight_key(key: Key) -> bool {
     FLIGHT_KEYS.iter().any(|&(flight_key, _)| flight_key == key)
-}
-
-/// In a popover the focus moves with the arrows.
-fn is_arrow(key: Key) -> bool {
-    matches!(key, Key::ArrowUp | Key::ArrowDown | Key::ArrowLeft | Key::ArrowRight)
 }
 
 /// The action of a key that is pressed. Shift is ignored where it has no meaning of its own.

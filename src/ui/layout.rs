@@ -4,7 +4,7 @@
 //! One pass goes from the edges inwards. Each panel gets the room that the panels before it left, and what all of them leave is where
 //! the model is framed.
 
-use egui::{Align2, Id, Margin, Rangef, Rect, Role, Sides, Ui, UiBuilder, Vec2, pos2, vec2};
+use egui::{Align, Align2, Id, Layout, Margin, Rangef, Rect, Role, Sense, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use super::icons::Icon;
 use super::panel::{self, Free, LEAST_ROOM, Panel, mark_transport, scrolled};
@@ -214,15 +214,16 @@ fn narrow(
         .margin(Margin::same(4))
         .width(room.width())
         .show(ui, room, |ui| {
-            let bar = Sides::new().height(widgets::control_size(ui)).shrink_left();
-            bar.show(
-                ui,
-                |ui| {
-                    ui.add_space(8.0);
-                    toolbar::title(ui, session, None, &mut opens);
-                },
-                |ui| toolbar::show_narrow(ui, session, &mut *state, commands),
-            );
+            let size = vec2(ui.available_width(), widgets::control_size(ui));
+            let (bar, _) = ui.allocate_exact_size(size, Sense::hover());
+            let split = bar.max.x - toolbar::narrow_width(ui);
+            let left = bar.min.x + 8.0..=split - ui.spacing().item_spacing.x;
+            let [mut left, mut right] = [left, split..=bar.max.x].map(|x| {
+                let part = UiBuilder::new().max_rect(Rect::from_x_y_ranges(x, bar.y_range()));
+                ui.new_child(part.layout(Layout::left_to_right(Align::Center)))
+            });
+            toolbar::title(&mut left, session, None, &mut opens);
+            toolbar::show_narrow(&mut right, session, &mut *state, commands);
         });
     commands.append(&mut opens);
     free.cut_top(bar);
@@ -302,7 +303,13 @@ fn sheet(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, low: bool
         .margin(margin)
         .width(window.width())
         .show(ui, window.with_min_y(free.room().min.y), |ui| {
-            let handle = widgets::sheet_handle(ui, state.sheet.is_some());
+            let shows_facts = is_side_page(SheetPage::Model, session, state) && state.skeleton.page == SidePage::Model;
+            let label = match state.sheet {
+                Some(_) => "Close the sheet",
+                None if shows_facts => "Model facts",
+                None => page_title(SheetPage::Model, session, state),
+            };
+            let handle = widgets::sheet_handle(ui, label);
             if handle.clicked() {
                 state.sheet = match state.sheet {
                     None => Some(SheetPage::Model),
@@ -445,7 +452,7 @@ fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiStat
         SheetPage::Model if session.submeshes().selected().is_some() => inspector::show(ui, session, state, commands),
         SheetPage::Model => skeleton::show_inspector(ui, session, &mut state.skeleton, commands),
         SheetPage::ViewMode => {
-            toolbar::view_mode_items(ui, session, commands);
+            widgets::choices(ui, title, |ui| toolbar::view_mode_items(ui, session, commands));
         }
         SheetPage::Light => light::show(ui, session, &mut state.cost, commands),
         SheetPage::Overlays => overlays::show(ui, session, &mut state.skeleton, commands),

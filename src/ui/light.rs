@@ -41,8 +41,9 @@ pub(super) fn mark_button(ui: &Ui, session: &Session, button: Response, icon: Po
     let note = format!("While it moves: {}", lowered_words(&lowered));
     ui.painter()
         .circle_filled(icon + vec2(7.0, -7.0), 3.0, Tokens::of(ui).warning);
+    // The note changes while one listens.
     ui.ctx()
-        .accesskit_node_builder(button.id, |node| node.set_description(note.as_str()));
+        .accesskit_node_builder(button.id, |node| node.set_description(words));
     button.on_hover_text(format!("{words}\n{note}"))
 }
 

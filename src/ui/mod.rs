@@ -39,7 +39,7 @@ use egui::{Popup, Rect, Ui};
 pub use announce::{Announcement, view_in_words};
 pub use keys::owns_key;
 pub use message::Messages;
-pub use mirror::{Mirror, MirrorAction, MirrorChanges, MirrorId, MirrorNode};
+pub use mirror::{Mirror, MirrorAction, MirrorChanges, MirrorId, MirrorInput, MirrorNode};
 pub use picture::{picture_name, report_name, sheet_name};
 pub use state::{MAX_PICTURE_SIDE, Request, SheetPage, SheetRequest, UiState};
 pub use theme::Contrast;
@@ -152,7 +152,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     let escape_shut = escape_shuts && ui.input(|input| input.key_pressed(egui::Key::Escape));
     state.focus.end(ui.ctx(), popover_open, escape_shut);
     state.focus.paint(ui);
-    end_edit(state, grip, &mut commands);
+    end_edit(state, grip.filter(|&grip| grip != Grip::Request), &mut commands);
     commands
 }
 

@@ -12,7 +12,7 @@ use super::textures;
 use super::theme::{self, MARGIN, Tokens};
 use super::widgets::{
     MenuLine, RowList, choice_row, hint_beside, is_touch, menu_item, paint_chip, paint_name, paint_swatch, pressed_row,
-    row_icon, rule, section_with_action, tell_popup, value_row,
+    row_icon, rule, section_with_action, tell_open, tell_popup, tell_push, value_row,
 };
 use super::wording::{counted, grouped, measured};
 use crate::diagnostic::Severity;
@@ -144,7 +144,8 @@ fn diagnostics_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let right = rect.right_center();
     paint_chip(ui.painter(), right, Align2::RIGHT_CENTER, &count, color, tokens.field);
     let label = format!("Findings: {count}");
-    response.widget_info(|| WidgetInfo::selected(Role::Button, true, state.diagnostics_open, &label));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
+    tell_open(&response, state.diagnostics_open);
     if hint_beside(response, None, "What was found in the file").clicked() {
         state.diagnostics_open = !state.diagnostics_open;
     }
@@ -286,31 +287,27 @@ impl<'a> SubmeshRow<'a> {
     /// Returns its left edge.
     fn show_end(&self, ui: &Ui, rect: Rect, row: &Response, commands: &mut Vec<Command>) -> f32 {
         let width = if is_touch(ui) { rect.height() } else { ICON_WIDTH };
-        let eye = if self.visible { Icon::Eye } else { Icon::EyeOff };
-        let verb = if self.visible { "Hide" } else { "Show" };
-        let visible = SubmeshCommand::SetVisible {
-            submesh: self.index,
-            visible: !self.visible,
+        let right = rect.max.x + if is_touch(ui) { 0.0 } else { 4.0 };
+        let place = |from_right: f32| {
+            let left = right - from_right * width;
+            Rect::from_x_y_ranges(left..=left + width, rect.y_range())
         };
-        let alone = SubmeshCommand::Solo(self.index);
-        let icons = [
-            (eye, format!("{verb} {}", self.name), false, visible),
-            (
-                Icon::Solo,
-                format!("Show {} alone (Alt click)", self.name),
-                self.alone,
-                alone,
-            ),
-        ];
-        let mut right = rect.max.x + if is_touch(ui) { 0.0 } else { 4.0 };
-        for (icon, label, on, command) in icons {
-            let place = Rect::from_min_max(pos2(right - width, rect.min.y), pos2(right, rect.max.y));
-            right = place.min.x;
-            if row_icon(ui, place, row, icon, &label, on) {
-                commands.push(command.into());
-            }
+        let label = format!("Show {} alone (Alt click)", self.name);
+        if row_icon(ui, place(2.0), row, Icon::Solo, &label, self.alone).clicked() {
+            commands.push(SubmeshCommand::Solo(self.index).into());
         }
-        let count_at = pos2(right - 4.0, rect.center().y);
+        let (eye, verb) = if self.visible {
+            (Icon::Eye, "Hide")
+        } else {
+            (Icon::EyeOff, "Show")
+        };
+        let hide = row_icon(ui, place(1.0), row, eye, &format!("{verb} {}", self.name), false);
+        tell_push(&hide);
+        if hide.clicked() {
+            let (submesh, visible) = (self.index, !self.visible);
+            commands.push(SubmeshCommand::SetVisible { submesh, visible }.into());
+        }
+        let count_at = pos2(place(2.0).min.x - 4.0, rect.center().y);
         let (font, color) = (FontId::proportional(13.0), Tokens::of(ui).muted);
         let painter = ui.painter();
         painter

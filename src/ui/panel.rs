@@ -211,22 +211,25 @@ const LEAST_HEIGHT: f32 = 120.0;
 /// With less room than this above the sheet of a phone a popover covers the sheet. With less below the bars it covers these.
 pub(super) const LEAST_ROOM: f32 = 180.0;
 
+/// The button of a popover, and what the popover is called.
+type Opener<'a> = (&'a Response, &'a str);
+
 /// A popover of the toolbar. The button opens and closes it. A click elsewhere or Esc closes it.
-pub(super) fn popover(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce(&mut Ui)) {
-    unscrolled_popover(ui, button, width, |ui, most| {
+pub(super) fn popover(ui: &Ui, opener: Opener<'_>, width: f32, contents: impl FnOnce(&mut Ui)) {
+    unscrolled_popover(ui, opener, width, |ui, most| {
         scrolled("popover", most).show(ui, contents);
     });
 }
 
 /// The same for contents that scroll by themselves; they are given the greatest height.
-pub(super) fn unscrolled_popover(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce(&mut Ui, f32)) {
+pub(super) fn unscrolled_popover(ui: &Ui, opener: Opener<'_>, width: f32, contents: impl FnOnce(&mut Ui, f32)) {
     let window = ui.ctx().content_rect().shrink(MARGIN);
     let top = below_bars(ui);
     // A person can move the time while a popover is open. It may cover the sheet above the transport.
     let transport = ui.ctx().read_response(id_of("transport"));
     let bottom = transport.map_or(window.max.y, |transport| transport.rect.min.y - 2.0 * MARGIN);
     let corner = (pos2(window.max.x, top), RectAlign::BOTTOM_END);
-    hang(ui, button, corner, vec2(width, bottom - top - around(ui)), contents);
+    hang(ui, opener, corner, vec2(width, bottom - top - around(ui)), contents);
 }
 
 /// A menu below a button. A choice closes it. A menu higher than the window scrolls.
@@ -257,8 +260,14 @@ fn around(ui: &Ui) -> f32 {
 }
 
 /// Shows a popover at a corner, no larger than `size`.
-fn hang(ui: &Ui, button: &Response, (at, align): (Pos2, RectAlign), size: Vec2, contents: impl FnOnce(&mut Ui, f32)) {
-    let name = tell_popup(ui, button, HasPopup::Dialog);
+fn hang(
+    ui: &Ui,
+    (button, name): Opener<'_>,
+    (at, align): (Pos2, RectAlign),
+    size: Vec2,
+    contents: impl FnOnce(&mut Ui, f32),
+) {
+    tell_popup(ui, button, HasPopup::Dialog);
     Popup::from_toggle_button_response(button)
         .accessible_name(name)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
@@ -286,7 +295,7 @@ pub(super) fn popover_gap(ui: &mut Ui) {
 }
 
 /// A popover above a button at the window's lower edge, as far from the window's sides as the panels are.
-pub(super) fn popover_above(ui: &Ui, button: &Response, width: f32, contents: impl FnOnce(&mut Ui)) {
+pub(super) fn popover_above(ui: &Ui, opener: Opener<'_>, width: f32, contents: impl FnOnce(&mut Ui)) {
     let window = ui.ctx().content_rect().shrink(MARGIN);
     // On a phone the strip has two rows. A popover of the lower row is above both, unless the sheet leaves no room there.
     let above = |top: f32| top - MARGIN - 4.0;
@@ -300,7 +309,7 @@ pub(super) fn popover_above(ui: &Ui, button: &Response, width: f32, contents: im
         .into_iter()
         .flatten()
         .find(|&bottom| bottom >= least)
-        .unwrap_or(above(button.rect.min.y));
+        .unwrap_or(above(opener.0.rect.min.y));
     // It scrolls rather than cover the bars at the top, unless the window is low.
     let below_bars = below_bars(ui);
     let is_low = ui.ctx().content_rect().height() < theme::LOW_HEIGHT;
@@ -312,9 +321,9 @@ pub(super) fn popover_above(ui: &Ui, button: &Response, width: f32, contents: im
     let around = around(ui);
     let room = bottom - top - around;
     let width = width.min(window.width() - around);
-    let left = button.rect.min.x.min(window.max.x - width - around).max(window.min.x);
+    let left = opener.0.rect.min.x.min(window.max.x - width - around).max(window.min.x);
     let corner = (pos2(left, bottom), RectAlign::TOP_START);
-    hang(ui, button, corner, vec2(width, room), |ui, most| {
+    hang(ui, opener, corner, vec2(width, room), |ui, most| {
         scrolled("popover", most).show(ui, contents);
     });
 }

@@ -6,7 +6,8 @@ use super::panel::popover_gap;
 use super::state::{MAX_PICTURE_SIDE, UiState};
 use super::theme::Tokens;
 use super::widgets::{
-    MenuLine, TextButton, control_size, menu_item, number_field, progress_bar, section_name, segmented, switch_row,
+    MenuLine, TextButton, choices, control_size, menu_item, number_field, progress_bar, section_name, segmented,
+    switch_row,
 };
 use crate::actions;
 use crate::session::Session;
@@ -26,14 +27,14 @@ const CANCEL_WIDTH: f32 = 70.0;
 /// The contents of the popover and of the sheet's page, below their title.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let size = state.picture.size_in_pixels(ui);
-    if menu_item(ui, "As the window", MenuLine::Choice(state.picture.size.is_none())).clicked() {
-        state.picture.size = None;
-    }
-    for (label, preset) in PRESETS {
-        if menu_item(ui, label, MenuLine::Choice(state.picture.size == Some(preset))).clicked() {
-            state.picture.size = Some(preset);
+    choices(ui, "Size", |ui| {
+        let sizes = PRESETS.map(|(label, preset)| (label, Some(preset)));
+        for (label, size) in [("As the window", None)].into_iter().chain(sizes) {
+            if menu_item(ui, label, MenuLine::Choice(state.picture.size == size)).clicked() {
+                state.picture.size = size;
+            }
         }
-    }
+    });
     ui.add_space(8.0);
     if let Some(typed) = pair_fields(
         ui,

@@ -14,8 +14,9 @@ use super::skeleton::state::{SkeletonState, has_joints};
 use super::state::{Request, SheetPage, UiState};
 use super::theme::{self, LOW_HEIGHT, LOW_WIDTH, Tokens};
 use super::widgets::{
-    ICON_SIZE, MenuLine, TextButton, action_button, chip, chip_size, control_size, hint_beside, icon_button,
-    keyed_menu_item, menu_item, pressed_chip, push_button, section_name, untold_icon_button, valued_menu_item,
+    ICON_SIZE, MenuLine, TextButton, action_button, chip, chip_size, control_size, hint_beside, hint_of_name,
+    icon_button, keyed_menu_item, menu_item, pressed_chip, push_action, push_button, section_name, tell_open,
+    untold_icon_button, valued_menu_item,
 };
 use super::wording::{bytes, shortened_front};
 use super::{export, light, overlays, picture};
@@ -69,19 +70,21 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
         light_button(ui, session, &mut state.cost, commands);
         overlays_button(ui, session, &mut state.skeleton, commands);
         view_from_menu(ui, session, commands);
-        action_button(ui, session, &actions::FRAME_MODEL, Icon::Frame, commands);
+        push_action(ui, session, &actions::FRAME_MODEL, Icon::Frame, commands);
         action_button(ui, session, &actions::TURNTABLE, Icon::Turntable, commands);
         let save = &actions::SAVE_PICTURE;
         let hint = format!("Picture… ({} saves one at once)", save.key());
         let camera = push_button(ui, Icon::Camera, &hint);
-        popover(ui, &camera, 224.0, |ui| {
+        popover(ui, (&camera, "Picture"), 224.0, |ui| {
             section_name(ui, "Picture");
             picture::show(ui, session, state);
         });
         export_button(ui, session, state, commands);
         theme_button(ui, state);
         open_button(ui, state);
-        if icon_button(ui, Icon::Help, &actions::HELP.hint(), state.help_open).clicked() {
+        let help = icon_button(ui, Icon::Help, &actions::HELP.hint(), state.help_open);
+        tell_open(&help, state.help_open);
+        if help.clicked() {
             state.help_open = !state.help_open;
         }
         as_toolbar(ui);
@@ -101,23 +104,29 @@ fn history(session: &Session) -> [(&'static Action, Icon, String); 2] {
     ]
 }
 
-/// In a narrow window, from the right edge. The rarer buttons are in the menu behind the dots, and open pages of the sheet.
+/// The width of the buttons of a narrow window.
+pub(super) fn narrow_width(ui: &Ui) -> f32 {
+    3.0 * control_size(ui) + 2.0 * SPACING
+}
+
+/// In a narrow window. The rarer buttons are in the menu behind the dots, and open pages of the sheet.
 pub(super) fn show_narrow(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.x = SPACING;
+    let shown = state.sheet == Some(SheetPage::Light);
+    let lighting = lighting(session);
+    let button = untold_icon_button(ui, Icon::Sun, &lighting, shown);
+    let icon = button.rect.center();
+    let button = light::mark_button(ui, session, button, icon, "Light and background");
+    tell_open(&button, shown);
+    if button.clicked() {
+        state.sheet = (!shown).then_some(SheetPage::Light);
+    }
+    open_button(ui, state);
     let dots = push_button(ui, Icon::Dots, "More");
     let width = if is_low(ui) { 420.0 } else { 230.0 };
     popover_menu(ui, &dots, RectAlign::BOTTOM_END, width, |ui| {
         more_menu(ui, session, state, commands);
     });
-    open_button(ui, state);
-    let shown = state.sheet == Some(SheetPage::Light);
-    let lighting = lighting(session);
-    let button = untold_icon_button(ui, Icon::Sun, &lighting, shown);
-    let icon = button.rect.center();
-    let button = light::mark_button(ui, session, button, icon, &lighting);
-    if button.clicked() {
-        state.sheet = (!shown).then_some(SheetPage::Light);
-    }
     as_toolbar(ui);
 }
 
@@ -143,7 +152,9 @@ fn light_button(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands:
     let hint = format!("Light and background ({}: {})", other.key(), other.does);
     let icon = button.rect.left_center() + vec2(ui.spacing().button_padding.x + 0.5 * ICON_SIZE, 0.0);
     let button = light::mark_button(ui, session, button, icon, &hint);
-    popover(ui, &button, LIGHT_WIDTH, |ui| light::show(ui, session, cost, commands));
+    popover(ui, (&button, "Lighting"), LIGHT_WIDTH, |ui| {
+        light::show(ui, session, cost, commands);
+    });
 }
 
 fn lighting(session: &Session) -> String {
@@ -154,11 +165,17 @@ fn lighting(session: &Session) -> String {
 fn overlays_button(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
     let on = overlays::any_beside_the_grid(session);
     let button = icon_button(ui, Icon::Layers, "Lines over the model", on);
-    popover(ui, &button, 236.0, |ui| overlays::show(ui, session, state, commands));
+    popover(ui, (&button, "Lines over the model"), 236.0, |ui| {
+        overlays::show(ui, session, state, commands);
+    });
 }
 
 fn open_button(ui: &mut Ui, state: &mut UiState) {
-    if push_button(ui, Icon::Open, &actions::OPEN_FILES.hint()).clicked() {
+    let open = push_button(ui, Icon::Open, &actions::OPEN_FILES.hint());
+    // The page opens the dialog at once, which browsers let it only within the click.
+    ui.ctx()
+        .accesskit_node_builder(open.id, |node| node.set_author_id("files"));
+    if open.clicked() {
         state.requests.push(Request::PickFiles);
     }
 }
@@ -168,7 +185,7 @@ fn export_button(ui: &mut Ui, session: &Session, state: &mut UiState, commands: 
     if std::mem::take(&mut state.export.asked) {
         Popup::toggle_id(ui.ctx(), Popup::default_response_id(&button));
     }
-    unscrolled_popover(ui, &button, export::WIDTH, |ui, most| {
+    unscrolled_popover(ui, (&button, "Export"), export::WIDTH, |ui, most| {
         let top = ui.cursor().min.y;
         section_name(ui, "Export");
         let most = most - (ui.cursor().min.y - top);
@@ -371,7 +388,7 @@ fn file_name(ui: &mut Ui, session: &Session, open: &OpenModel, most: f32, comman
     let Some(place) = place.filter(|_| models.len() > 1) else {
         let words = RichText::new(name).color(Tokens::of(ui).muted);
         let words = Label::new(words).truncate().show_tooltip_when_elided(false);
-        ui.add(words).on_hover_text(path);
+        hint_of_name(ui.add(words), path);
         return;
     };
     let text = format!("{name} · {} of {}", place + 1, models.len());
@@ -436,7 +453,8 @@ fn file_line(ui: &mut Ui, file: &File, is_open: bool, commands: &mut Vec<Command
 /// How many findings there are. Returns whether the person wants to see or to hide them.
 pub(super) fn findings_chip(ui: &mut Ui, is_open: bool, count: &str, color: Color32) -> bool {
     let response = pressed_chip(ui, count, color, is_open);
-    response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_open, format!("Show {count}")));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Show {count}")));
+    tell_open(&response, is_open);
     let hint = actions::FINDINGS.hint_of("What was found in the file");
     response.on_hover_text(hint).clicked()
 }

@@ -10,7 +10,7 @@ use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::prelude::*;
 
 use super::{field, sleep};
-use crate::ui::{Mirror, MirrorAction, MirrorChanges, MirrorId};
+use crate::ui::{Mirror, MirrorAction, MirrorId, MirrorInput, owns_key};
 
 /// Without input a tree is told no more often than this.
 const PERIOD_MS: i32 = 250;
@@ -21,12 +21,7 @@ const FRAMES_AFTER_INPUT: u8 = 3;
 #[derive(Debug, Default)]
 pub(super) struct MirrorLink {
     wanted: bool,
-    /// An element of the mirror has the focus of the page.
-    focused: Cell<bool>,
-    /// The widget that has the focus in egui is to let go of it.
-    blurs: Cell<bool>,
-    input: RefCell<Vec<Event>>,
-    modifiers: Cell<Modifiers>,
+    input: RefCell<MirrorInput>,
     /// Frames that tell at once.
     eager: Cell<u8>,
     /// No frame without input tells before this has passed.
@@ -55,16 +50,12 @@ impl MirrorLink {
     /// Does what was asked of an element: `{node, action, value}`. An unknown one is ignored.
     pub(super) fn act(&self, asked: &JsValue) {
         let value = field(asked, "value");
+        let mut input = self.input.borrow_mut();
         let action = match field(asked, "action").as_string().as_deref() {
-            Some("blur") => {
-                // What had the focus for a moment needs no more.
-                self.input.borrow_mut().retain(|event| !MirrorAction::is_focus(event));
-                return self.blurs.set(true);
-            }
+            Some("blur") => return input.blur(),
+            Some(how @ ("hold" | "release")) => return input.holds_key = how == "hold",
             Some("click") => Some(MirrorAction::Click),
             Some("focus") => Some(MirrorAction::Focus),
-            Some("increment") => Some(MirrorAction::Increment),
-            Some("decrement") => Some(MirrorAction::Decrement),
             Some("expand") => Some(MirrorAction::Expand),
             Some("collapse") => Some(MirrorAction::Collapse),
             Some("scrollIntoView") => Some(MirrorAction::ScrollIntoView),
@@ -77,7 +68,7 @@ impl MirrorLink {
         let node = field(asked, "node").as_string();
         let node = node.and_then(|text| MirrorId::from_text(&text));
         if let (Some(action), Some(node)) = (action, node) {
-            self.input.borrow_mut().push(action.event(node));
+            input.events.push(action.event(node));
         }
     }
 
@@ -92,40 +83,15 @@ impl MirrorLink {
             mac_cmd: held("metaKey"),
             command: held("ctrlKey") || held("metaKey"),
         };
-        let mut input = self.input.borrow_mut();
-        if self.modifiers.replace(modifiers) != modifiers {
-            input.push(Event::ModifiersChanged(modifiers));
-        }
         let pressed = text("type") == "keydown";
-        let words = text("key");
-        if pressed && !modifiers.command && words.chars().count() == 1 {
-            input.push(Event::Text(words.clone()));
-        }
-        let physical_key = Key::from_name(&text("code"));
-        let Some(key) = Key::from_name(&words).or(physical_key) else {
-            return false;
-        };
-        input.push(Event::Key {
-            key,
-            physical_key,
-            pressed,
-            repeat: false,
-            modifiers,
-        });
-        let scrolls = [
-            Key::ArrowUp,
-            Key::ArrowDown,
-            Key::ArrowLeft,
-            Key::ArrowRight,
-            Key::Space,
-        ];
-        pressed && (crate::ui::owns_key(key, modifiers) || (!modifiers.any() && scrolls.contains(&key)))
+        let mut input = self.input.borrow_mut();
+        let key = input.press(&text("key"), &text("code"), pressed, modifiers);
+        key.is_some_and(|key| pressed && (owns_key(key, modifiers) || (!modifiers.any() && scrolls(key))))
     }
 
     /// Hears whether an element of the mirror has the focus of the page.
     pub(super) fn set_focused(&self, focused: bool) {
-        self.focused.set(focused);
-        self.modifiers.take();
+        self.input.borrow_mut().set_focused(focused);
     }
 
     /// Adds what came in to the input of a frame.
@@ -133,15 +99,7 @@ impl MirrorLink {
         if !self.wanted {
             return;
         }
-        input.events.append(&mut self.input.borrow_mut());
-        if self.blurs.take() {
-            ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
-        }
-        if self.focused.get() {
-            // The elements are the viewer's, as its canvas is.
-            input.focused = true;
-            input.events.retain(|event| *event != Event::WindowFocused(false));
-        }
+        self.input.borrow_mut().begin_frame(ctx, input);
         let only_moves = |event: &Event| {
             matches!(
                 event,
@@ -181,15 +139,15 @@ impl MirrorLink {
     }
 }
 
-/// What changed since the last call; `None` when nothing did.
-pub(super) fn take_changes(ctx: &Context) -> Option<JsValue> {
-    let changes = ctx.plugin::<Mirror>().lock().take_changes()?;
-    Some(plain(&changes))
+/// Whether a browser scrolls with a key.
+fn scrolls(key: Key) -> bool {
+    use Key::{ArrowDown, ArrowLeft, ArrowRight, ArrowUp, Space};
+    matches!(key, ArrowUp | ArrowDown | ArrowLeft | ArrowRight | Space)
 }
 
-/// As plain objects; a copy with other keys would take longer than the rest.
-fn plain(changes: &MirrorChanges) -> JsValue {
-    let changes = changes.serialize(&Serializer::json_compatible());
+/// What changed since the last call, as plain objects; `None` when nothing did.
+pub(super) fn take_changes(ctx: &Context) -> Option<JsValue> {
+    let changes = ctx.plugin::<Mirror>().lock().take_changes()?;
     // All of our values can be written.
-    changes.unwrap_or(JsValue::NULL)
+    changes.serialize(&Serializer::json_compatible()).ok()
 }

@@ -212,6 +212,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
     let frames_rendered = Rc::new(Cell::new(0));
     let (tell_of_loss, loss) = mpsc::channel();
     let shell = Shell {
+        canvas: canvas.clone(),
         app: Rc::clone(&app),
         shared: Rc::clone(shared),
         start,
@@ -298,6 +299,7 @@ fn take_prints(runner: &eframe::WebRunner, canvas: &HtmlCanvasElement, app: &App
 
 /// What eframe runs: the app, and what the page does for it.
 struct Shell {
+    canvas: HtmlCanvasElement,
     app: AppSlot,
     shared: Rc<Shared>,
     start: u32,
@@ -415,6 +417,7 @@ impl Shell {
 
 impl eframe::App for Shell {
     fn raw_input_hook(&mut self, ctx: &egui::Context, input: &mut egui::RawInput) {
+        fit_canvas(&self.canvas, input);
         self.shared.mirror.begin_frame(ctx, input);
     }
 
@@ -485,6 +488,21 @@ fn owns_event(event: &egui::Event) -> bool {
         egui::Event::Key { key, modifiers, .. } => crate::ui::owns_key(*key, *modifiers),
         egui::Event::Text(_) | egui::Event::Copy | egui::Event::Cut => false,
         _ => true,
+    }
+}
+
+/// Gives the canvas as many pixels as it has on the display. A browser that emulates a device reports them without the device's scale, and
+/// eframe believes that.
+fn fit_canvas(canvas: &HtmlCanvasElement, input: &mut egui::RawInput) {
+    let scale = web_sys::window().map_or(1.0, |window| window.device_pixel_ratio()) as f32;
+    let points = egui::vec2(canvas.client_width() as f32, canvas.client_height() as f32);
+    let wanted = (points * scale).round();
+    let off = (wanted - egui::vec2(canvas.width() as f32, canvas.height() as f32)).abs();
+    // The points are whole ones, so that the browser's pixels may be some more or less.
+    if points.min_elem() > 0.0 && off.max_elem() > 2.0 * scale.max(1.0) {
+        canvas.set_width(wanted.x as u32);
+        canvas.set_height(wanted.y as u32);
+        input.screen_rect = Some(egui::Rect::from_min_size(egui::Pos2::ZERO, points));
     }
 }
 

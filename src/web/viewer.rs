@@ -99,7 +99,8 @@ impl Viewer {
     }
 
     /// Does what a person did with an element of the mirror: `{node, action, value}`, where the action is `click`, `focus`, `setValue`,
-    /// `increment`, `decrement`, `expand`, `collapse` or `scrollIntoView`; `{action: "blur"}` lets go of the focus within the viewer.
+    /// `expand`, `collapse` or `scrollIntoView`; `{action: "blur"}` lets go of the focus within the viewer. From `{action: "hold"}` to
+    /// `{action: "release"}` what changes is one step to undo.
     pub fn act(&self, asked: &JsValue) {
         self.shared.mirror.act(asked);
         self.shared.request_repaint();

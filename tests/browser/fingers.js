@@ -79,3 +79,17 @@ test("on a phone that is turned on its side the model makes way for what is open
   await page.touchscreen.tap(...LOW_SHEET_BUTTON);
   await until(page, ({ camera }) => near(apart(camera, low), 0, 1e-3));
 });
+
+test("a device of two pixels to the point that the browser emulates has the page at its size", { own: true }, async (page) => {
+  const devtools = await page.context().newCDPSession(page);
+  await devtools.send("Emulation.setDeviceMetricsOverride", { width: 390, height: 844, deviceScaleFactor: 2, mobile: true });
+  const more = page.getByRole("button", { name: "More" });
+  await more.waitFor({ state: "attached" });
+  await atRest(page);
+  const seen = await page.evaluate(() => [devicePixelRatio, document.querySelector("canvas").width, document.querySelector("canvas").height]);
+  assert.deepEqual(seen, [2, 780, 1688]);
+  const box = await more.boundingBox();
+  assert.ok(box.x > 300 && box.x + box.width <= 390, `${JSON.stringify(box)} is at the right edge`);
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  await page.getByRole("menuitem", { name: /^View mode/ }).waitFor({ state: "attached" });
+});

@@ -393,7 +393,7 @@ fn arrows_go_from_key_to_key_and_from_row_to_row() {
     // Left of the first key is the name, which folds its branch.
     window.press(Modifiers::NONE, Key::Home);
     window.press(Modifiers::NONE, Key::ArrowLeft);
-    assert_eq!(cell(&window), "Bone 1");
+    assert_eq!(cell(&window), "Bone 1, 3 keys");
     window.press(Modifiers::NONE, Key::ArrowLeft);
     assert_eq!(rows(&window).len(), 2);
     window.press(Modifiers::NONE, Key::End);
@@ -427,7 +427,7 @@ fn it_is_a_grid_whose_rows_select_and_fold() {
     let grid = window.node("Keys of all bones");
     assert_eq!(grid.role(), Role::Grid);
     let row = window.node("Bone 1, 31 keys");
-    assert_eq!(row.role(), Role::Row);
+    assert_eq!(row.role(), Role::RowHeader);
     let above = std::iter::successors(row.parent(), |node| node.parent());
     assert!(
         above.into_iter().any(|node| node.role() == Role::Grid),
@@ -466,7 +466,7 @@ fn bones_go_by_their_names() {
     window.apply(NameCommand::Rename { joint, name });
     window.click("Tail, 31 keys");
     window.click("Sheet: Curves");
-    window.rect("Curves of Tail, rotation at 0.00 s: x ");
+    window.rect("Curves of Tail, rotation");
 }
 
 #[test]
@@ -656,12 +656,7 @@ fn curves_are_read_by_keyboard_and_their_lines_are_hidden() {
     window.ask("rotation y", Action::Click, None);
     let line = window.node("rotation y");
     assert_eq!((line.role(), line.toggled()), (Role::CheckBox, Some(Toggled::False)));
-    let curves = window.named(|name| name.starts_with("Curves of Bone 4")).remove(0).0;
-    assert_eq!(
-        curves,
-        "Curves of Bone 4, rotation at 0.00 s: x 0.0000, z 0.0000, w 1.0000"
-    );
-    window.ask(&curves, Action::Focus, None);
+    window.ask("Curves of Bone 4, rotation", Action::Focus, None);
     let key = |window: &Window| window.focused().expect("a key has the focus");
     assert_eq!(key(&window), "rotation x 0.0000, key 1 of 31, frame 0, 0.00 s");
     for (key, frame) in [(Key::ArrowRight, 1), (Key::End, 30), (Key::ArrowLeft, 29)] {
@@ -700,7 +695,7 @@ fn curves_show_the_chosen_bone_and_follow_the_choices() {
     window.click("Sheet: Dope sheet");
     window.click("Bone 4, ");
     window.click("Sheet: Curves");
-    window.rect("Curves of Bone 4, rotation at 0.00 s: x 0.0000, y 0.0000, z 0.0000, w 1.0000");
+    window.rect("Curves of Bone 4, rotation");
     let legend = |window: &Window| {
         let mut words = window.named(|name| name.starts_with("t 0")).remove(0).0;
         for part in ["translation", "rotation", "scale"] {

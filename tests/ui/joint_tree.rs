@@ -157,7 +157,7 @@ fn keys_walk_through_the_tree_and_only_enter_selects() {
 }
 
 #[test]
-fn letters_find_a_bone_and_are_no_shortcuts_in_the_tree() {
+fn letters_find_a_bone_and_only_those_that_no_bone_begins_with_are_shortcuts() {
     let mut window = tree(WIDE, 300);
     window.apply(NameCommand::Rename {
         joint: JointIndex(250),
@@ -186,6 +186,11 @@ fn letters_find_a_bone_and_are_no_shortcuts_in_the_tree() {
         row.max.y < window.rect("Play").min.y && row.min.y > 50.0,
         "it came into view: {row}"
     );
+    window.wait(1.5);
+    window.press(Modifiers::NONE, Key::E);
+    assert!(window.shows("Export"), "no bone begins with E");
+    window.press(Modifiers::NONE, Key::Escape);
+    assert_eq!(focused(&window), "left wrist, 6 vertices");
 }
 
 #[test]

@@ -303,10 +303,10 @@ fn the_legend_lies_on_no_panel_and_not_on_the_model() {
             assert_inside(&window, size);
             assert_model_is_free(&mut window, size);
 
-            window.apply(JointCommand::Select(Some(JointIndex(0))));
             if narrow {
                 window.click("Model facts");
             }
+            window.apply(JointCommand::Select(Some(JointIndex(0))));
             assert_model_is_free(&mut window, size);
         }
     }

@@ -36,6 +36,7 @@ mod pointer;
 mod popovers;
 mod refused;
 mod rigs;
+mod roles;
 mod saving;
 #[path = "../common/shared.rs"]
 mod shared;

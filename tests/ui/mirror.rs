@@ -1,8 +1,8 @@
 //! What a page mirrors of the interface for screen readers, and what it asks to be done.
 
 use bindpose::session::File;
-use bindpose::ui::{Mirror, MirrorAction, MirrorChanges, MirrorId, MirrorNode};
-use egui::Event;
+use bindpose::ui::{Mirror, MirrorAction, MirrorChanges, MirrorId, MirrorInput, MirrorNode};
+use egui::{Event, Modifiers, RawInput};
 
 use crate::page::{WIDE, Window, window};
 use crate::{models, rigs};
@@ -115,4 +115,59 @@ fn an_id_goes_to_the_page_and_back() {
         assert_eq!(MirrorId::from_text(text.as_str().expect("a text")), Some(node.id));
     }
     assert_eq!(MirrorId::from_text("no number"), None);
+}
+
+/// What a frame hears of the page's elements, and what modifiers it leaves.
+fn frame_of(window: &mut Window, page: &mut MirrorInput, events: Vec<Event>) -> Modifiers {
+    let mut input = RawInput {
+        events,
+        ..RawInput::default()
+    };
+    page.begin_frame(&window.harness.ctx, &mut input);
+    window.frame(input.events);
+    window.harness.ctx.input(|input| input.modifiers)
+}
+
+#[test]
+fn modifiers_that_come_up_elsewhere_do_not_stay() {
+    let (mut window, _) = mirrored(vec![rigs::rig(12, 30)]);
+    let mut page = MirrorInput::default();
+    page.set_focused(true);
+    page.press("Shift", "ShiftLeft", true, Modifiers::SHIFT);
+    assert_eq!(frame_of(&mut window, &mut page, Vec::new()), Modifiers::SHIFT);
+    page.set_focused(true);
+    assert_eq!(
+        frame_of(&mut window, &mut page, Vec::new()),
+        Modifiers::SHIFT,
+        "it is still down, and comes up at the next element"
+    );
+    page.press("Shift", "ShiftLeft", false, Modifiers::NONE);
+    assert_eq!(frame_of(&mut window, &mut page, Vec::new()), Modifiers::NONE);
+
+    page.press("Alt", "AltLeft", true, Modifiers::ALT);
+    frame_of(&mut window, &mut page, Vec::new());
+    page.set_focused(false);
+    assert_eq!(
+        frame_of(&mut window, &mut page, Vec::new()),
+        Modifiers::NONE,
+        "it comes up elsewhere"
+    );
+}
+
+#[test]
+fn modifiers_that_the_canvas_heard_of_end_as_the_focus_goes_to_an_element() {
+    let (mut window, _) = mirrored(vec![rigs::rig(12, 30)]);
+    let mut page = MirrorInput::default();
+    let shift = vec![Event::ModifiersChanged(Modifiers::SHIFT)];
+    assert_eq!(frame_of(&mut window, &mut page, shift), Modifiers::SHIFT);
+    page.set_focused(true);
+    frame_of(&mut window, &mut page, Vec::new());
+    let lost = vec![Event::ModifiersChanged(Modifiers::SHIFT), Event::WindowFocused(false)];
+    assert_eq!(frame_of(&mut window, &mut page, lost), Modifiers::NONE);
+    page.press("a", "KeyA", true, Modifiers::NONE);
+    assert_eq!(
+        frame_of(&mut window, &mut page, vec![Event::ModifiersChanged(Modifiers::ALT)]),
+        Modifiers::NONE,
+        "a key says what is held, whatever the pointer told before"
+    );
 }

@@ -502,7 +502,7 @@ fn a_vertex_explained_with_the_matrices_of_a_bone() {
 #[test]
 fn a_vertex_explained_in_the_sheet_of_a_phone() {
     let then = vec![JointCommand::SelectVertex(Some(4_962)).into()];
-    let clicks = ["Model facts", "Explain", "Unfold the matrices of Bone 15"];
+    let clicks = ["Inspector", "Explain", "Unfold the matrices of Bone 15"];
     // Higher than a phone, so that all of it is seen without scrolling.
     let size = Vec2::new(PHONE.x, 1_800.0);
     compare(
@@ -521,7 +521,7 @@ fn what_is_opened_on_a_phone_on_its_side() {
     let size = Vec2::new(844.0, 390.0);
     compare(
         "low-light-weights",
-        &draw_after(size, Theme::Light, true, inspected(), &["Model facts"]),
+        &draw_after(size, Theme::Light, true, inspected(), &["Inspector"]),
     );
     let then = vec![JointCommand::Select(Some(JointIndex(2))).into()];
     let clicks = ["Dope sheet and", "Sheet: Curves"];

@@ -1,10 +1,13 @@
 //! Undo and redo by keys and buttons, and what is one step: a drag, a held arrow key, a typed number.
 
 use bindpose::session::{HistoryCommand, Session};
-use egui::{Event, Key, Modifiers, Pos2, lerp, vec2};
+use bindpose::ui::MirrorInput;
+use egui::accesskit::{Action, ActionRequest};
+use egui::{Event, Key, Modifiers, Pos2, RawInput, lerp, vec2};
 
 use crate::models::moving;
 use crate::page::{PHONE, WIDE, Window, touch_window, window};
+use crate::rigs::rig;
 
 const CTRL: Modifiers = Modifiers::COMMAND;
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
@@ -194,4 +197,77 @@ fn a_bracket_of_the_range_that_is_dragged_is_one_step() {
     );
     window.press(CTRL, Key::Z);
     assert_eq!(window.session().playback().range_secs(), None);
+}
+
+/// Asks for something as the page does, in one frame with other input.
+fn ask_of(window: &Window, name: &str, action: Action) -> Event {
+    let (target_node, target_tree) = window.node(name).locate();
+    Event::AccessKitActionRequest(ActionRequest {
+        action,
+        target_tree,
+        target_node,
+        data: None,
+    })
+}
+
+/// One frame, with what was done with the page's elements before it.
+fn page_frame(window: &mut Window, page: &mut MirrorInput, events: impl IntoIterator<Item = Event>) {
+    let mut input = RawInput::default();
+    page.begin_frame(&window.harness.ctx, &mut input);
+    window.frame(events.into_iter().chain(input.events));
+}
+
+#[test]
+fn a_key_that_the_page_holds_on_a_slider_is_one_step() {
+    let mut window = open();
+    let before = window.session().materials().to_vec();
+    let mut page = MirrorInput::default();
+    let focus = ask_of(&window, "Roughness", Action::Focus);
+    page_frame(&mut window, &mut page, [focus]);
+    for _ in 0..2 {
+        page.holds_key = true;
+        for _ in 0..6 {
+            let more = ask_of(&window, "Roughness", Action::Increment);
+            page_frame(&mut window, &mut page, [more]);
+        }
+        page.holds_key = false;
+        page_frame(&mut window, &mut page, []);
+    }
+    assert_ne!(window.session().materials(), before);
+    assert_eq!(steps(window.session()), 2, "one for each time that it was held");
+    window.press(CTRL, Key::Z);
+    window.press(CTRL, Key::Z);
+    assert_eq!(window.session().materials(), before);
+}
+
+#[test]
+fn a_page_key_that_is_held_on_a_slider_is_one_step() {
+    let mut window = open();
+    window.ask("Roughness", Action::Focus, None);
+    for _ in 0..4 {
+        hold(&mut window, Key::PageUp, true);
+    }
+    hold(&mut window, Key::PageUp, false);
+    window.pass_on();
+    assert_eq!(steps(window.session()), 1);
+}
+
+#[test]
+fn what_a_button_does_at_once_is_one_step_by_key_and_by_screen_reader() {
+    for by_key in [false, true] {
+        let mut window = window(WIDE, vec![rig(5, 31)]);
+        window.click("Dope sheet and curves");
+        window.ask("Keys of all bones", Action::Focus, None);
+        for (modifiers, key) in [(Modifiers::NONE, Key::ArrowRight), (Modifiers::SHIFT, Key::End)] {
+            window.press(modifiers, key);
+        }
+        if by_key {
+            window.ask("As range", Action::Focus, None);
+            window.press(Modifiers::NONE, Key::Enter);
+        } else {
+            window.ask("As range", Action::Click, None);
+        }
+        assert!(window.session().playback().range_secs().is_some());
+        assert_eq!(steps(window.session()), 1, "by key: {by_key}");
+    }
 }

@@ -14,7 +14,9 @@ use crate::session::{ExportFormat, OpenModel, Session};
 use crate::ui::error_card::show_excerpt;
 use crate::ui::state::{Request, UiState};
 use crate::ui::theme::Tokens;
-use crate::ui::widgets::{TextButton, hint_beside, paint_fold_mark, paint_row_ground, pressed_row_height};
+use crate::ui::widgets::{
+    TextButton, hint_beside, paint_fold_mark, paint_row_ground, pressed_row_height, tell_open,
+};
 use crate::ui::wording::counted;
 
 /// The row of the model panel: what the demo of the file's own book does. That the other book's reads no such file is no news. It opens the
@@ -40,7 +42,8 @@ pub(in crate::ui) fn show_row(ui: &mut Ui, session: &Session, state: &mut UiStat
     ui.painter().galley(pos2(rect.min.x, top), label_galley, tokens.text);
     ui.painter().galley(pos2(rect.max.x, top), galley, color);
     let name = format!("Books: {label}: {value}");
-    response.widget_info(|| WidgetInfo::selected(Role::Button, true, state.diagnostics_open, &name));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+    tell_open(&response, state.diagnostics_open);
     let mut hint: Vec<String> = newest_first(verdicts)
         .map(|verdict| format!("{}: {}", verdict.book.label(), verdict.outcome))
         .collect();

@@ -250,6 +250,8 @@ fn about(ui: &mut Ui, words: Option<&str>, code: &'static str, requests: &mut Ve
 pub(super) fn tell_fold(ui: &Ui, response: &Response, is_open: bool) -> bool {
     let action = if is_open { Action::Collapse } else { Action::Expand };
     ui.ctx().accesskit_node_builder(response.id, |node| {
+        // A row of a list is drawn as the chosen one too.
+        node.clear_selected();
         node.set_expanded(is_open);
         node.add_action(action);
     });

@@ -98,7 +98,7 @@ pub(super) fn items_of(container: &str) -> Option<&'static [&'static str]> {
         "listbox" => &["option"],
         "list" => &["listitem"],
         "tablist" => &["tab"],
-        "menu" | "menubar" => &["menuitem", "menuitemcheckbox", "menuitemradio"],
+        "menu" | "menubar" => &["menuitem", "menuitemcheckbox", "menuitemradio", "separator"],
         "grid" => &["row"],
         "row" => &["gridcell", "columnheader", "rowheader"],
         _ => return None,
@@ -116,7 +116,7 @@ pub(super) fn settle(branch: &mut Branch) {
     }
     if branch.node.role == "grid" && !branch.children.is_empty() && branch.children.iter().all(is_line) {
         // A table whose rows are read as a whole.
-        branch.node.role = "list";
+        (branch.node.role, branch.node.of) = ("list", None);
         for child in &mut branch.children {
             child.node.role = "listitem";
         }
@@ -132,6 +132,8 @@ pub(super) fn settle(branch: &mut Branch) {
         ("menu" | "menubar", "button") if child.node.on.is_none() => Some("menuitem"),
         ("menu" | "menubar", "button" | "radio" | "option") => Some("menuitemradio"),
         ("menu" | "menubar", "checkbox" | "switch") => Some("menuitemcheckbox"),
+        // Focus goes from item to item, so that a title between them is never read as a heading.
+        ("menu" | "menubar", "heading") => Some("separator"),
         ("list", "text") => Some("listitem"),
         _ => None,
     };
@@ -264,6 +266,7 @@ mod tests {
             ("tablist", "radio", "tablist(tab)"),
             ("menu", "button", "menu(menuitem)"),
             ("menu", "switch", "menu(menuitemcheckbox)"),
+            ("menu", "heading", "menu(separator)"),
             ("list", "text", "list(listitem)"),
             ("tree", "treeitem", "tree(treeitem)"),
         ] {
@@ -297,6 +300,8 @@ mod tests {
             "grid(row)",
             "one that is pressed stays a row"
         );
+        let row = container("row", vec![leaf(2, "rowheader", 0.0), leaf(3, "gridcell", 0.0)]);
+        assert_eq!(roles(&container("grid", vec![row])), "grid(row(rowheader gridcell))");
     }
 
     #[test]

@@ -4,14 +4,17 @@
 //! only lay things out are gone, items stand in the containers that they need, and what did not change is not told again.
 
 mod aria;
+mod input;
 mod record;
 
 use std::collections::{BTreeMap, HashMap};
 
 use egui::accesskit::{Action, HasPopup, Node, NodeId, Role, Toggled, TreeUpdate};
-use egui::{Context, FullOutput};
+use egui::{Context, FullOutput, Rect};
 
 use aria::{Branch, among_others, around, first_words, is_overlay, is_pressed, items_of, role_of, settle};
+pub use input::MirrorInput;
+pub(super) use input::holds_key;
 pub use record::{MirrorAction, MirrorChanges, MirrorId, MirrorNode};
 
 /// Watches what egui says of its widgets: a plugin of the context, which has to have AccessKit enabled.
@@ -33,11 +36,11 @@ impl egui::Plugin for Mirror {
         "mirror"
     }
 
-    fn output_hook(&mut self, _ctx: &Context, output: &mut FullOutput) {
+    fn output_hook(&mut self, ctx: &Context, output: &mut FullOutput) {
         let output = &output.platform_output;
         // A pass that is done over has half of the tree.
         if let Some(update) = output.accesskit_update.as_ref().filter(|_| !output.requested_discard()) {
-            self.now = Snapshot::of(update);
+            self.now = Snapshot::of(update, &visible_rects(ctx));
         }
     }
 }
@@ -88,12 +91,34 @@ impl Mirror {
     }
 }
 
+/// The visible part of each widget of the pass that has ended. Negative where a widget is scrolled out of view.
+fn visible_rects(ctx: &Context) -> HashMap<NodeId, Rect> {
+    ctx.viewport(|viewport| {
+        let widgets = viewport.prev_pass.widgets.layers().flat_map(|(_, widgets)| widgets);
+        let known = widgets.filter(|widget| widget.rect.is_finite());
+        known
+            .map(|widget| (widget.id.accesskit_id(), widget.interact_rect))
+            .collect()
+    })
+}
+
+/// The part of an element that is visible. One that is scrolled out of view lies as a line at the edge where it went, so that it covers no
+/// other element.
+fn clipped([x, y, width, height]: [f32; 4], visible: Rect) -> [f32; 4] {
+    let (top, bottom) = (y.max(visible.min.y), (y + height).min(visible.max.y));
+    match (top < bottom, visible.min.y <= y) {
+        (true, _) => [x, top, width, bottom - top],
+        (false, true) => [x, visible.max.y - 1.0, width, 1.0],
+        (false, false) => [x, visible.min.y, width, 1.0],
+    }
+}
+
 impl Snapshot {
-    fn of(update: &TreeUpdate) -> Self {
+    fn of(update: &TreeUpdate, visible: &HashMap<NodeId, Rect>) -> Self {
         let nodes: HashMap<NodeId, &Node> = update.nodes.iter().map(|(id, node)| (*id, node)).collect();
         let root = update.tree.as_ref().map(|tree| tree.root);
         let mut branches = Vec::new();
-        let reader = Reader { nodes: &nodes };
+        let reader = Reader { nodes: &nodes, visible };
         for &child in root
             .and_then(|root| nodes.get(&root))
             .map_or(&[][..], |root| root.children())
@@ -142,7 +167,7 @@ impl Snapshot {
                 branch.node.name = first_words(&branch.children);
             }
             let Branch { mut node, mut children } = branch;
-            if let Some(count) = node.of.filter(|_| items_of(node.role).is_some()) {
+            if let Some(count) = node.of.filter(|_| items_of(node.role).is_some() && node.role != "grid") {
                 // ARIA tells the size of a set with its items.
                 node.of = None;
                 for item in &mut children {
@@ -175,6 +200,7 @@ fn reading_rank(node: &MirrorNode) -> usize {
 
 struct Reader<'a> {
     nodes: &'a HashMap<NodeId, &'a Node>,
+    visible: &'a HashMap<NodeId, Rect>,
 }
 
 impl Reader<'_> {
@@ -202,6 +228,9 @@ impl Reader<'_> {
             node: record(id, node, role, name, &children),
             children,
         };
+        if let Some(&visible) = self.visible.get(&id).filter(|_| node.bounds().is_some()) {
+            branch.node.bounds = clipped(branch.node.bounds, visible);
+        }
         settle(&mut branch);
         // A control cannot have others in it, so what hangs from it follows it, and is called by it.
         let mut hung = match is_pressed(role) {
@@ -280,8 +309,10 @@ fn record(id: NodeId, node: &Node, role: &'static str, name: String, children: &
         settable: node.supports_action(Action::SetValue),
         // AccessKit counts from 0.
         level: node.level().map(|level| level + usize::from(role == "treeitem")),
-        place: node.position_in_set().map(|place| place + 1),
-        of: node.size_of_set(),
+        place: node.position_in_set().or(node.row_index()).map(|place| place + 1),
+        of: node.size_of_set().or(node.row_count()),
+        active: node.active_descendant().map(|id| MirrorId(id.0)),
+        picks: words(node.author_id()),
         bounds,
         children: Vec::new(),
     }

@@ -81,6 +81,10 @@ pub struct MirrorNode {
     pub of: Option<usize>,
     /// Left, top, width and height in points, from the corner of the element around it.
     pub bounds: [f32; 4],
+    /// The one inside of it that its keys act on, while it has the focus itself.
+    pub active: Option<MirrorId>,
+    /// The dialog that it opens: `files` or `clips`. Browsers open one only while they handle the click.
+    pub picks: Option<String>,
     /// In reading order.
     pub children: Vec<MirrorId>,
 }
@@ -111,10 +115,6 @@ pub enum MirrorAction {
     SetNumber(f64),
     /// Sets the text of a field.
     SetText(String),
-    /// One step more.
-    Increment,
-    /// One step less.
-    Decrement,
     /// Unfolds it.
     Expand,
     /// Folds it.
@@ -126,13 +126,15 @@ pub enum MirrorAction {
 impl MirrorAction {
     /// Whether an input gives a widget the focus.
     pub fn is_focus(event: &Event) -> bool {
-        matches!(
-            event,
-            Event::AccessKitActionRequest(ActionRequest {
-                action: Action::Focus,
-                ..
-            })
-        )
+        matches!(event, Event::AccessKitActionRequest(request) if request.action == Action::Focus)
+    }
+
+    /// The widget that an input presses without a pointer or a key.
+    pub fn clicked(event: &Event) -> Option<NodeId> {
+        match event {
+            Event::AccessKitActionRequest(request) if request.action == Action::Click => Some(request.target_node),
+            _ => None,
+        }
     }
 
     /// As input of egui.
@@ -142,8 +144,6 @@ impl MirrorAction {
             Self::Focus => (Action::Focus, None),
             Self::SetNumber(number) => (Action::SetValue, Some(ActionData::NumericValue(number))),
             Self::SetText(text) => (Action::SetValue, Some(ActionData::Value(text.into()))),
-            Self::Increment => (Action::Increment, None),
-            Self::Decrement => (Action::Decrement, None),
             Self::Expand => (Action::Expand, None),
             Self::Collapse => (Action::Collapse, None),
             Self::ScrollIntoView => (Action::ScrollIntoView, None),

@@ -133,32 +133,34 @@ fn relatives(
     let parent = open.model.skeleton.parents().get(joint.index()).copied().flatten();
     let children: Vec<_> = session.joints().tree().children(joint).collect();
     match parent {
-        Some(parent) => links(ui, session, state, "Parent", &[parent], commands),
+        Some(parent) => links(ui, session, state, ["Parent"; 2], &[parent], commands),
         None => drop(value_row(ui, "Parent", "none, it is a root")),
     }
-    match children.len() {
-        0 => drop(value_row(ui, "Children", "none")),
-        count if count <= CHILDREN => links(ui, session, state, "Children", &children, commands),
-        count => {
-            links(ui, session, state, "Children", &children[..CHILDREN], commands);
-            value_row(ui, "", &format!("and {} more in the tree", count - CHILDREN));
-        }
+    let shown = &children[..children.len().min(CHILDREN)];
+    match shown {
+        [] => drop(value_row(ui, "Children", "none")),
+        _ => links(ui, session, state, ["Children", "Child"], shown, commands),
+    }
+    if let more @ 1.. = children.len() - shown.len() {
+        value_row(ui, "", &format!("and {more} more in the tree"));
     }
     if let Some(partner) = state.mirrored.partner(session, joint) {
-        links(ui, session, state, "Mirror", &[partner], commands);
+        links(ui, session, state, ["Mirror"; 2], &[partner], commands);
     }
 }
 
-/// A label, then joints on as many lines as they need. By touch each joint has a row.
+/// A label, then joints on as many lines as they need. By touch each joint has a row. `one`: what screen readers call each of them.
 fn links(
     ui: &mut Ui,
     session: &Session,
     state: &mut SkeletonState,
-    label: &str,
+    [label, one]: [&str; 2],
     joints: &[JointIndex],
     commands: &mut Vec<Command>,
 ) {
     let mut follow = |link: Response, joint: JointIndex| {
+        let name = format!("{one}: {}", session.joint_label(joint));
+        link.widget_info(|| WidgetInfo::labeled(Role::Link, true, &name));
         if link.contains_pointer() {
             state.hovered = Some(joint);
         }
@@ -199,7 +201,6 @@ fn link_row(ui: &mut Ui, label: &str, name: &str) -> Response {
         .text(left, Align2::LEFT_CENTER, label, font.clone(), tokens.muted);
     let at = left + vec2(LABEL_WIDTH + 5.0, 0.0);
     paint_name(ui.painter(), at, name, font, tokens.accent, rect.max.x - at.x);
-    response.widget_info(|| WidgetInfo::labeled(Role::Link, true, name));
     response
 }
 
@@ -219,7 +220,6 @@ fn joint_link(ui: &mut Ui, name: &str) -> Response {
     let at = pos2(rect.min.x + 5.0, rect.center().y);
     let font = FontId::proportional(13.0);
     paint_name(ui.painter(), at, name, font, tokens.accent, width - 10.0);
-    response.widget_info(|| WidgetInfo::labeled(Role::Link, true, name));
     response
 }
 

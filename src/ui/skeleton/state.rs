@@ -152,9 +152,14 @@ pub(super) struct Typed {
 }
 
 impl Typed {
+    /// Whether letters that come now join those before.
+    pub(super) fn goes_on(&self, now_secs: f64) -> bool {
+        !self.letters.is_empty() && now_secs - self.at_secs <= TYPING_SECS
+    }
+
     /// Adds letters. Returns all that were typed without a pause, and whether there were some before these.
     pub(super) fn add(&mut self, letters: &str, now_secs: f64) -> (&str, bool) {
-        let more = !self.letters.is_empty() && now_secs - self.at_secs <= TYPING_SECS;
+        let more = self.goes_on(now_secs);
         if !more {
             self.letters.clear();
         }

@@ -7,7 +7,7 @@ use egui::{
 };
 
 use super::naming::{show_field, show_proposals};
-use super::state::{SidePage, SkeletonState, TreeState};
+use super::state::{SidePage, SkeletonState, TreeState, Typed};
 use super::walk::{asks, focus_row, labelled, row_sense, tell_row};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, JointRow, NameCommand, Session};
@@ -362,6 +362,7 @@ impl<'a> TreeRow<'a> {
         // A search shows all branches unfolded.
         let folds = self.row.has_children && state.tree.query.is_empty();
         let mut names = false;
+        let mut types = state.tree.typed.goes_on(ui.input(|input| input.time));
         retain_plain_keys(ui, |key, _| {
             match key {
                 Key::ArrowLeft if folds && !self.row.folded => self.fold(true, commands),
@@ -373,8 +374,13 @@ impl<'a> TreeRow<'a> {
                 Key::ArrowRight if self.row.has_children => to = Some(self.place + 1),
                 Key::ArrowRight => {}
                 Key::F2 => names = true,
-                // What is typed comes as text too. No letter is a shortcut here.
-                key => return !is_letter_or_digit(key),
+                // What is typed comes as text too. A letter is a shortcut only where no bone begins with it.
+                key if is_letter_or_digit(key) => {
+                    let letter = key.name().to_lowercase();
+                    types |= rows.iter().any(|row| begins(row, session, &letter));
+                    return !types;
+                }
+                _ => return true,
             }
             false
         });
@@ -400,15 +406,15 @@ impl<'a> TreeRow<'a> {
             return None;
         }
         let (words, more) = tree.typed.add(&typed, ui.input(|input| input.time));
-        let begins = |row: &JointRow| {
-            let label = session.joint_label(row.joint).to_lowercase();
-            let mut parts = label.split_whitespace();
-            row.bone.to_string().starts_with(words) || parts.any(|part| part.starts_with(words))
-        };
         // A second letter may leave the focus where the first one brought it.
         let first = self.place + usize::from(!more);
         let mut places = (0..rows.len()).map(|step| (first + step) % rows.len());
-        places.find(|&place| begins(&rows[place]))
+        let found = places.find(|&place| begins(&rows[place], session, words));
+        if found.is_none() && !more {
+            // It was a shortcut.
+            tree.typed = Typed::default();
+        }
+        found
     }
 
     /// The mark before a joint with children. Returns whether it was clicked.
@@ -455,6 +461,13 @@ impl<'a> TreeRow<'a> {
             .text(rect.right_center(), Align2::RIGHT_CENTER, text, font, color);
         drawn.min.x
     }
+}
+
+/// Whether a number, a name or a word of it begins with these lowercase letters.
+fn begins(row: &JointRow, session: &Session, letters: &str) -> bool {
+    let label = session.joint_label(row.joint).to_lowercase();
+    let mut parts = label.split_whitespace();
+    row.bone.to_string().starts_with(letters) || parts.any(|part| part.starts_with(letters))
 }
 
 fn is_letter_or_digit(key: Key) -> bool {

@@ -10,8 +10,8 @@ use crate::ui::panel::{popover_above, popover_gap, scrolled};
 use crate::ui::state::{Request, UiState};
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{
-    Slider, TextButton, control_size, focus_ring, is_touch, paint_elided, paint_name, row_icon, section_name,
-    section_with_action,
+    Slider, TextButton, choices, control_size, focus_ring, is_touch, paint_elided, paint_name, row_icon, section_name,
+    section_with_action, tell_push,
 };
 use crate::ui::wording::{counted, trimmed};
 
@@ -29,15 +29,15 @@ pub(super) fn button(ui: &mut Ui, session: &Session, state: &mut UiState, width:
     let response = TextButton::new(name, "Clip").list().width(width).show(ui);
     tell_choice(&response, "Clip", name);
     let response = response.on_hover_text(format!("{name}\nNext clip: {}", actions::NEXT_CLIP.key()));
-    popover_above(ui, &response, WIDTH, |ui| {
+    popover_above(ui, (&response, "Clip"), WIDTH, |ui| {
         ui.spacing_mut().item_spacing.y = 2.0;
         section_name(ui, &counted(open.model.clips.len(), "clip"));
-        let shown = list(ui, session, open, commands);
-        if TextButton::new("Add clips…", "Add clips…")
-            .icon(Icon::Plus)
-            .show(ui)
-            .clicked()
-        {
+        let shown = choices(ui, "Clip", |ui| list(ui, session, open, commands));
+        ui.add_space(4.0);
+        let add = TextButton::new("Add clips…", "Add clips…").icon(Icon::Plus).show(ui);
+        ui.ctx()
+            .accesskit_node_builder(add.id, |node| node.set_author_id("clips"));
+        if add.clicked() {
             state.requests.push(Request::PickClips);
         }
         if open.model.clips.len() > 1 {
@@ -64,7 +64,6 @@ fn list(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<Com
             }
         }
     });
-    ui.add_space(4.0);
     chosen
 }
 
@@ -136,7 +135,9 @@ fn blend_icon(
     } else {
         format!("Blend with {name}")
     };
-    if row_icon(ui, place, row, Icon::Blend, &label, on) {
+    let icon = row_icon(ui, place, row, Icon::Blend, &label, on);
+    tell_push(&icon);
+    if icon.clicked() {
         commands.push(if on {
             PlayCommand::ClearBlend.into()
         } else {

@@ -3,13 +3,13 @@
 use egui::{Align, FontId, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
 use super::typed::{self, Unit};
-use crate::actions::{self, Action};
+use crate::actions;
 use crate::anim::Direction;
 use crate::model::Clip;
 use crate::session::{Command, PlayCommand, Session};
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, Tokens};
-use crate::ui::widgets::{TypedValue, action_button, control_size, push_button};
+use crate::ui::widgets::{TypedValue, action_button, control_size, hint_of_name, push_action, push_button};
 use crate::ui::wording::trimmed;
 
 /// The round button that plays and pauses.
@@ -36,7 +36,7 @@ pub(super) fn play_button(ui: &mut Ui, session: &Session, diameter: f32, command
         actions::PLAY.hint()
     };
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
-    if response.on_hover_text(label).clicked() {
+    if hint_of_name(response, &label).clicked() {
         commands.extend(actions::PLAY.command(session));
     }
 }
@@ -52,14 +52,7 @@ pub(super) fn end_button(ui: &mut Ui, session: &Session, direction: Direction, c
         Direction::Backward => (Icon::SkipStart, &actions::FIRST_FRAME),
         Direction::Forward => (Icon::SkipEnd, &actions::LAST_FRAME),
     };
-    step_button(ui, session, action, icon, commands);
-}
-
-/// The button of an action that moves the time once.
-fn step_button(ui: &mut Ui, session: &Session, action: &Action, icon: Icon, commands: &mut Vec<Command>) {
-    if push_button(ui, icon, &action.hint()).clicked() {
-        commands.extend(action.command(session));
-    }
+    push_action(ui, session, action, icon, commands);
 }
 
 /// Steps by one frame. With Shift, or by a long touch, by ten.
@@ -85,7 +78,7 @@ pub(super) fn key_button(ui: &mut Ui, session: &Session, direction: Direction, c
         Direction::Backward => (Icon::KeyBack, &actions::PREVIOUS_KEY),
         Direction::Forward => (Icon::KeyForward, &actions::NEXT_KEY),
     };
-    step_button(ui, session, action, icon, commands);
+    push_action(ui, session, action, icon, commands);
 }
 
 /// All buttons that move the time but play, spread over the width. For where the strip has no room for them.

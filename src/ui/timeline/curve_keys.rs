@@ -1,5 +1,6 @@
 //! The curves by keyboard: a key that arrows move along a line, and the keys that Shift chooses. And what screen readers are told.
 
+use egui::accesskit::Action;
 use egui::{Key, Rect, Response, Role, Sense, Stroke, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
 use super::axis::TimeAxis;
@@ -8,28 +9,20 @@ use super::rows::RowKeys;
 use super::state::{KeyBox, KeyCursor, TimelineState};
 use super::time_area::{self, GRID_KEYS};
 use super::value_axis::ValueAxis;
-use crate::anim::CurvePoint;
 use crate::model::{Clip, JointIndex};
 use crate::session::{Command, OpenModel, PlayCommand, Session};
 use crate::ui::theme::Tokens;
 use crate::ui::widgets::focused_keys;
 
-/// Tells of the curves: what they are, and their values at the time.
-pub(super) fn tell(response: &Response, session: &Session, curves: &Curves, joint: JointIndex, now: &CurvePoint) {
+/// Tells of the curves as a grid, in which the key that the keyboard is on is the only cell. The legend has the values at the time.
+pub(super) fn tell(response: &Response, session: &Session, curves: &Curves, joint: JointIndex) {
     response.widget_info(|| {
-        let values = curves.shown().map(|channel| {
-            let name = curves.channels()[channel];
-            format!("{name} {}", curves.written(now, channel))
-        });
-        let values: Vec<String> = values.collect();
         let (name, part) = (session.joint_label(joint), curves.part_name());
-        let label = format!(
-            "Curves of {name}, {part} at {:.2} s: {}",
-            now.time_secs,
-            values.join(", ")
-        );
-        WidgetInfo::labeled(Role::Group, true, label)
+        WidgetInfo::labeled(Role::Grid, true, format!("Curves of {name}, {part}"))
     });
+    response
+        .ctx
+        .accesskit_node_builder(response.id, |node| node.remove_action(Action::Click));
 }
 
 /// Keys of the focused curves: left and right from key to key, up and down from line to line, Enter goes to the key.
@@ -104,7 +97,7 @@ pub(super) fn paint_chosen(ui: &Ui, state: &TimelineState, joint: JointIndex, ax
     }
 }
 
-/// Draws a ring round the key that the keyboard is on, and tells of it.
+/// Draws a ring round the key that the keyboard is on, and tells of it. Before the keyboard was on one it is the first.
 #[expect(clippy::too_many_arguments, reason = "what is drawn, and where")]
 pub(super) fn show_cursor(
     ui: &mut Ui,
@@ -112,22 +105,22 @@ pub(super) fn show_cursor(
     session: &Session,
     open: &OpenModel,
     clip: &Clip,
+    joint: JointIndex,
     state: &TimelineState,
     axis: &TimeAxis,
     values: &ValueAxis,
 ) {
-    let Some((joint, secs)) = state.cursor.and_then(|cursor| Some((cursor.joint, cursor.key_secs?))) else {
-        return;
-    };
-    if !response.has_focus() {
-        return;
-    }
+    let times = session.key_times(Some(joint));
+    let cursor = state.cursor.filter(|cursor| cursor.joint == joint);
+    let secs = cursor.and_then(|cursor| cursor.key_secs).or(times.first().copied());
+    let Some(secs) = secs else { return };
     let (curves, channel) = (&state.curves, state.curves.channel);
     let point = curves.point_at(session, open, secs);
     let at = pos2(axis.x_of(secs), values.y_of(curves.value(&point, channel)));
     let painter = ui.painter().with_clip_rect(response.rect);
-    painter.circle_stroke(at, 5.5, Stroke::new(1.5, Tokens::of(ui).accent));
-    let times = session.key_times(Some(joint));
+    if response.has_focus() {
+        painter.circle_stroke(at, 5.5, Stroke::new(1.5, Tokens::of(ui).accent));
+    }
     let number = times.iter().position(|&key| key == secs).map_or(0, |index| index + 1);
     let words = format!(
         "{} {} {}, key {number} of {}, frame {}, {secs:.2} s",
@@ -137,10 +130,12 @@ pub(super) fn show_cursor(
         times.len(),
         clip.frame_at(secs),
     );
-    let id = response.id.with("key");
-    let child = ui.new_child(UiBuilder::new().id_salt("key").accessibility_parent(response.id));
+    // A cell of its own for each key, so that a screen reader hears of each.
+    let id = response.id.with((channel, secs.to_bits()));
+    let row = UiBuilder::new().id_salt("key").accessibility_parent(response.id);
+    let child = ui.new_child(row.accessibility_role(Role::Row));
     let key = child.interact(Rect::from_center_size(at, vec2(12.0, 12.0)), id, Sense::hover());
-    key.widget_info(|| WidgetInfo::labeled(Role::Image, true, &words));
+    key.widget_info(|| WidgetInfo::labeled(Role::GridCell, true, &words));
     ui.ctx()
         .accesskit_node_builder(response.id, |node| node.set_active_descendant(id.accesskit_id()));
 }

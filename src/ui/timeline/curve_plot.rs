@@ -88,12 +88,11 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, co
     );
 
     let response = ui.interact(lines_rect, ui.scope_id().with("curves"), Sense::click_and_drag());
-    let now = state.curves.point_at(session, open, session.playback().time_secs());
-    curve_keys::tell(&response, session, &state.curves, joint, &now);
+    curve_keys::tell(&response, session, &state.curves, joint);
     focus_ring(ui, lines_rect, &response);
     curve_keys::read(ui, &response, session, clip, joint, state, commands);
     curve_keys::paint_chosen(ui, state, joint, &axis, ruler_rect);
-    curve_keys::show_cursor(ui, &response, session, open, clip, state, &axis, &values);
+    curve_keys::show_cursor(ui, &response, session, open, clip, joint, state, &axis, &values);
     time_area::scrub(&response, &axis, commands);
     let ruler = time_area::ruler(ui, session, &axis, ruler_rect, commands);
     let read_secs = response

@@ -118,14 +118,16 @@ impl Sheet<'_> {
             let mut shape = MarkShape::new(ui);
             self.reveal(ui, rows.all(), top, state);
             self.read_keys(ui, &response, &mut rows, top, state, commands);
-            ui.scope_builder(UiBuilder::new().accessibility_parent(response.id), |ui| {
+            for (index, row) in seen.clone().zip(rows.seen(seen)) {
+                let size = vec2(self.area.width(), self.row_height);
+                let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+                let place = UiBuilder::new().max_rect(rect).id_salt(("row", row.row.joint.0));
+                let mut ui = ui.new_child(place.accessibility_parent(response.id).accessibility_role(Role::Row));
                 ui.ctx()
-                    .accesskit_node_builder(ui.unique_id(), |node| node.set_role(Role::RowGroup));
-                for row in rows.seen(seen) {
-                    let name = self.show_row(ui, row, &response, state, &mut shape, commands);
-                    self.show_cursor(ui, &response, row.row, &name, &rows, state);
-                }
-            });
+                    .accesskit_node_builder(ui.unique_id(), |node| node.set_row_index(index));
+                let name = self.show_row(&mut ui, row, &response, state, &mut shape, commands);
+                self.show_cursor(&ui, &response, row.row, &name, &rows, state);
+            }
             shape.paint(&ui.painter().with_clip_rect(keys.intersect(ui.clip_rect())));
             self.press_keys(ui, &response, &rows, top, state, commands);
             time_area::navigate(ui, &response, self.clip, &self.axis, state, true);

@@ -1,7 +1,9 @@
 //! One row of the dope sheet: a joint's name and its keys.
 
 use egui::accesskit::Action;
-use egui::{Align2, FontId, Rangef, Rect, RectAlign, Response, Role, Sense, Tooltip, Ui, WidgetInfo, pos2, vec2};
+use egui::{
+    Align2, FontId, Rangef, Rect, RectAlign, Response, Role, Sense, Tooltip, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+};
 
 use super::axis::END_ROOM;
 use super::dope_sheet::Sheet;
@@ -105,7 +107,7 @@ impl Sheet<'_> {
         self.activity.get(joint.index()).copied().unwrap_or_default()
     }
 
-    /// Shows it, and adds its marks to those of the other rows. Returns its name.
+    /// Shows it over the whole of `ui`, and adds its marks to those of the other rows. Returns its name.
     pub(super) fn show_row(
         &self,
         ui: &mut Ui,
@@ -115,9 +117,7 @@ impl Sheet<'_> {
         shape: &mut MarkShape,
         commands: &mut Vec<Command>,
     ) -> Response {
-        let tokens = Tokens::of(ui);
-        let size = vec2(self.area.width(), self.row_height);
-        let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+        let (tokens, rect) = (Tokens::of(ui), ui.max_rect());
         let name_rect = Rect::from_x_y_ranges(rect.min.x..=self.split - 4.0, rect.y_range());
         let time_rect = Rect::from_x_y_ranges(self.split..=rect.max.x, rect.y_range());
         let activity = self.activity_of(row.joint);
@@ -145,7 +145,7 @@ impl Sheet<'_> {
     /// The name of a joint, which selects it, and what folds its branch.
     fn name_cell(
         &self,
-        ui: &Ui,
+        ui: &mut Ui,
         row: &Row,
         folded: Option<&FoldedBranch>,
         rect: Rect,
@@ -177,7 +177,7 @@ impl Sheet<'_> {
             if self.by_motion {
                 label += &format!(", {} of the most motion", percent(self.activity_of(row.joint).fraction));
             }
-            WidgetInfo::labeled(Role::Row, true, label)
+            WidgetInfo::labeled(Role::RowHeader, true, label)
         });
         ui.ctx().accesskit_node_builder(id, |node| {
             node.set_selected(selected);
@@ -216,7 +216,8 @@ impl Sheet<'_> {
         paint_name(ui.painter(), at, &name, FontId::proportional(12.5), color, right - at.x);
         if row.below > 0 {
             let place = Rect::from_x_y_ranges(left..=left + 16.0, rect.y_range());
-            self.fold(ui, row, &name, place, commands);
+            let inside = UiBuilder::new().id_salt("fold").accessibility_parent(id);
+            self.fold(&ui.new_child(inside), row, &name, place, commands);
         }
         self.tooltip(&response, &self.motion_words(row, folded));
         response

@@ -1,7 +1,7 @@
 //! The dope sheet by keyboard: a cell that arrows move from key to key and from row to row, and the keys that Shift chooses.
 
 use egui::accesskit::Action;
-use egui::{Key, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, pos2, vec2};
+use egui::{Key, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
 use super::dope_sheet::Sheet;
 use super::rows::{Row, RowKeys, Rows};
@@ -168,7 +168,7 @@ impl Sheet<'_> {
     /// Draws the cell of a row that has the keyboard, and tells of it. `name`: the cell of the row's name.
     pub(super) fn show_cursor(
         &self,
-        ui: &mut Ui,
+        ui: &Ui,
         grid: &Response,
         row: &Row,
         name: &Response,
@@ -184,35 +184,25 @@ impl Sheet<'_> {
         let cell = match cursor.key_secs {
             Some(secs) => {
                 let side = self.row_height.min(20.0) - 2.0;
-                Rect::from_center_size(pos2(self.axis.x_of(secs), name.rect.center().y), vec2(side, side))
+                let center = pos2(self.axis.x_of(secs), name.rect.center().y);
+                // A cell of its own for each key, so that a screen reader hears of each.
+                let id = name.id.with(secs.to_bits());
+                let cell = ui.interact(Rect::from_center_size(center, vec2(side, side)), id, Sense::hover());
+                cell.widget_info(|| WidgetInfo::labeled(Role::GridCell, true, self.cell_words(rows, row, secs)));
+                cell
             }
-            None => name.rect,
+            None => name.clone(),
         };
         let stroke = Stroke::new(1.5, Tokens::of(ui).accent);
         ui.painter()
-            .rect_stroke(cell, CONTROL_RADIUS, stroke, StrokeKind::Inside);
-        let words = self.cell_words(rows, row, cursor.key_secs);
-        let id = grid.id.with("cell");
-        let child = ui.new_child(
-            UiBuilder::new()
-                .max_rect(cell)
-                .id_salt("cell")
-                .accessibility_parent(name.id),
-        );
-        let response = child.interact(cell, id, Sense::hover());
-        response.widget_info(|| WidgetInfo::labeled(Role::GridCell, true, &words));
-        let ctx = ui.ctx();
-        let selected = self.session.joints().selected() == Some(row.joint);
-        ctx.accesskit_node_builder(id, |node| node.set_selected(selected));
-        ctx.accesskit_node_builder(grid.id, |node| node.set_active_descendant(id.accesskit_id()));
+            .rect_stroke(cell.rect, CONTROL_RADIUS, stroke, StrokeKind::Inside);
+        ui.ctx()
+            .accesskit_node_builder(grid.id, |node| node.set_active_descendant(cell.id.accesskit_id()));
     }
 
-    fn cell_words(&self, rows: &Rows, row: &Row, key_secs: Option<f32>) -> String {
+    fn cell_words(&self, rows: &Rows, row: &Row, secs: f32) -> String {
         let name = self.session.joint_label(row.joint);
         let times = self.key_times(row.joint);
-        let Some(secs) = key_secs else {
-            return name;
-        };
         let own = times.iter().position(|&key| key == secs);
         let number = match own {
             Some(index) => format!("key {} of {}", index + 1, times.len()),

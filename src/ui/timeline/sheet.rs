@@ -9,7 +9,7 @@ use crate::session::{Command, JointCommand, PlayCommand, Session};
 use crate::ui::icons::Icon;
 use crate::ui::state::UiState;
 use crate::ui::theme::Tokens;
-use crate::ui::widgets::{TextButton, arrow_steps, control_size, icon_button, push_button};
+use crate::ui::widgets::{TextButton, arrow_steps, control_size, icon_button, push_button, tell_push};
 use crate::ui::wording::counted;
 
 /// Gap between the controls and the sheet.
@@ -73,7 +73,9 @@ fn keys_controls(ui: &mut Ui, session: &Session, state: &mut TimelineState, comm
         let joints = session.joints();
         let any_folded = joints.tree().order().iter().any(|&joint| joints.is_folded(joint));
         let label = if any_folded { "Unfold all" } else { "Fold all" };
-        if icon_button(ui, Icon::Fold, label, any_folded).clicked() {
+        let fold = icon_button(ui, Icon::Fold, label, any_folded);
+        tell_push(&fold);
+        if fold.clicked() {
             commands.push(JointCommand::SetAllFolded(!any_folded).into());
         }
     }

@@ -13,7 +13,7 @@ use crate::ui::icons::Icon;
 use crate::ui::panel::{mark_transport, popover_above};
 use crate::ui::state::{SheetPage, UiState};
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
-use crate::ui::widgets::{control_size, focus_ring, icon_button, push_button};
+use crate::ui::widgets::{control_size, focus_ring, icon_button, push_button, tell_open};
 
 /// Side of the button that plays, in a wide window.
 const PLAY_SIZE: f32 = 34.0;
@@ -228,7 +228,7 @@ fn speed_button(
         actions::NORMAL_SPEED.key(),
     );
     let response = response.on_hover_text(hint);
-    popover_above(ui, &response, options::WIDTH, |ui| {
+    popover_above(ui, (&response, "Speed, range and loop gap"), options::WIDTH, |ui| {
         options::show(ui, session, state, with_steps, commands);
     });
 }
@@ -240,7 +240,9 @@ fn sheet_button(ui: &mut Ui, open: bool) -> bool {
     } else {
         "Dope sheet and curves"
     };
-    icon_button(ui, Icon::DopeSheet, label, open).clicked()
+    let button = icon_button(ui, Icon::DopeSheet, label, open);
+    tell_open(&button, open);
+    button.clicked()
 }
 
 fn loop_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {

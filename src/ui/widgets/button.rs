@@ -6,8 +6,8 @@ use egui::{
 };
 
 use super::control::{
-    MOUSE_CONTROL, TOUCH_CONTROL, arrow_steps, control_size, focus_ring, is_touch, key_hint, paint_ground, paint_name,
-    paint_row_ground,
+    MOUSE_CONTROL, TOUCH_CONTROL, arrow_steps, control_size, focus_ring, hint_of_name, is_touch, key_hint,
+    paint_ground, paint_name, paint_row_ground, tell_push,
 };
 use crate::actions::Action;
 use crate::session::{Command, Session};
@@ -27,7 +27,7 @@ const MENU_LINE: f32 = 26.0;
 
 /// A square button with an icon. `on` marks a switch that is on.
 pub(crate) fn icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
-    untold_icon_button(ui, icon, label, on).on_hover_text(label)
+    hint_of_name(untold_icon_button(ui, icon, label, on), label)
 }
 
 /// The same without a tooltip.
@@ -43,8 +43,7 @@ pub(crate) fn untold_icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool)
 /// The same without a state: it does something, or opens something.
 pub(crate) fn push_button(ui: &mut Ui, icon: Icon, label: &str) -> Response {
     let response = icon_button(ui, icon, label, false);
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.clear_toggled());
+    tell_push(&response);
     response
 }
 
@@ -57,6 +56,13 @@ fn icon_atom(icon: Icon, size: Vec2) -> Atom<'static> {
 /// A square button of an action of the session, with its key in the tooltip.
 pub(crate) fn action_button(ui: &mut Ui, session: &Session, action: &Action, icon: Icon, commands: &mut Vec<Command>) {
     if icon_button(ui, icon, &action.hint(), action.is_on(session)).clicked() {
+        commands.extend(action.command(session));
+    }
+}
+
+/// The same for an action that does something once.
+pub(crate) fn push_action(ui: &mut Ui, session: &Session, action: &Action, icon: Icon, commands: &mut Vec<Command>) {
+    if push_button(ui, icon, &action.hint()).clicked() {
         commands.extend(action.command(session));
     }
 }
@@ -162,7 +168,12 @@ pub(crate) fn keyed_menu_item(ui: &mut Ui, text: &str, key: &str, line: MenuLine
 
 /// A line of a menu that opens a page, with the current choice of that page.
 pub(crate) fn valued_menu_item(ui: &mut Ui, text: &str, value: &str, on: bool) -> Response {
-    menu_line(ui, text, value, FontId::proportional(12.0), MenuLine::Choice(on))
+    let response = menu_line(ui, text, value, FontId::proportional(12.0), MenuLine::Choice(on));
+    let with_value = format!("{text}: {value}");
+    let name = if value.is_empty() { text } else { &with_value };
+    response.widget_info(|| WidgetInfo::labeled(Role::MenuItem, true, name));
+    tell_push(&response);
+    response
 }
 
 fn menu_line(ui: &mut Ui, text: &str, behind: &str, font_behind: FontId, line: MenuLine) -> Response {
@@ -184,11 +195,17 @@ fn menu_line(ui: &mut Ui, text: &str, behind: &str, font_behind: FontId, line: M
         MenuLine::Switch(_) => (Role::MenuItemCheckBox, Role::CheckBox),
     };
     let role = if in_menu { role } else { other_role };
-    response.widget_info(|| match line {
-        MenuLine::Action => WidgetInfo::labeled(role, true, text),
-        _ => WidgetInfo::selected(role, true, on, text),
-    });
+    response.widget_info(|| WidgetInfo::selected(role, true, on, text));
+    if line == MenuLine::Action {
+        tell_push(&response);
+    }
     response
+}
+
+/// A group of choices, one of which is in force, for screen readers. In a menu the lines are that by themselves.
+pub(crate) fn choices<R>(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui) -> R) -> R {
+    let group = UiBuilder::new().accessibility_role(Role::RadioGroup);
+    ui.scope_builder(group.accessibility_label(name), contents).inner
 }
 
 /// The least room on either side of the label of a part.

@@ -8,7 +8,7 @@ use egui::{
     Response, Role, Sense, Shape, Stroke, StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
 };
 
-use super::control::{MOUSE_CONTROL, SliderNode, control_size, focus_ring, slider_keys, tell_popup};
+use super::control::{MOUSE_CONTROL, SliderNode, control_size, focus_ring, hint_of_name, slider_keys, tell_popup};
 use crate::scene::srgb8_from_linear;
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 
@@ -34,18 +34,19 @@ pub(crate) fn color_button(ui: &mut Ui, label: &str, size: Vec2, srgb: [u8; 3]) 
     ui.painter()
         .rect_stroke(rect, radius, Stroke::new(1.0, outline), StrokeKind::Inside);
     focus_ring(ui, rect, &response);
-    response.widget_info(|| WidgetInfo::labeled(Role::ColorWell, true, format!("{label}: {}", hex(srgb))));
+    let name = format!("{label}: {}", hex(srgb));
+    response.widget_info(|| WidgetInfo::labeled(Role::ColorWell, true, &name));
     let mut chosen = None;
-    let name = tell_popup(ui, &response, HasPopup::Dialog);
+    tell_popup(ui, &response, HasPopup::Dialog);
     Popup::from_toggle_button_response(&response)
-        .accessible_name(name)
+        .accessible_name(label)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .gap(6.0)
         .show(|ui| {
             ui.set_width(200.0);
             chosen = color_picker(ui, label, srgb);
         });
-    response.on_hover_text(format!("{label}: {}", hex(srgb)));
+    hint_of_name(response, &name);
     chosen
 }
 

@@ -168,6 +168,29 @@ fn without_middle(line: &Galley, room: f32) -> String {
     head.map(|glyph| glyph.chr).chain(['…']).chain(tail).collect()
 }
 
+/// A tooltip that repeats the control's name, for eyes alone: a screen reader has said it already.
+pub(crate) fn hint_of_name(response: Response, name: &str) -> Response {
+    response.on_hover_ui(|ui| {
+        ui.set_max_width(ui.spacing().tooltip_width);
+        ui.label(name);
+    })
+}
+
+/// Tells screen readers that a button shows and hides something, and whether that is shown.
+pub(crate) fn tell_open(response: &Response, is_open: bool) {
+    response.ctx.accesskit_node_builder(response.id, |node| {
+        node.clear_toggled();
+        node.set_expanded(is_open);
+    });
+}
+
+/// Tells screen readers that a button is no switch, though it may be drawn as one that is on.
+pub(crate) fn tell_push(response: &Response) {
+    response
+        .ctx
+        .accesskit_node_builder(response.id, |node| node.clear_toggled());
+}
+
 /// A tooltip at the side of a row of a panel, so that it covers no other row. `row` is the row that the widget is in, if it is not one
 /// itself.
 pub(crate) fn hint_beside(response: Response, row: Option<Rect>, words: &str) -> Response {
@@ -357,9 +380,9 @@ pub(crate) fn tell_popup(ui: &Ui, button: &Response, kind: HasPopup) -> String {
         Popup::close_id(ui.ctx(), id);
     }
     let open = Popup::is_id_open(ui.ctx(), id);
+    tell_open(button, open);
     let name = ui.ctx().accesskit_node_builder(button.id, |node| {
         node.set_has_popup(kind);
-        node.set_expanded(open);
         node.add_action(if open { Action::Collapse } else { Action::Expand });
         node.label().map(str::to_owned)
     });

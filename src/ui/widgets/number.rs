@@ -9,7 +9,7 @@ use egui::{
     Response, Role, Sense, Stroke, StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use super::control::{MOUSE_CONTROL, SliderNode, control_size, focus_ring, slider_keys};
+use super::control::{MOUSE_CONTROL, SliderNode, control_size, focus_ring, hint_of_name, slider_keys};
 use crate::ui::input::press_field;
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 
@@ -151,7 +151,7 @@ pub(crate) fn number_field(
         info.label = Some(label.to_owned());
         info
     });
-    response.on_hover_text(label);
+    hint_of_name(response, label);
     (changed != value).then_some(changed)
 }
 

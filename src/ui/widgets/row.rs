@@ -25,8 +25,8 @@ pub(crate) fn pressed_row(ui: &mut Ui, selected: bool) -> (Rect, Response) {
     (rect, response)
 }
 
-/// A small icon in a row. `on` marks a switch that is on. Returns whether it was clicked.
-pub(crate) fn row_icon(ui: &Ui, place: Rect, row: &Response, icon: Icon, label: &str, on: bool) -> bool {
+/// A small icon in a row. `on` marks a switch that is on.
+pub(crate) fn row_icon(ui: &Ui, place: Rect, row: &Response, icon: Icon, label: &str, on: bool) -> Response {
     let tokens = Tokens::of(ui);
     // It is one control whichever picture it has now.
     let from_right = (row.rect.max.x - place.max.x).round() as i32;
@@ -38,7 +38,7 @@ pub(crate) fn row_icon(ui: &Ui, place: Rect, row: &Response, icon: Icon, label: 
     icons::paint(ui.painter(), place, icon, color);
     focus_ring(ui, place, &response);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, label));
-    hint_beside(response, Some(row.rect), label).clicked()
+    hint_beside(response, Some(row.rect), label)
 }
 
 /// Rows that a page key goes by.
@@ -276,8 +276,8 @@ pub(crate) fn rule(ui: &mut Ui, panel_margin: f32) {
 /// Height of the handle of a sheet.
 const SHEET_HANDLE_HEIGHT: f32 = 24.0;
 
-/// The grip of the bottom sheet.
-pub(crate) fn sheet_handle(ui: &mut Ui, open: bool) -> Response {
+/// The grip of the bottom sheet. `label`: what it opens or closes.
+pub(crate) fn sheet_handle(ui: &mut Ui, label: &str) -> Response {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), SHEET_HANDLE_HEIGHT), Sense::hover());
     // By touch its target reaches a little above the sheet.
@@ -295,7 +295,6 @@ pub(crate) fn sheet_handle(ui: &mut Ui, open: bool) -> Response {
             tokens.hairline
         },
     );
-    let label = if open { "Close the sheet" } else { "Model facts" };
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label));
     response
 }
