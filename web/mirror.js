@@ -302,8 +302,7 @@ export function mirrorOf(viewer, canvas) {
   root.addEventListener("change", ({ target }) => {
     const entry = mirrored.get(idOf(target));
     if (entry?.record.role !== "spinbutton") return;
-    const number = Number.parseFloat(target.value.replace(",", "."));
-    if (Number.isFinite(number)) act(target, "setValue", number);
+    act(target, "setValue", target.value); // What is no number of its range is refused in words.
     update(entry, entry.record);
   });
   root.addEventListener("keydown", (event) => {
