@@ -64,7 +64,7 @@ test("by roles and names alone a model is opened, played, scrubbed, a bone's mat
   await page.keyboard.press("Enter");
   await until(page, ({ skeleton }) => skeleton.selected !== null);
   await spoken(page, /^Bone /);
-  const row = page.getByRole("list", { name: "Final matrix" }).getByRole("listitem").first();
+  const row = page.getByRole("list", { name: "Final transform" }).getByRole("listitem").first();
   await row.waitFor({ state: "attached" });
   assert.match(await row.textContent(), /^row 1:( -?\d+(\.\d+)?){4}$/);
   await page.getByRole("application", { name: /bone \d/ }).waitFor({ state: "attached" });
