@@ -259,7 +259,11 @@ impl<'a> TypedValue<'a> {
             let typing = Typing::of(ui, self.typed);
             ui.data_mut(|data| data.insert_temp(id, typing));
         }
-        let height = MOUSE_CONTROL.min(rect.height());
+        let height = if self.number.is_some() {
+            rect.height()
+        } else {
+            MOUSE_CONTROL
+        };
         let field = Rect::from_center_size(rect.center(), vec2(rect.width(), height));
         let typing: Option<Typing> = ui.data(|data| data.get_temp(id));
         // A field that went away with its panel does not come back with what was typed.
