@@ -119,7 +119,7 @@ test("findings are filtered, and one leads to its clip, time and bone, and stays
   await page.keyboard.press("Enter");
   const { timeSecs, skeleton } = await until(page, ({ playing, skeleton }) => !playing && skeleton.selected !== null);
   const [{ endSecs }] = (await state(page)).model.clips;
-  assert.deepEqual([timeSecs, skeleton.selected, skeleton.bonesVisible], [endSecs, 1, false]);
+  assert.deepEqual([timeSecs, skeleton.selected, skeleton.bonesVisible], [endSecs, 1, true]);
   await page.getByText(/86 \|\s+Bone1 #Keyframes: 5/).first().waitFor({ state: "attached" });
   await dropAndWait(page, [`${FIXTURES}check/loop-jumps.m3d`]);
   await page.getByText(/86 \|\s+Bone1 #Keyframes: 5/).first().waitFor({ state: "attached" });
