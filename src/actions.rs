@@ -75,6 +75,8 @@ pub struct Action {
     pub repeats: bool,
     /// Whether Shift with its key asks for nothing. Otherwise Shift is ignored where it has no meaning of its own.
     pub without_shift: bool,
+    /// Whether a message says what its key changed, since neither the picture nor a chip does.
+    pub told: bool,
     ask: fn(&Session) -> Option<Ask>,
     now: fn(&Session) -> Option<String>,
 }
@@ -94,6 +96,7 @@ impl Action {
             keys,
             repeats: false,
             without_shift: false,
+            told: false,
             ask,
             now: |_| None,
         }
@@ -112,6 +115,10 @@ impl Action {
             without_shift: true,
             ..self
         }
+    }
+
+    const fn told(self) -> Self {
+        Self { told: true, ..self }
     }
 
     /// What it asks for. None when it is not possible: a model without bones shows none.
@@ -334,7 +341,8 @@ actions! {
         .now(speed);
     /// To the next loop mode: once, loop, there and back.
     NEXT_LOOP_MODE: Action::new(Group::Time, &["L"], "next loop mode", "Loop mode", |_| ask(PlayCommand::CycleLoopMode))
-        .now(|session| Some(session.playback().loop_mode().label().to_owned()));
+        .now(|session| Some(session.playback().loop_mode().label().to_owned()))
+        .told();
     /// To the next clip.
     NEXT_CLIP: Action::new(Group::Time, &["C"], "next clip", "Next clip", |_| ask(PlayCommand::CycleClip(1)));
     /// To the previous clip.
@@ -382,7 +390,8 @@ actions! {
     });
     /// Orthographic or perspective.
     ORTHOGRAPHIC: Action::new(Group::Camera, &["5"], "orthographic", "Orthographic", |_| ask(CameraCommand::ToggleProjection))
-        .now(|session| on(session.camera().projection == Projection::Orthographic));
+        .now(|session| on(session.camera().projection == Projection::Orthographic))
+        .told();
     /// View from an upper corner.
     ISOMETRIC: Action::new(Group::Camera, &["9"], "isometric, reset", "Isometric", |_| {
         glide(CameraCommand::LookFrom(ViewPreset::Isometric))

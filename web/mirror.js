@@ -337,8 +337,7 @@ export function mirrorOf(viewer, canvas, pick) {
   root.addEventListener("change", ({ target }) => {
     const entry = mirrored.get(idOf(target));
     if (entry?.record.role !== "spinbutton") return;
-    const number = Number.parseFloat(target.value.replace(",", "."));
-    if (Number.isFinite(number)) act(target, "setValue", number);
+    act(target, "setValue", target.value); // What is no number of its range is refused in words.
     entry.typed = undefined;
     update(entry, entry.record);
   });

@@ -111,16 +111,15 @@ impl Playback {
         self.range_secs().unwrap_or([self.start_secs(), self.end_secs()])
     }
 
-    /// The two times between which a loop jumps, the earlier first: the ends of what plays, but that
-    /// [`WrapMode::BookDemo`] goes on at 0 where it can. `None` where nothing loops.
+    /// The two times between which a loop jumps or would jump, the earlier first: the ends of what plays, but that
+    /// [`WrapMode::BookDemo`] goes on at 0 where it can. `None` where there is one pose alone.
     pub fn loop_gap_secs(&self) -> Option<[f32; 2]> {
         let played = self.played();
         let goes_on_secs = match (self.wrap_mode, self.backward) {
             (WrapMode::BookDemo, false) => played.book_demo_start_secs(),
             _ => played.start_secs,
         };
-        let loops = self.loop_mode == LoopMode::Loop && played.length_secs() > 0.0;
-        loops.then(|| [goes_on_secs, played.end_secs].map(|secs| secs as f32))
+        (played.length_secs() > 0.0).then(|| [goes_on_secs, played.end_secs].map(|secs| secs as f32))
     }
 
     /// Whether it plays.

@@ -1,7 +1,9 @@
 //! All that a renderer needs for one frame, as plain data.
 
+use std::f32::consts::TAU;
+
 use bytemuck::{Pod, Zeroable};
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, Quat, Vec3};
 
 use super::appearance::{Background, Detail, Light, Overlays, Pass, Passes, Theme, ViewMode};
 use super::{Aabb, Camera};
@@ -150,6 +152,18 @@ impl OverlayGeometry {
             position: position.to_array(),
             color_srgb,
         }));
+    }
+
+    /// Adds a tube of three sides, world space.
+    pub fn tube(&mut self, from: Vec3, to: Vec3, radius: f32, color_srgb: [u8; 4]) {
+        let along = (to - from).normalize_or(Vec3::Y);
+        let beside = along.any_orthonormal_vector();
+        let edge = |third: u8| Quat::from_axis_angle(along, f32::from(third) * TAU / 3.0) * beside * radius;
+        for third in 0..3 {
+            let [edge, next] = [edge(third), edge(third + 1)];
+            self.triangle([from + edge, to + edge, to + next], color_srgb);
+            self.triangle([from + edge, to + next, from + next], color_srgb);
+        }
     }
 
     /// Adds a triangle, world space.

@@ -74,8 +74,8 @@ impl Camera {
         if bounds.is_empty() {
             return;
         }
-        let free_width = (1.0 - insets.left - insets.right).clamp(0.2, 1.0);
-        let free_height = (1.0 - insets.top - insets.bottom).clamp(0.2, 1.0);
+        let free_width = (1.0 - insets.left - insets.right).clamp(0.1, 1.0);
+        let free_height = (1.0 - insets.top - insets.bottom).clamp(0.1, 1.0);
         let tan_half_y = self.height_in_view() * 0.5 / self.distance;
         let tan_half = Vec2::new(tan_half_y * aspect, tan_half_y);
         let fitted = tan_half * Vec2::new(free_width, free_height) * FRAMED_FRACTION;

@@ -95,6 +95,7 @@ use content::Content;
 use crowd_cache::CrowdCache;
 use export::Exporting;
 use instances::Instances;
+pub use overlays::GHOSTS_SRGB;
 use overlays::OverlayCache;
 use picking::Picker;
 use skeleton_cache::SkeletonCache;

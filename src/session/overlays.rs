@@ -19,10 +19,13 @@ use crate::scene::{
 
 /// How opaque the nearest ghost is, and the farthest.
 const GHOST_ALPHA: [u8; 2] = [110, 40];
-/// Ghosts of the past and of the future, and the bind pose's, sRGB.
+/// Colours of ghosts of the past and of the future, and of the bind pose's, sRGB.
+pub const GHOSTS_SRGB: [[u8; 3]; 3] = [PAST_SRGB, FUTURE_SRGB, BIND_SRGB];
 const PAST_SRGB: [u8; 3] = [90, 169, 255];
 const FUTURE_SRGB: [u8; 3] = [255, 180, 84];
-const BIND_SRGB: [u8; 4] = [160, 170, 190, 110];
+const BIND_SRGB: [u8; 3] = [160, 170, 190];
+/// Half the thickness of a trail, as a fraction of the scene's radius. A line of one pixel is hard to see on a skin.
+const TRAIL_RADIUS: f32 = 0.004;
 
 /// Sides of the ring around the selected instance, and its width as a fraction of its radius.
 const RING_SEGMENTS: usize = 64;
@@ -130,12 +133,14 @@ impl OverlayCache {
         }
         self.update_trails(open, actor, &look.trails, revisions);
         let colors = joint_colors(&open.model.skeleton);
+        let radius = TRAIL_RADIUS * skeleton.bones().scene_radius();
         for (joint, points) in look.trails.iter().zip(self.trails.polylines()) {
             let color = colors.get(joint.index()).copied();
             let [red, green, blue, _] = color.unwrap_or(bone_colors.plain);
             for step in points.windows(2) {
                 let [from, to] = [step[0], step[1]].map(|point| world_from_model.transform_point3(point));
                 self.geometry.line(from, to, [red, green, blue, 255]);
+                self.geometry.tube(from, to, radius, [red, green, blue, 255]);
             }
         }
     }
@@ -193,7 +198,8 @@ impl OverlayCache {
         if look.bind_ghost && skeleton.joint_count() > 0 {
             self.scratch.set_bind_pose(skeleton);
             self.palettes.push(self.scratch.palette.clone());
-            self.ghost_colors_srgb.push(BIND_SRGB);
+            let [red, green, blue] = BIND_SRGB;
+            self.ghost_colors_srgb.push([red, green, blue, GHOST_ALPHA[0]]);
         }
     }
 

@@ -279,7 +279,7 @@ impl Session {
     }
 
     /// The gap of the loop that plays or would play: of the whole clip it is lent, of a range it is found anew. `None` where
-    /// nothing loops.
+    /// there is one pose alone.
     pub fn loop_gap(&self) -> Option<Cow<'_, LoopGap>> {
         let (open, clip) = (self.content.open.as_ref()?, self.clip()?);
         let span_secs = self.playback().loop_gap_secs()?;

@@ -66,7 +66,7 @@ pub enum SubmeshCommand {
     /// Selects one, or none.
     Select(Option<usize>),
     /// Selects what is drawn at a point of the picture: x right, y up, −1…1. The ground and the sky select none. Either way it
-    /// clears the selected joint and vertex. Another instance there is selected first.
+    /// clears the selected joint and vertex. Another instance there is selected first. A bone that is drawn there is selected instead.
     SelectAt(Vec2),
     /// Highlights one, or none.
     Hover(Option<usize>),
@@ -166,6 +166,10 @@ impl Session {
         pick_joint(self.bones(), &screen, pointer, PICK_RADIUS)
     }
 
+    fn drawn_bone_at(&mut self, pointer: Vec2) -> Option<JointIndex> {
+        self.view.look.bones_visible.then(|| self.joint_at(pointer)).flatten()
+    }
+
     /// Selects the bone or the vertex at a point of the picture, as [`JointCommand::SelectAt`] says.
     fn select_joint_at(&mut self, pointer: Vec2) {
         let colored = self.view.look.skin_view.is_some();
@@ -217,6 +221,7 @@ impl Session {
             SubmeshCommand::Solo(submesh) => self.selection.submeshes.toggle_solo(submesh),
             SubmeshCommand::ShowAll => self.selection.submeshes.show_all(),
             SubmeshCommand::Select(submesh) => self.selection.submeshes.select(submesh, None),
+            SubmeshCommand::SelectAt(pointer) if self.drawn_bone_at(pointer).is_some() => self.select_joint_at(pointer),
             SubmeshCommand::SelectAt(pointer) => {
                 let hit = self.select_instance_at(pointer);
                 self.selection.submeshes.select(hit.map(|hit| hit.submesh), hit);

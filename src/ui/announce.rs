@@ -1,11 +1,15 @@
 //! Sentences for screen readers: what has changed and is seen on the canvas alone.
 
+use std::collections::BTreeMap;
+
+use crate::actions::speed_label;
+use crate::anim::{LoopMode, SkinView};
 use crate::model::JointIndex;
-use crate::scene::{Light, Overlay, Overlays, ViewMode};
+use crate::scene::{Light, Overlay, Overlays, Projection, ViewMode};
 use crate::session::{CrowdState, QualityMode, Session};
 
+use super::message::Offer;
 use super::wording::{counted, grouped};
-use crate::anim::SkinView;
 
 /// What a screen reader is told.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,6 +25,11 @@ pub struct Announcement {
 pub(super) struct Announcer {
     seen: Option<Seen>,
     said: Vec<String>,
+    /// A sentence about what is not seen elsewhere, to be shown too.
+    pub(super) unseen: Option<(String, Option<Offer>)>,
+    /// What a key changes next is not seen elsewhere.
+    pub(super) by_key: bool,
+    names: BTreeMap<usize, String>,
     left_out: Vec<bool>,
     left_out_revision: u64,
 }
@@ -44,6 +53,10 @@ struct Seen {
     /// The device is too slow for all the detail, now or before with this model.
     lowered: bool,
     undone: u64,
+    names: u64,
+    speed: f32,
+    loop_mode: LoopMode,
+    orthographic: bool,
     left_out_revision: u64,
     overlays: Overlays,
     turntable: bool,
@@ -72,6 +85,10 @@ impl Seen {
             time_secs: playback.time_secs(),
             lowered: quality.mode() == QualityMode::Auto && quality.lowered().is_some(),
             undone: session.history().revision(),
+            names: session.joint_names_revision(),
+            speed: playback.speed(),
+            loop_mode: playback.loop_mode(),
+            orthographic: session.camera().projection == Projection::Orthographic,
             left_out_revision,
             overlays: look.overlays,
             turntable: session.turntable(),
@@ -94,14 +111,32 @@ impl Announcer {
             self.left_out_revision += 1;
         }
         let mut now = Seen::of(session, self.left_out_revision);
-        let before = self.seen.take().unwrap_or_default();
+        let first = Seen {
+            speed: now.speed,
+            ..Seen::default()
+        };
+        let before = self.seen.take().unwrap_or(first);
         // Once for each model: detail comes and goes.
         now.lowered |= before.lowered && before.model == now.model;
         self.seen = Some(now.clone());
         let failure = now.error.clone().filter(|_| now.error != before.error);
-        for sentence in changes(session, &before, &now) {
-            self.say(sentence);
+        let mut sentences = changes(session, &before, &now);
+        let undone = now.undone != before.undone;
+        if (undone || std::mem::take(&mut self.by_key)) && now.model == before.model {
+            // The last one is of what was undone.
+            self.unseen = sentences.last().map(|sentence| (sentence.clone(), None));
         }
+        if now.names != before.names || now.model != before.model {
+            let names = session.joint_names().all();
+            let names_before = std::mem::replace(&mut self.names, names.clone());
+            // Names that were kept from another day are no step. What is undone has its own words.
+            if now.model == before.model && !undone && session.history().undo_label().is_some() {
+                let sentence = naming(&names_before, names);
+                self.unseen = Some((sentence.clone(), Some(Offer::Undo)));
+                sentences.push(sentence);
+            }
+        }
+        self.said.extend(sentences);
         let sentences = std::mem::take(&mut self.said);
         let told = |text: String, assertive| (!text.is_empty()).then_some(Announcement { text, assertive });
         let failure = told(failure.unwrap_or_default(), true);
@@ -147,6 +182,20 @@ fn changes(session: &Session, before: &Seen, now: &Seen) -> Vec<String> {
         });
     } else if !now.playing && now.time_secs != before.time_secs && !session.is_scrubbing() {
         sentences.push(format!("{}.", time(session)));
+    }
+    if now.speed != before.speed {
+        sentences.push(format!("Speed {}.", speed_label(now.speed)));
+    }
+    if now.loop_mode != before.loop_mode {
+        sentences.push(format!("At the end: {}.", now.loop_mode.label()));
+    }
+    if now.orthographic != before.orthographic {
+        let projection = if now.orthographic {
+            "Orthographic"
+        } else {
+            "Perspective"
+        };
+        sentences.push(format!("{projection}."));
     }
     if now.lowered && !before.lowered {
         sentences.push("The picture has less detail while it moves, for speed.".to_owned());
@@ -227,6 +276,21 @@ fn selection(session: &Session, now: &Seen) -> String {
     }
 }
 
+/// Which names bones got or lost.
+fn naming(before: &BTreeMap<usize, String>, now: &BTreeMap<usize, String>) -> String {
+    let given: Vec<_> = now
+        .iter()
+        .filter(|&(bone, name)| before.get(bone) != Some(name))
+        .collect();
+    let lost = before.keys().filter(|&bone| !now.contains_key(bone)).count();
+    match (&given[..], lost) {
+        ([(bone, name)], 0) => format!("Bone {bone} is named {name}."),
+        (given, 0) => format!("{} are named.", counted(given.len(), "bone")),
+        ([], lost) => format!("{} cleared.", counted(lost, "name")),
+        (given, lost) => format!("{} changed.", counted(given.len() + lost, "name")),
+    }
+}
+
 /// Which subsets are shown: those that are fewer are named, unless they are many.
 fn subsets(session: &Session, left_out: &[bool]) -> String {
     const MOST_NAMES: usize = 3;
@@ -303,176 +367,5 @@ fn lower_bone(label: &str) -> String {
     match label.strip_prefix("Bone ") {
         Some(number) => format!("bone {number}"),
         None => label.to_owned(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::session::{
-        CameraCommand, CrowdCommand, File, FileCommand, JointCommand, LookCommand, PlayCommand, SubmeshCommand,
-    };
-
-    const SKINNED: &[u8] = include_bytes!("../../tests/fixtures/good/d3d12_skinned.m3d");
-
-    fn open() -> (Session, Announcer) {
-        let mut session = Session::new(true);
-        session.apply(FileCommand::Add(vec![File::new("arm.m3d", SKINNED)]));
-        let mut announcer = Announcer::default();
-        announcer.observe(&session);
-        (session, announcer)
-    }
-
-    fn told(announcer: &mut Announcer, session: &Session) -> Vec<(String, bool)> {
-        let told = announcer.observe(session);
-        told.into_iter().map(|told| (told.text, told.assertive)).collect()
-    }
-
-    #[track_caller]
-    fn assert_says(announcer: &mut Announcer, session: &Session, text: &str) {
-        assert_eq!(told(announcer, session), [(text.to_owned(), false)]);
-        assert_eq!(told(announcer, session), [], "once");
-    }
-
-    #[test]
-    fn an_opened_model_is_told_with_its_counts_and_findings() {
-        let mut announcer = Announcer::default();
-        let mut session = Session::new(true);
-        assert_eq!(told(&mut announcer, &session), []);
-        session.apply(FileCommand::Add(vec![File::new("arm.m3d", SKINNED)]));
-        let [(text, false)] = &told(&mut announcer, &session)[..] else {
-            panic!("one polite sentence");
-        };
-        assert!(
-            text.starts_with("arm.m3d is open: ") && text.contains(" clip") && text.contains("finding"),
-            "{text}"
-        );
-        assert_eq!(told(&mut announcer, &session), [], "once");
-    }
-
-    #[test]
-    fn a_failure_interrupts_and_says_what_stays() {
-        let (mut session, mut announcer) = open();
-        session.apply(FileCommand::Add(vec![File::new(
-            "bad.m3d",
-            *b"m3d-File-Header\n#Materials x\n",
-        )]));
-        let [(text, true)] = &told(&mut announcer, &session)[..] else {
-            panic!("one that interrupts");
-        };
-        assert!(
-            text.starts_with("bad.m3d was not opened: ") && text.ends_with(" arm.m3d stays open."),
-            "{text}"
-        );
-        session.apply(FileCommand::DismissError);
-        assert_eq!(told(&mut announcer, &session), []);
-    }
-
-    #[test]
-    fn view_mode_and_light_are_told_by_their_labels() {
-        let (mut session, mut announcer) = open();
-        session.apply(LookCommand::SetViewMode(ViewMode::Depth));
-        session.apply(LookCommand::SetLight(Light::Book));
-        let text = format!(
-            "View mode: {}. Light: {}.",
-            ViewMode::Depth.label(),
-            Light::Book.label()
-        );
-        assert_says(&mut announcer, &session, &text);
-        session.apply(LookCommand::SetSplit(Some(0.5)));
-        assert_says(&mut announcer, &session, "Two lights, side by side.");
-    }
-
-    #[test]
-    fn what_is_selected_is_told_and_that_nothing_is() {
-        let (mut session, mut announcer) = open();
-        session.apply(JointCommand::Select(Some(JointIndex(1))));
-        assert_says(&mut announcer, &session, "Bone 1.");
-        session.apply(JointCommand::Select(None));
-        assert_says(&mut announcer, &session, "Nothing is selected.");
-        session.apply(SubmeshCommand::Select(Some(0)));
-        let name = session.submesh_name(0).to_owned();
-        assert_says(&mut announcer, &session, &format!("Subset {name}."));
-    }
-
-    #[test]
-    fn subsets_lines_and_the_turntable_are_told() {
-        let (mut session, mut announcer) = open();
-        session.apply(SubmeshCommand::SetVisible {
-            submesh: 0,
-            visible: false,
-        });
-        assert_says(&mut announcer, &session, "All subsets are hidden.");
-        session.apply(SubmeshCommand::ShowAll);
-        assert_says(&mut announcer, &session, "All subsets are shown.");
-        session.apply(LookCommand::SetOverlay(Overlay::Wireframe, true));
-        assert_says(&mut announcer, &session, "Wireframe on.");
-        session.apply(CameraCommand::SetTurntable(true));
-        assert_says(&mut announcer, &session, "Turntable on.");
-    }
-
-    #[test]
-    fn a_crowd_is_told_with_its_size_its_seed_and_who_is_selected() {
-        let (mut session, mut announcer) = open();
-        session.apply(CrowdCommand::Set { count: 100, seed: 1 });
-        assert_says(&mut announcer, &session, "A crowd of 100.");
-        assert!(view_in_words(&session).starts_with("arm.m3d, crowd of 100, "));
-        session.apply(CrowdCommand::Select(36));
-        let [(text, false)] = &told(&mut announcer, &session)[..] else {
-            panic!("one polite sentence");
-        };
-        assert!(text.contains("Number 37 of 100."), "{text}");
-        session.apply(CrowdCommand::Set { count: 100, seed: 2 });
-        let [(text, false)] = &told(&mut announcer, &session)[..] else {
-            panic!("one polite sentence");
-        };
-        assert!(text.contains("Another crowd of 100, seed 2."), "{text}");
-        session.apply(CrowdCommand::Set { count: 1, seed: 2 });
-        let [(text, false)] = &told(&mut announcer, &session)[..] else {
-            panic!("one polite sentence");
-        };
-        assert!(text.contains("One model, no crowd."), "{text}");
-    }
-
-    #[test]
-    fn playing_and_steps_are_told_and_a_passing_time_is_not() {
-        let (mut session, mut announcer) = open();
-        session.apply(PlayCommand::Seek { time_secs: 0.5 });
-        let frame = session.clip().map_or(0, |clip| clip.frame_at(0.5));
-        assert_says(&mut announcer, &session, &format!("0.50 s, frame {frame}."));
-        session.apply(PlayCommand::Play);
-        assert_says(&mut announcer, &session, "Playing.");
-        session.advance(0.1);
-        assert_eq!(told(&mut announcer, &session), []);
-        session.apply(PlayCommand::Pause);
-        let [(text, false)] = &told(&mut announcer, &session)[..] else {
-            panic!("one polite sentence");
-        };
-        assert!(text.starts_with("Paused at 0."), "{text}");
-    }
-
-    #[test]
-    fn what_was_said_comes_first() {
-        let (session, mut announcer) = open();
-        announcer.say("Undone: visibility.");
-        assert_says(&mut announcer, &session, "Undone: visibility.");
-    }
-
-    #[test]
-    fn the_view_is_called_by_what_it_shows() {
-        let (mut session, _) = open();
-        let clip = session.clip().map_or(String::new(), |clip| clip.name.clone());
-        session.apply(PlayCommand::Seek { time_secs: 0.5 });
-        session.apply(JointCommand::Select(Some(JointIndex(1))));
-        assert_eq!(
-            view_in_words(&session),
-            format!("arm.m3d, {clip}, 0.50 s, bone 1 selected")
-        );
-        session.apply(LookCommand::SetSkinView(Some(SkinView::Weight)));
-        assert_eq!(
-            view_in_words(&session),
-            format!("arm.m3d, {clip}, 0.50 s, weights of bone 1")
-        );
-        assert_eq!(view_in_words(&Session::new(true)), "3D view, no model is open");
     }
 }

@@ -1,6 +1,6 @@
 //! Chips over the view: the modes that change what is seen, and a file that is being written, each with a cross that ends it.
 
-use egui::{FontId, Galley, Rect, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{Color32, FontId, Galley, Rect, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2};
 use std::sync::Arc;
 
 use super::icons::{self, Icon};
@@ -9,7 +9,10 @@ use super::widgets::{control_size, elided_name, focus_ring, is_touch};
 use super::wording::grouped;
 use crate::actions::{self, Action};
 use crate::anim::SkinView;
-use crate::session::{Command, CrowdCommand, ExportCommand, LookCommand, PlayCommand, Session, SubmeshCommand};
+use crate::scene::joint_colors;
+use crate::session::{
+    Command, CrowdCommand, ExportCommand, GHOSTS_SRGB, LookCommand, PlayCommand, Session, SubmeshCommand,
+};
 
 /// Height of a chip that is drawn. Its target is as high as a control.
 const HEIGHT: f32 = 24.0;
@@ -21,6 +24,9 @@ const CROSS: f32 = 12.0;
 const GAP: f32 = 6.0;
 /// Room between chips.
 const SPACING: f32 = 6.0;
+/// Width of the mark of a colour, and the most in a chip.
+const MARK: f32 = 12.0;
+const MOST_MARKS: usize = 3;
 /// A longer name of a subset or a bone ends in an ellipsis.
 const MOST_WORDS: f32 = 220.0;
 
@@ -32,6 +38,8 @@ struct Mode {
     ends: Command,
     /// What the button is called.
     name: String,
+    /// The colours that it has in the picture.
+    marks: Vec<Color32>,
 }
 
 impl Mode {
@@ -41,7 +49,17 @@ impl Mode {
             words,
             key: action.map_or("", Action::key),
             ends: ends.into(),
+            marks: Vec::new(),
         }
+    }
+
+    /// Marked with the colours that it has in the picture, sRGB.
+    fn marked(self, srgb: impl IntoIterator<Item = [u8; 3]>) -> Self {
+        let marks = srgb.into_iter().take(MOST_MARKS);
+        let marks = marks
+            .map(|[red, green, blue]| Color32::from_rgb(red, green, blue))
+            .collect();
+        Self { marks, ..self }
     }
 
     fn with_article(self) -> Self {
@@ -117,6 +135,28 @@ fn modes(session: &Session) -> Vec<Mode> {
             _ => Mode::new(view.label().to_owned(), None, leaves),
         });
     }
+    let [past, future, bind] = GHOSTS_SRGB;
+    if let (Some(plan), Some(_)) = (look.ghosts, session.clip()) {
+        let words = format!("Ghosts {} + {}", plan.before, plan.after);
+        modes.push(Mode::new(words, None, LookCommand::SetGhosts(None)).marked([past, future]));
+    }
+    if look.bind_ghost {
+        let words = "Ghost of the bind pose".to_owned();
+        let leaves = LookCommand::SetBindGhost(false);
+        modes.push(Mode::new(words, None, leaves).with_article().marked([bind]));
+    }
+    if let (Some(open), Some(_)) = (session.open_model(), session.clip())
+        && !look.trails.is_empty()
+    {
+        let words = match look.trails[..] {
+            [joint] => format!("Trail of {}", session.joint_label(joint)),
+            ref trails => format!("Trails {}", trails.len()),
+        };
+        let colors = joint_colors(&open.model.skeleton);
+        let colors = look.trails.iter().filter_map(|joint| colors.get(joint.index()));
+        let mode = Mode::new(words, None, LookCommand::ClearTrails);
+        modes.push(mode.marked(colors.map(|&[red, green, blue, _]| [red, green, blue])));
+    }
     if let Some(stops) = actions::TURNTABLE.command(session).filter(|_| session.turntable()) {
         modes.push(Mode::new("Turntable".to_owned(), None, stops).with_article());
     }
@@ -149,7 +189,8 @@ impl Chip {
             .painter()
             .layout_no_wrap(shown_key.to_owned(), theme::mono(11.0), tokens.muted);
         let behind = if shown_key.is_empty() { 0.0 } else { GAP + key.size().x };
-        let width = 2.0 * PADDING + words.size().x + behind + GAP + CROSS;
+        let marks = mode.marks.len() as f32 * MARK;
+        let width = 2.0 * PADDING + marks + words.size().x + behind + GAP + CROSS;
         Self {
             mode,
             words,
@@ -178,6 +219,10 @@ impl Chip {
         }
         let middle = chip.center().y;
         let mut x = chip.min.x + PADDING;
+        for &mark in &self.mode.marks {
+            painter.circle_filled(pos2(x + 3.0, middle), 4.0, mark);
+            x += MARK;
+        }
         for (galley, color) in [(&self.words, tokens.text), (&self.key, tokens.muted)] {
             let at = pos2(x, middle - 0.5 * galley.size().y);
             painter.galley(at, Arc::clone(galley), color);

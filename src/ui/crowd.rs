@@ -1,10 +1,9 @@
 //! How many instances of the model there are, which one is selected, and what a frame of them costs.
 
-use egui::{Align2, FontId, Sense, Ui, vec2};
+use egui::Ui;
 
 use super::cost::SteadyCost;
 use super::icons::Icon;
-use super::theme::Tokens;
 use super::widgets::{TypedValue, control_size, hint_beside, push_button, section_name, segmented, value_row};
 use super::wording::{bytes, grouped, milliseconds};
 use crate::session::{Command, CrowdCommand, CrowdState, MAX_CROWD, Session};
@@ -15,6 +14,7 @@ const COUNTS: [usize; 4] = [1, 10, 100, MAX_CROWD];
 const FIELD_WIDTH: f32 = 116.0;
 /// The least width of the seed beside its button.
 const SEED_WIDTH: f32 = 86.0;
+const HINT: &str = "Click to type";
 
 /// The section. One model alone has neither seed nor selection nor costs.
 pub(super) fn show(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands: &mut Vec<Command>) {
@@ -43,7 +43,8 @@ fn seed_row(ui: &mut Ui, crowd: CrowdState, commands: &mut Vec<Command>) {
         typed.map_err(|_| format!("A whole number up to {}", u32::MAX))
     };
     let asked = ui.horizontal(|ui| {
-        let typed = field(ui, "Seed", button, &seed, &seed, read);
+        let field = TypedValue::new(ui, "Seed", &seed, &seed).width(field_width(ui) - button);
+        let typed = field.row(ui, button, ("", HINT), read);
         let another = push_button(ui, Icon::Dice, "Another seed").clicked();
         typed.or(another.then_some(crowd.seed.wrapping_add(1)))
     });
@@ -66,36 +67,19 @@ fn selected_row(ui: &mut Ui, crowd: CrowdState, commands: &mut Vec<Command>) {
         let number = number.filter(|number| (1..=count).contains(number));
         number.ok_or_else(|| format!("A number from 1 to {count}"))
     };
-    let asked = ui.horizontal(|ui| field(ui, "Selected", 0.0, &text, &number, read));
+    let field = TypedValue::new(ui, "Selected", &text, &number).width(field_width(ui));
+    let asked = ui.horizontal(|ui| field.row(ui, 0.0, ("", HINT), read));
     if let Some(number) = asked.inner {
         commands.push(CrowdCommand::Select(number - 1).into());
     }
 }
 
-fn button_width(ui: &Ui) -> f32 {
-    control_size(ui) + ui.spacing().item_spacing.x
+fn field_width(ui: &Ui) -> f32 {
+    FIELD_WIDTH.max(SEED_WIDTH + button_width(ui))
 }
 
-/// A label and a number that can be typed, with room for something behind it.
-fn field<T>(
-    ui: &mut Ui,
-    name: &'static str,
-    behind: f32,
-    text: &str,
-    typed: &str,
-    read: impl FnOnce(&str) -> Result<T, String>,
-) -> Option<T> {
-    let tokens = Tokens::of(ui);
-    let width = FIELD_WIDTH.max(SEED_WIDTH + button_width(ui));
-    let label_width = ui.available_width() - width - ui.spacing().item_spacing.x;
-    let (rect, _) = ui.allocate_exact_size(vec2(label_width, control_size(ui)), Sense::hover());
-    let font = FontId::proportional(13.0);
-    ui.painter()
-        .text(rect.left_center(), Align2::LEFT_CENTER, name, font, tokens.muted);
-    let value = TypedValue::new(ui, name, text, typed).width(width - behind);
-    let (read, response) = value.show(ui, read);
-    response.on_hover_text("Click to type");
-    read
+fn button_width(ui: &Ui) -> f32 {
+    control_size(ui) + ui.spacing().item_spacing.x
 }
 
 fn cost_rows(ui: &mut Ui, session: &Session, cost: &mut SteadyCost) {

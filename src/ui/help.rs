@@ -42,9 +42,9 @@ const MOUSE: [(&str, &str); 13] = [
 const FINGERS: [(&str, &str); 5] = [
     ("One finger", "orbit"),
     ("Two fingers", "pan and zoom"),
-    ("Tap", "Model tab: select a subset"),
-    ("", "Skeleton tab: select a bone,"),
-    ("", "on coloured skin a vertex"),
+    ("Tap", "select a bone that is drawn,"),
+    ("", "on coloured skin a vertex,"),
+    ("", "else a subset"),
 ];
 
 /// A part of the table.

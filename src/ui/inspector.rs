@@ -1,5 +1,7 @@
 //! The selected submesh: its counts, its material to edit, its maps.
 
+use std::ops::RangeInclusive;
+
 use egui::{Align2, FontId, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
 
 use super::model_panel::shown_color;
@@ -79,7 +81,7 @@ fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState
     }
     let missing = session.maps().checklist().missing.iter().any(|other| other == name);
     let (words, hint) = if missing {
-        ("missing", "Drop it any time.")
+        ("missing", "Drop it here at any time.")
     } else {
         ("unreadable", "See Findings.")
     };
@@ -123,7 +125,8 @@ fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
             color_row(ui, "Ambient", ambient);
             color_row(ui, "Diffuse", &mut edited.diffuse);
             color_row(ui, "Specular", specular);
-            power_row(ui, spec_power);
+            let speed = 0.25 + *spec_power * 0.01;
+            number_row(ui, "Power", spec_power, 0.0..=MAX_SPEC_POWER, (speed, 1));
             color_row(ui, "Reflectivity", reflectivity);
         }
     }
@@ -137,13 +140,7 @@ fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
 fn of_gltf(ui: &mut Ui, material: &Material, mut edited: Material) -> Option<Material> {
     color_row(ui, "Emissive", &mut edited.emissive);
     if material.normal_map.is_some() {
-        row(ui, "Normal scale", |ui, height| {
-            let size = vec2(ui.available_width(), height);
-            let scale = edited.normal_scale;
-            if let Some(number) = number_field(ui, "Normal scale: number", size, scale, -8.0..=8.0, (0.01, 2)) {
-                edited.normal_scale = number;
-            }
-        });
+        number_row(ui, "Normal scale", &mut edited.normal_scale, -8.0..=8.0, (0.01, 2));
     }
     if material.occlusion_map.is_some() {
         part_row(ui, "Occlusion", &mut edited.occlusion_strength);
@@ -202,20 +199,15 @@ fn color_row(ui: &mut Ui, label: &str, color: &mut [f32; 3]) {
         for (value, name) in color.iter_mut().zip(["red", "green", "blue"]) {
             let label = format!("{label}: {name}");
             let size = vec2(width, height);
-            if let Some(number) = number_field(ui, &label, size, *value, 0.0..=1.0, (0.005, 3)) {
-                *value = number;
-            }
+            *value = number_field(ui, &label, size, *value, 0.0..=1.0, (0.005, 3)).unwrap_or(*value);
         }
     });
 }
 
-fn power_row(ui: &mut Ui, power: &mut f32) {
-    row(ui, "Power", |ui, height| {
-        let size = vec2(ui.available_width(), height);
-        let speed = 0.25 + *power * 0.01;
-        if let Some(number) = number_field(ui, "Power: number", size, *power, 0.0..=MAX_SPEC_POWER, (speed, 1)) {
-            *power = number;
-        }
+fn number_row(ui: &mut Ui, label: &str, number: &mut f32, range: RangeInclusive<f32>, step: (f32, usize)) {
+    row(ui, label, |ui, height| {
+        let (name, size) = (format!("{label}: number"), vec2(ui.available_width(), height));
+        *number = number_field(ui, &name, size, *number, range, step).unwrap_or(*number);
     });
 }
 

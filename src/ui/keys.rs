@@ -42,6 +42,7 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
             _ => None,
         };
         if let Some(ask) = asked.and_then(|action| action.ask(session)) {
+            state.announcer.by_key |= asked.is_some_and(|action| action.told);
             carry_out(ask, ui, session, state, commands);
         }
     }

@@ -4,7 +4,7 @@
 //! One pass goes from the edges inwards. Each panel gets the room that the panels before it left, and what all of them leave is where
 //! the model is framed.
 
-use egui::{Align, Align2, Id, Layout, Margin, Rangef, Rect, Role, Sense, Ui, UiBuilder, Vec2, pos2, vec2};
+use egui::{Align, Align2, Id, Layout, Margin, Rangef, Rect, RichText, Role, Sense, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use super::icons::Icon;
 use super::panel::{self, Free, LEAST_ROOM, Panel, mark_transport, scrolled};
@@ -40,8 +40,8 @@ const MOST_BESIDE: f32 = 560.0;
 const FIGURE_REACH: f32 = 80.0;
 /// The least width beside the diagnostics in which something of a model is seen.
 const LEAST_BESIDE_DIAGNOSTICS: f32 = 200.0;
-/// The least height of the room in which the button to frame the model stands.
-const LEAST_WITH_FRAME: f32 = 64.0;
+/// The least sides of the room in which the button to frame the model stands.
+const LEAST_WITH_FRAME: f32 = 84.0;
 /// The least width of the selection's name, and the room that it leaves to the button that frames.
 const LEAST_SELECTION: f32 = 88.0;
 const BESIDE_SELECTION: f32 = 110.0;
@@ -86,8 +86,7 @@ pub(super) fn show(ui: &Ui, session: &Session, state: &mut UiState, commands: &m
         Arrangement::Wide => wide(ui, session, state, Free::new(window), commands),
         arrangement => {
             let low = arrangement == Arrangement::Low;
-            let free = narrow(ui, session, state, Free::new(window), low, commands);
-            (free, free)
+            narrow(ui, session, state, Free::new(window), low, commands)
         }
     };
     (free.rect, uncovered.room())
@@ -141,7 +140,6 @@ fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, command
         free.cut_bottom(greeting);
     }
     show_on_top(ui, session, state, &free, commands);
-    frame_button(ui, session, state, &free, commands);
 
     let mut beside = free;
     let inspects_joint = is_inspected(session);
@@ -167,9 +165,10 @@ fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, command
         beside.cut_left(list);
         // A click on a diagnostic shows its subject, so the list does not cover it. If the list leaves too little room, it does.
         if beside.rect.width() >= LEAST_BESIDE_DIAGNOSTICS {
-            return (beside, beside);
+            free = beside;
         }
     }
+    frame_button(ui, session, state, &beside, commands);
     // The model stays where it is when an inspector opens.
     (free, beside)
 }
@@ -185,10 +184,43 @@ fn side_label(state: &UiState) -> &'static str {
 /// Facts or the tree of joints below the switch between them; each scrolls by itself.
 fn side_panel(ui: &mut Ui, id: &'static str, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     if has_joints(session) {
-        skeleton::show_pages(ui, &mut state.skeleton);
+        show_tabs(ui, session, state, false);
         ui.add_space(8.0);
     }
     side_page(ui, id, session, state, commands);
+}
+
+/// The switch between the pages of the panel on the left, and in the sheet what is selected.
+fn show_tabs(ui: &mut Ui, session: &Session, state: &mut UiState, in_sheet: bool) {
+    let tabs = [
+        (Some(SidePage::Model), "Model"),
+        (Some(SidePage::Skeleton), "Skeleton"),
+        (None, "Selection"),
+    ];
+    let is_there = |tab: &(Option<SidePage>, _)| match tab.0 {
+        Some(page) => page == SidePage::Model || has_joints(session),
+        None => in_sheet,
+    };
+    let tabs: Vec<_> = tabs.into_iter().filter(is_there).collect();
+    let shown = if in_sheet {
+        side_tab(state)
+    } else {
+        Some(state.skeleton.page)
+    };
+    match widgets::segmented(ui, "Panel", &tabs, Some(shown)) {
+        Some(Some(page)) => {
+            state.skeleton.page = page;
+            state.sheet = state.sheet.map(|_| SheetPage::Model);
+        }
+        Some(None) => state.sheet = Some(SheetPage::Selection),
+        None => {}
+    }
+}
+
+/// The tab of the sheet: a page of the panel on the left, or none for what is selected. A bone is named in the tree.
+fn side_tab(state: &UiState) -> Option<SidePage> {
+    let selection = state.sheet == Some(SheetPage::Selection) && !state.skeleton.is_naming();
+    (!selection).then_some(state.skeleton.page)
 }
 
 fn side_page(ui: &mut Ui, id: &'static str, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
@@ -199,7 +231,8 @@ fn side_page(ui: &mut Ui, id: &'static str, session: &Session, state: &mut UiSta
     }
 }
 
-/// Phones, slim and low windows: one bar above, one sheet below; in a low window what is opened stands between them.
+/// Phones, slim and low windows: one bar above, one sheet below; in a low window what is opened stands between them. Returns the same as
+/// [`wide`].
 fn narrow(
     ui: &Ui,
     session: &Session,
@@ -207,7 +240,7 @@ fn narrow(
     mut free: Free,
     low: bool,
     commands: &mut Vec<Command>,
-) -> Free {
+) -> (Free, Free) {
     let room = free.room();
     let mut opens = Vec::new();
     let bar = Panel::new("title", "Title", Align2::LEFT_TOP)
@@ -227,15 +260,12 @@ fn narrow(
         });
     commands.append(&mut opens);
     free.cut_top(bar);
-    if state.sheet == Some(SheetPage::Skeleton) && session.joints().selected().is_some() {
-        state.sheet = Some(SheetPage::Model);
-    }
     if session.open_model().is_some() || !matches!(state.sheet, None | Some(SheetPage::Model)) {
         let sheet = sheet(ui, session, state, &free, low, commands);
         free.cut_bottom(sheet);
         if let Some(page) = state.sheet.filter(|_| low) {
             let room = free.room();
-            let label = page_title(page, session, state);
+            let label = page_title(page, state);
             let page = Panel::new("page", label, Align2::RIGHT_TOP)
                 .width(page_width(page, ui.max_rect()))
                 .show(ui, room, |ui| show_page(ui, page, session, state, commands));
@@ -261,11 +291,20 @@ fn narrow(
     {
         free.cut_bottom(strip);
     }
-    frame_button(ui, session, state, &free, commands);
     let room = free.room();
     let room = beside_card.map_or(room, |card| room.with_min_x(card.max.x + MARGIN));
-    shortcuts(ui, session, state, room);
-    free
+    let chips = shortcuts(ui, session, state, room);
+    let uncovered = free;
+    if !state.messages.is_shown() {
+        frame_button(ui, session, state, &free, commands);
+    }
+    // A figure stands on them, unless they are beside it.
+    if let Some(chips) = chips.filter(|chips| chips.max.x + FIGURE_REACH > room.center().x)
+        && chips.min.y - room.min.y >= LEAST_WITH_STRIP
+    {
+        free.cut_bottom(chips);
+    }
+    (free, uncovered)
 }
 
 /// What the colours of the skin mean, if they mean something, in the lower left corner of a room.
@@ -276,8 +315,7 @@ fn show_legend(ui: &Ui, session: &Session, state: &mut UiState, room: Rect, shap
         LegendShape::Card => panel.width(SIDE_WIDTH),
         LegendShape::Strip => panel.margin(skeleton::STRIP_MARGIN),
     };
-    let side_shown = Arrangement::of(ui.max_rect()) == Arrangement::Wide || state.sheet == Some(SheetPage::Model);
-    let tree_shown = side_shown && state.skeleton.page == SidePage::Skeleton;
+    let tree_shown = shows_side_page(ui.max_rect(), state) && state.skeleton.page == SidePage::Skeleton;
     Some(panel.show(ui, room, |ui| {
         if skeleton::show_legend(ui, session, view, shape, tree_shown) {
             state.skeleton.show_page(session, SidePage::Skeleton);
@@ -303,11 +341,11 @@ fn sheet(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, low: bool
         .margin(margin)
         .width(window.width())
         .show(ui, window.with_min_y(free.room().min.y), |ui| {
-            let shows_facts = is_side_page(SheetPage::Model, session, state) && state.skeleton.page == SidePage::Model;
+            let shows_facts = !state.diagnostics_open && side_tab(state) == Some(SidePage::Model);
             let label = match state.sheet {
                 Some(_) => "Close the sheet",
                 None if shows_facts => "Model facts",
-                None => page_title(SheetPage::Model, session, state),
+                None => page_title(SheetPage::Model, state),
             };
             let handle = widgets::sheet_handle(ui, label);
             if handle.clicked() {
@@ -326,7 +364,7 @@ fn sheet(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, low: bool
                     Some(page) => {
                         let still = session.reduced_motion();
                         let (height, at_rest) = state.sheet_height.now(ui.ctx(), heights, still);
-                        let label = page_title(page, session, state);
+                        let label = page_title(page, state);
                         let region = UiBuilder::new()
                             .accessibility_role(Role::Region)
                             .accessibility_label(label);
@@ -365,6 +403,11 @@ pub(super) fn sheet_covers_view(window: Rect, state: &UiState) -> bool {
     Arrangement::of(window) == Arrangement::Narrow && state.sheet.is_some()
 }
 
+/// Whether facts or the tree of joints are seen.
+pub(super) fn shows_side_page(window: Rect, state: &UiState) -> bool {
+    is_wide(window) || state.sheet == Some(SheetPage::Model)
+}
+
 /// Width of a page beside the model.
 fn page_width(page: SheetPage, window: Rect) -> f32 {
     let fraction = if page == SheetPage::Timeline {
@@ -375,22 +418,14 @@ fn page_width(page: SheetPage, window: Rect) -> f32 {
     (fraction * window.width()).min(MOST_BESIDE)
 }
 
-/// Whether a page is the panel that is on the left of a wide window.
-fn is_side_page(page: SheetPage, session: &Session, state: &UiState) -> bool {
-    let inspects = session.submeshes().selected().is_some() || is_inspected(session);
-    match page {
-        SheetPage::Skeleton => true,
-        SheetPage::Model => !state.diagnostics_open && (!inspects || state.skeleton.is_naming()),
-        _ => false,
-    }
-}
-
 /// The title of a page of the sheet.
-fn page_title(page: SheetPage, session: &Session, state: &UiState) -> &'static str {
+fn page_title(page: SheetPage, state: &UiState) -> &'static str {
     match page {
-        SheetPage::Model if state.diagnostics_open => "Findings",
-        SheetPage::Model | SheetPage::Skeleton if is_side_page(page, session, state) => side_label(state),
-        SheetPage::Model | SheetPage::Skeleton => "Inspector",
+        SheetPage::Model | SheetPage::Selection if state.diagnostics_open => "Findings",
+        SheetPage::Model | SheetPage::Selection => match side_tab(state) {
+            Some(_) => side_label(state),
+            None => "Inspector",
+        },
         SheetPage::ViewMode => "View mode",
         SheetPage::Light => "Light and background",
         SheetPage::Overlays => "Lines over the model",
@@ -403,20 +438,20 @@ fn page_title(page: SheetPage, session: &Session, state: &UiState) -> &'static s
 
 /// A page of the sheet below its title, no higher than what is available.
 fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    if page == SheetPage::Model && state.diagnostics_open {
+    let is_tab = matches!(page, SheetPage::Model | SheetPage::Selection);
+    if is_tab && state.diagnostics_open {
         findings::show(ui, session, state, commands);
         return;
     }
-    let is_side = is_side_page(page, session, state);
-    let title = page_title(page, session, state);
-    let close = if is_side && has_joints(session) {
-        // The switch between both pages is their title.
+    let title = page_title(page, state);
+    let close = if is_tab {
+        // The switch between the pages is their title.
         ui.horizontal(|ui| {
             let size = vec2(
                 ui.available_width() - widgets::control_size(ui) - 6.0,
                 widgets::control_size(ui),
             );
-            ui.allocate_ui(size, |ui| skeleton::show_pages(ui, &mut state.skeleton));
+            ui.allocate_ui(size, |ui| show_tabs(ui, session, state, true));
             widgets::push_button(ui, Icon::Close, "Close")
         })
         .inner
@@ -428,7 +463,7 @@ fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiStat
     if close.clicked() {
         state.sheet = None;
     }
-    if is_side {
+    if is_tab && side_tab(state).is_some() {
         side_page(ui, "sheet", session, state, commands);
         return;
     }
@@ -449,8 +484,16 @@ fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiStat
     );
     let area = scrolled("sheet", ui.available_height()).id_salt(("sheet", page as u8, inspected));
     area.show(ui, |ui| match page {
-        SheetPage::Model if session.submeshes().selected().is_some() => inspector::show(ui, session, state, commands),
-        SheetPage::Model => skeleton::show_inspector(ui, session, &mut state.skeleton, commands),
+        SheetPage::Selection if session.submeshes().selected().is_some() => {
+            inspector::show(ui, session, state, commands);
+        }
+        SheetPage::Selection if is_inspected(session) => {
+            skeleton::show_inspector(ui, session, &mut state.skeleton, commands);
+        }
+        SheetPage::Selection => {
+            let words = "Nothing is selected. Tap a part of the model, or choose a bone under Skeleton.";
+            ui.label(RichText::new(words).color(Tokens::of(ui).muted));
+        }
         SheetPage::ViewMode => {
             widgets::choices(ui, title, |ui| toolbar::view_mode_items(ui, session, commands));
         }
@@ -460,7 +503,7 @@ fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiStat
             toolbar::view_from_items(ui, session, commands);
         }
         SheetPage::Picture => picture::show(ui, session, state),
-        SheetPage::Export | SheetPage::Skeleton | SheetPage::Timeline => {}
+        SheetPage::Model | SheetPage::Export | SheetPage::Timeline => {}
     });
 }
 
@@ -487,12 +530,13 @@ fn show_on_top(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, com
 
 /// Offers to frame the model after the camera was moved by hand and the panels changed: the camera does not move by itself then.
 fn frame_button(ui: &Ui, session: &Session, state: &UiState, free: &Free, commands: &mut Vec<Command>) {
-    if !state.offers_frame || free.room().height() < LEAST_WITH_FRAME {
+    let room = free.room();
+    if !state.offers_frame || room.size().min_elem() < LEAST_WITH_FRAME {
         return;
     }
     Panel::new("frame", "Frame", Align2::RIGHT_BOTTOM)
         .margin(Margin::same(3))
-        .show(ui, free.room(), |ui| {
+        .show(ui, room, |ui| {
             let action = &actions::FRAME_MODEL;
             let button = widgets::TextButton::new("Frame", action.label).icon(Icon::Frame);
             if button.show(ui).on_hover_text(action.hint()).clicked() {
@@ -503,9 +547,9 @@ fn frame_button(ui: &Ui, session: &Session, state: &UiState, free: &Free, comman
 
 /// While the sheet is shut: how many findings there are, and what is selected. Each opens its page. A message takes
 /// their place.
-fn shortcuts(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) {
-    if state.sheet.is_some() || state.messages.is_shown() {
-        return;
+fn shortcuts(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) -> Option<Rect> {
+    if state.sheet.is_some() {
+        return None;
     }
     let joints = session.joints();
     let submesh = session.submeshes().selected();
@@ -514,9 +558,13 @@ fn shortcuts(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) {
     let name = name.or_else(|| Some(session.submesh_name(submesh?).to_owned()));
     let is_told = session.open_model().is_some() && session.diagnostics().next().is_some();
     if name.is_none() && !is_told {
-        return;
+        return None;
     }
-    Panel::new("shortcuts", "Findings and selection", Align2::LEFT_BOTTOM)
+    if state.messages.is_shown() {
+        // The model stays where it is.
+        return ui.memory(|memory| memory.area_rect(panel::id_of("shortcuts")));
+    }
+    let chips = Panel::new("shortcuts", "Findings and selection", Align2::LEFT_BOTTOM)
         .margin(Margin::same(3))
         .show(ui, room, |ui| {
             ui.horizontal(|ui| {
@@ -534,10 +582,11 @@ fn shortcuts(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) {
                 let width = Rangef::new(LEAST_SELECTION, most);
                 if TextButton::new(&name, &label).width(width).show(ui).clicked() {
                     state.diagnostics_open = false;
-                    state.sheet = Some(SheetPage::Model);
+                    state.sheet = Some(SheetPage::Selection);
                 }
             });
         });
+    Some(chips)
 }
 
 /// Why a file was not opened: in the middle of the window, or so far to the right that the panel on the left can be read. It scrolls

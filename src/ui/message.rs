@@ -28,6 +28,8 @@ pub struct Messages {
 struct Message {
     words: String,
     offer: Option<Offer>,
+    /// The step that is last when it is shown first. Another one is not taken back.
+    step: Option<String>,
     /// When it goes, in egui's time. None until it was shown once.
     ends_secs: Option<f64>,
 }
@@ -65,6 +67,12 @@ impl Messages {
         self.show_next(words.into(), Some(offer));
     }
 
+    /// Shows a sentence that a screen reader was told.
+    pub(super) fn show_spoken(&mut self, sentence: &str, offer: Option<Offer>) {
+        self.show_next(sentence.trim_end_matches('.').to_owned(), offer);
+        self.unspoken = false;
+    }
+
     /// Shows that a picture was saved, and offers to save it elsewhere.
     pub fn say_saved(&mut self, name: &str, [width, height]: [u32; 2]) {
         self.offer(format!("Saved {name}, {width} × {height}"), Offer::SavePicture);
@@ -81,6 +89,7 @@ impl Messages {
         self.shown = Some(Message {
             words,
             offer,
+            step: None,
             ends_secs: None,
         });
     }
@@ -98,10 +107,16 @@ impl Messages {
     }
 }
 
-/// Shows the message at the bottom of a room. Returns what the person took of what it offers.
-pub(super) fn show(ui: &Ui, messages: &mut Messages, room: Rect) -> Option<Offer> {
+/// Shows the message at the bottom of a room. `last_step`: what undo would take back. Returns what the person took of what it offers.
+pub(super) fn show(ui: &Ui, messages: &mut Messages, last_step: Option<&str>, room: Rect) -> Option<Offer> {
     let message = messages.shown.as_mut()?;
     let now_secs = ui.input(|input| input.time);
+    if message.ends_secs.is_none() {
+        message.step = last_step.map(str::to_owned);
+    }
+    message
+        .offer
+        .take_if(|offer| *offer == Offer::Undo && message.step.as_deref() != last_step);
     let ends_secs = *message.ends_secs.get_or_insert(now_secs + SHOWN_SECS);
     if now_secs >= ends_secs || room.width() < LEAST_WIDTH {
         messages.shown = None;

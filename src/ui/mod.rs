@@ -53,7 +53,7 @@ use theme::MARGIN;
 use wording::{counted, shortened};
 
 /// The camera frames the model in no less of the window's height. Chips lie over it where they leave less.
-const LEAST_BELOW_CHIPS: f32 = 0.2;
+const LEAST_BELOW_CHIPS: f32 = 0.1;
 
 /// Gives a context what the interface needs: fonts, styles, and the order of input.
 pub fn install(ctx: &egui::Context) {
@@ -96,7 +96,8 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     let popover_open = Popup::is_any_open(ui.ctx());
     let typed = state.keyboard.was_typing(ui.ctx());
     let shuts_sheet = layout::sheet_covers_view(window, state);
-    let picks_bones = state.skeleton.picks_bones();
+    let page_seen = layout::shows_side_page(window, state);
+    let picks_bones = state.skeleton.picks_bones(session, page_seen);
     let blocked = popover_open || shuts_sheet;
     let clicked = viewport::show(ui, window, &mut state.view_hold, picks_bones, blocked, &mut commands);
     if clicked && shuts_sheet && !popover_open {
@@ -108,6 +109,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     skeleton::show_marks(ui, session, &state.skeleton, window);
     state.hovered_submesh = None;
     state.timeline.update(session);
+    state.follow_selection(session);
     state.offers_frame &= !session.is_framed() && session.open_model().is_some();
     let (mut free, uncovered) = layout::show(ui, session, state, &mut commands);
     if std::mem::take(&mut state.wants_export) {
@@ -122,7 +124,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
         // In a narrow window they would lie over the model's head.
         free.min.y = free.min.y.max(bottom + MARGIN);
     }
-    match message::show(ui, &mut state.messages, uncovered) {
+    match message::show(ui, &mut state.messages, session.history().undo_label(), uncovered) {
         Some(Offer::SavePicture) => state.requests.push(Request::SavePictureAs),
         Some(Offer::Undo) => commands.push(HistoryCommand::Undo.into()),
         Some(Offer::UseSky(path)) => commands.push(FileCommand::UseSky(path).into()),
@@ -141,6 +143,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     }
     state.skeleton.hover(session, state.timeline.hovered(), &mut commands);
     state.skeleton.settle_naming(ui, &mut commands);
+    state.skeleton.draw_bones(session, &mut commands);
     // Shortcuts come last, since a focused control takes its keys first. Keys typed into a field are not shortcuts, whether the field
     // had the focus when the pass began or has it now.
     let typing = state.keyboard.is_typing(ui.ctx()) || state.skeleton.awaits_field();

@@ -81,44 +81,49 @@ fn counts(ui: &mut Ui, open: &OpenModel) {
 }
 
 fn space_rows(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let how = |chosen: bool| if chosen { "chosen" } else { "found" };
-    let hand = |handedness| match handedness {
+    let hand = match session.handedness() {
         Handedness::Left => "Left",
         Handedness::Right => "Right",
     };
+    let hands = [
+        ("As found", None),
+        ("Left-handed", Some(Handedness::Left)),
+        ("Right-handed", Some(Handedness::Right)),
+    ];
     let chosen = session.handedness_override();
-    let row = choice_row(ui, "Handedness", hand(session.handedness()), how(chosen.is_some()));
-    let name = tell_popup(ui, &row, HasPopup::Menu);
-    Popup::menu(&row).accessible_name(name).show(|ui| {
-        ui.set_width(150.0);
-        for (label, choice) in [
-            ("As found", None),
-            ("Left-handed", Some(Handedness::Left)),
-            ("Right-handed", Some(Handedness::Right)),
-        ] {
-            if menu_item(ui, label, MenuLine::Choice(chosen == choice)).clicked() {
-                commands.push(Command::SetHandedness(choice));
-                ui.close();
-            }
-        }
-    });
-
-    let axis = |up_axis| match up_axis {
+    let asked = found_or_chosen(ui, "Handedness", hand, &hands, chosen);
+    commands.extend(asked.map(Command::SetHandedness));
+    let axis = match session.up_axis() {
         UpAxis::Y => "Y",
         UpAxis::Z => "Z",
     };
-    let chosen = session.up_axis_override();
-    let row = choice_row(ui, "Up axis", axis(session.up_axis()), how(chosen.is_some()));
+    let axes = [("As found", None), ("Y up", Some(UpAxis::Y)), ("Z up", Some(UpAxis::Z))];
+    let asked = found_or_chosen(ui, "Up axis", axis, &axes, session.up_axis_override());
+    commands.extend(asked.map(Command::SetUpAxis));
+}
+
+/// What was found in the file, or was chosen instead, with a menu of what can be. Returns a new choice.
+fn found_or_chosen<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    label: &str,
+    now: &str,
+    choices: &[(&str, Option<T>)],
+    chosen: Option<T>,
+) -> Option<Option<T>> {
+    let how = if chosen.is_some() { "chosen" } else { "found" };
+    let row = choice_row(ui, label, now, how);
     let name = tell_popup(ui, &row, HasPopup::Menu);
+    let mut asked = None;
     Popup::menu(&row).accessible_name(name).show(|ui| {
         ui.set_width(150.0);
-        for (label, choice) in [("As found", None), ("Y up", Some(UpAxis::Y)), ("Z up", Some(UpAxis::Z))] {
+        for &(label, choice) in choices {
             if menu_item(ui, label, MenuLine::Choice(chosen == choice)).clicked() {
-                commands.push(Command::SetUpAxis(choice));
+                asked = Some(choice);
                 ui.close();
             }
         }
     });
+    asked
 }
 
 fn bounds_row(ui: &mut Ui, open: &OpenModel) {

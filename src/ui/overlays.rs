@@ -1,19 +1,19 @@
 //! Lines over and beside the model; bones, their names, bind pose, ghosts, trails.
 
-use egui::{Align2, FontId, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use super::icons::Icon;
 use super::panel::popover_gap;
 use super::skeleton::state::{SkeletonState, has_joints};
 use super::theme::Tokens;
 use super::widgets::{
-    Slider, action_switch, control_size, number_field, paint_name, push_button, section_name, section_with_action,
-    segmented, switch_row,
+    Slider, action_switch, control_size, noted_switch_row, number_field, paint_name, push_button, section_name,
+    section_with_action, segmented, switch_row,
 };
 use crate::actions;
 use crate::anim::{GHOST_STEP_FRAMES, GhostPlan};
-use crate::scene::{BoneStyle, Overlay, Overlays};
-use crate::session::{Command, LookCommand, MAX_LINE_LENGTH, PlayCommand, Session};
+use crate::scene::{BoneStyle, Overlay, Overlays, joint_colors};
+use crate::session::{Command, GHOSTS_SRGB, LookCommand, MAX_LINE_LENGTH, PlayCommand, Session};
 
 /// The ghosts when they are switched on.
 const FIRST_GHOSTS: GhostPlan = GhostPlan {
@@ -102,7 +102,8 @@ fn bind_pose(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             commands.push(PlayCommand::SetBindWeight(weight).into());
         }
     }
-    if switch_row(ui, "Bind pose as a ghost", "", session.look().bind_ghost).clicked() {
+    let note = ("grey", FontId::proportional(12.0), ghost_color(ui, 2));
+    if noted_switch_row(ui, "Bind pose as a ghost", note, session.look().bind_ghost).clicked() {
         commands.push(LookCommand::SetBindGhost(!session.look().bind_ghost).into());
     }
 }
@@ -116,12 +117,14 @@ fn ghosts(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         let gap = ui.spacing().item_spacing.x;
         let size = vec2((ui.available_width() - 2.0 * gap) / 3.0, control_size(ui));
-        let mut field = |label: &str, value: u32, range| {
+        let muted = Tokens::of(ui).muted;
+        let [past, future] = [0, 1].map(|ghost| ghost_color(ui, ghost));
+        let mut field = |label: &str, color: Color32, value: u32, range| {
             ui.vertical(|ui| {
                 ui.set_width(size.x);
                 let (name, _) = ui.allocate_exact_size(vec2(size.x, 15.0), Sense::hover());
                 let short = label.rsplit(' ').next().unwrap_or(label);
-                let (font, color) = (FontId::proportional(11.0), Tokens::of(ui).muted);
+                let font = FontId::proportional(11.0);
                 ui.painter()
                     .text(name.center(), Align2::CENTER_CENTER, short, font, color);
                 number_field(ui, label, size, value as f32, range, (0.1, 0))
@@ -129,9 +132,9 @@ fn ghosts(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             .inner
             .map(|number| number.round() as u32)
         };
-        let before = field("Ghosts before", plan.before, 0.0..=MOST_GHOSTS);
-        let after = field("Ghosts after", plan.after, 0.0..=MOST_GHOSTS);
-        let step = field("Ghosts every frames", plan.step_frames, 1.0..=MOST_STEP);
+        let before = field("Ghosts before", past, plan.before, 0.0..=MOST_GHOSTS);
+        let after = field("Ghosts after", future, plan.after, 0.0..=MOST_GHOSTS);
+        let step = field("Ghosts every frames", muted, plan.step_frames, 1.0..=MOST_STEP);
         let asked = GhostPlan {
             before: before.unwrap_or(plan.before),
             after: after.unwrap_or(plan.after),
@@ -142,6 +145,12 @@ fn ghosts(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         }
     });
     ui.add_space(6.0);
+}
+
+/// The colour of past, future and bind pose's ghosts, so far towards that of text that it can be read.
+fn ghost_color(ui: &Ui, ghost: usize) -> Color32 {
+    let [red, green, blue] = GHOSTS_SRGB[ghost];
+    Color32::from_rgb(red, green, blue).lerp_to_gamma(Tokens::of(ui).text, 0.35)
 }
 
 /// The joints whose path through the clip is drawn.
@@ -160,6 +169,7 @@ fn trails(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &
     if section_with_action(ui, "Trails", Some("Clear")) {
         commands.push(LookCommand::ClearTrails.into());
     }
+    let colors = session.open_model().map(|open| joint_colors(&open.model.skeleton));
     for &joint in trails {
         let name = session.joint_label(joint);
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), control_size(ui)), Sense::hover());
@@ -169,8 +179,13 @@ fn trails(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &
         let side = control_size(ui);
         let tokens = Tokens::of(ui);
         let font = FontId::proportional(13.0);
-        let room = rect.width() - side;
-        paint_name(ui.painter(), rect.left_center(), &name, font, tokens.text, room);
+        let room = rect.width() - side - 14.0;
+        if let Some(&[red, green, blue, _]) = colors.as_ref().and_then(|colors| colors.get(joint.index())) {
+            let at = rect.left_center() + vec2(4.0, 0.0);
+            ui.painter().circle_filled(at, 4.0, Color32::from_rgb(red, green, blue));
+        }
+        let at = rect.left_center() + vec2(14.0, 0.0);
+        paint_name(ui.painter(), at, &name, font, tokens.text, room);
         response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Trail: {name}")));
         let place = Rect::from_center_size(pos2(rect.max.x - 0.5 * side + 6.0, rect.center().y), Vec2::splat(side));
         let mut corner = ui.new_child(egui::UiBuilder::new().max_rect(place).id_salt(joint.0));

@@ -14,7 +14,7 @@ use super::theme::Contrast;
 use super::thumbnails::Thumbnails;
 use super::timeline::state::TimelineState;
 use super::viewport::ViewHold;
-use crate::model::{Mesh, Submesh};
+use crate::model::{JointIndex, Mesh, Submesh};
 use crate::scene::{Insets, Theme};
 use crate::session::{ExportOptions, Session};
 
@@ -67,10 +67,11 @@ pub struct SheetRequest {
 /// What the bottom sheet of a narrow window shows below the timeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SheetPage {
-    /// Facts, submeshes, textures. Instead the selection, or the diagnostics while they are open.
+    /// The page of the panel that is on the left of a wide window: facts, or the tree of joints. Instead of all tabs the diagnostics while
+    /// they are open.
     Model,
-    /// The tree of joints, to choose one, whatever else is selected.
-    Skeleton,
+    /// What is selected.
+    Selection,
     /// The view mode.
     ViewMode,
     /// Light, background, passes.
@@ -142,6 +143,8 @@ pub struct UiState {
     pub(super) side_width: Option<f32>,
     pub(super) keyboard: Keyboard,
     pub(super) grip: Option<Grip>,
+    /// What was selected in the pass before.
+    pub(super) shown_selection: Selection,
     pub(super) focus: Focus,
     pub(super) requests: Vec<Request>,
     pub(super) announcer: Announcer,
@@ -178,7 +181,23 @@ impl UiState {
     pub fn show_skeleton(&mut self, session: &Session) {
         self.skeleton.show_page(session, SidePage::Skeleton);
         self.diagnostics_open = false;
-        self.sheet = Some(SheetPage::Skeleton);
+        self.sheet = Some(SheetPage::Model);
+    }
+
+    /// Shows in the open sheet what was selected since the last pass; the page of before when nothing is any more.
+    pub(super) fn follow_selection(&mut self, session: &Session) {
+        let (joints, submesh) = (session.joints(), session.submeshes().selected());
+        let vertex = joints.selected_vertex().map(|selected| selected.vertex);
+        let selection = (joints.selected(), vertex, submesh);
+        let is_new = std::mem::replace(&mut self.shown_selection, selection) != selection;
+        if is_new && matches!(self.sheet, Some(SheetPage::Model | SheetPage::Selection)) {
+            let is_some = selection != Selection::default();
+            self.sheet = Some(if is_some {
+                SheetPage::Selection
+            } else {
+                SheetPage::Model
+            });
+        }
     }
 
     /// The model is another one. Findings of the same file stay open.
@@ -209,6 +228,9 @@ impl UiState {
         }
         let told = self.announcer.observe(session);
         self.requests.extend(told.into_iter().map(Request::Announce));
+        if let Some((words, offer)) = self.announcer.unseen.take() {
+            self.messages.show_spoken(&words, offer);
+        }
     }
 
     /// Asks for a picture as chosen. `transparent`: in any case without a background.
@@ -255,6 +277,9 @@ impl UiState {
         self.drawn_sheet = None;
     }
 }
+
+/// The selected joint, vertex and submesh.
+pub(super) type Selection = (Option<JointIndex>, Option<u32>, Option<usize>);
 
 /// A contact sheet that is being drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

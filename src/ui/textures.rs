@@ -46,7 +46,7 @@ pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut
             list.row(&absent_row(ui, [name, &words], color, &details), false);
         });
         if !checklist.missing.is_empty() {
-            let words = egui::RichText::new("Drop what is missing any time.").size(11.5);
+            let words = egui::RichText::new("Drop missing textures here at any time.").size(11.5);
             ui.label(words.color(Tokens::of(ui).muted));
         }
     });

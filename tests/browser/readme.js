@@ -57,7 +57,6 @@ test("one vertex explained", WHOLE, async (page) => {
   await page.mouse.click(...EXPLAIN);
   await atRest(page);
   await page.keyboard.press("w");
-  await page.keyboard.press("b");
   await until(page, ({ skeleton }) => skeleton.bonesVisible && skeleton.vertex !== null);
   await keep(page, "vertex");
 });

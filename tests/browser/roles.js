@@ -64,7 +64,7 @@ test("by roles and names alone a model is opened, played, scrubbed, a bone's mat
   await page.keyboard.press("Enter");
   await until(page, ({ skeleton }) => skeleton.selected !== null);
   await spoken(page, /^Bone /);
-  const row = page.getByRole("list", { name: "Final matrix" }).getByRole("listitem").first();
+  const row = page.getByRole("list", { name: "Final transform" }).getByRole("listitem").first();
   await row.waitFor({ state: "attached" });
   assert.match(await row.textContent(), /^row 1:( -?\d+(\.\d+)?){4}$/);
   await page.getByRole("application", { name: /bone \d/ }).waitFor({ state: "attached" });
@@ -119,7 +119,7 @@ test("findings are filtered, and one leads to its clip, time and bone, and stays
   await page.keyboard.press("Enter");
   const { timeSecs, skeleton } = await until(page, ({ playing, skeleton }) => !playing && skeleton.selected !== null);
   const [{ endSecs }] = (await state(page)).model.clips;
-  assert.deepEqual([timeSecs, skeleton.selected, skeleton.bonesVisible], [endSecs, 1, false]);
+  assert.deepEqual([timeSecs, skeleton.selected, skeleton.bonesVisible], [endSecs, 1, true]);
   await page.getByText(/86 \|\s+Bone1 #Keyframes: 5/).first().waitFor({ state: "attached" });
   await dropAndWait(page, [`${FIXTURES}check/loop-jumps.m3d`]);
   await page.getByText(/86 \|\s+Bone1 #Keyframes: 5/).first().waitFor({ state: "attached" });

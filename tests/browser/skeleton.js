@@ -15,11 +15,9 @@ async function openSkeleton(page) {
   await page.mouse.click(...GROUND);
 }
 
-/** Shows the bones and their page. */
+/** Shows the page of bones, which draws them. */
 async function showBones(page) {
   await openSkeleton(page);
-  await settled(page);
-  await page.keyboard.press("b");
   await until(page, ({ skeleton }) => skeleton.bonesVisible);
 }
 
@@ -139,7 +137,7 @@ test("vertices have the colours that the legend has for their weights", { draws:
 test("with the skin in colours a click selects the vertex that is there", {}, async (page) => {
   await openSkeleton(page);
   await settled(page);
-  for (const key of ["w", "k"]) await page.keyboard.press(key);
+  for (const key of ["w", "k", "b"]) await page.keyboard.press(key);
   await until(page, ({ skeleton }) => skeleton.skinView === "weight" && skeleton.bindShare === 1);
   await atRest(page);
   const place = [493, 240];

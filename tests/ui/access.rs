@@ -120,7 +120,8 @@ fn on_a_phone_too() {
         assert_told(&open(), "shut");
         for (page, name) in [
             (SheetPage::Model, "Model"),
-            (SheetPage::Skeleton, "Skeleton"),
+            (SheetPage::Model, "Skeleton"),
+            (SheetPage::Selection, "Inspector"),
             (SheetPage::ViewMode, "View mode"),
             (SheetPage::Light, "Light and background"),
             (SheetPage::Overlays, "Lines over the model"),
@@ -130,7 +131,7 @@ fn on_a_phone_too() {
         ] {
             let mut window = open();
             let state = window.harness.state_mut();
-            if page == SheetPage::Skeleton {
+            if name == "Skeleton" {
                 state.state.show_skeleton(&state.session);
             }
             state.state.sheet = Some(page);

@@ -1,6 +1,6 @@
 //! Chips over the view: which mode is on, and the cross that ends it.
 
-use bindpose::anim::SkinView;
+use bindpose::anim::{GhostPlan, SkinView};
 use bindpose::model::JointIndex;
 use bindpose::session::{CameraCommand, Command, FileCommand, JointCommand, LookCommand, PlayCommand, SubmeshCommand};
 use egui::{Key, Modifiers, vec2};
@@ -30,8 +30,23 @@ fn modes() -> Vec<(Vec<Command>, &'static str)> {
         ),
         (vec![CameraCommand::ToggleTurntable.into()], "Leave the turntable"),
         (vec![PlayCommand::SetSpeed(0.5).into()], "Leave speed 0.5×"),
+        (vec![LookCommand::SetGhosts(Some(GHOSTS)).into()], "Leave ghosts 3 + 2"),
+        (
+            vec![LookCommand::SetBindGhost(true).into()],
+            "Leave the ghost of the bind pose",
+        ),
+        (
+            vec![LookCommand::ToggleTrail(JointIndex(1)).into()],
+            "Leave trail of Bone 1",
+        ),
     ]
 }
+
+const GHOSTS: GhostPlan = GhostPlan {
+    before: 3,
+    after: 2,
+    step_frames: 5,
+};
 
 fn chips(window: &Window) -> Vec<(String, egui::Rect)> {
     let mut chips = window.named(|name| name.starts_with("Leave "));
@@ -57,7 +72,9 @@ fn each_mode_has_a_chip_that_ends_it() {
             (session.playback().range_secs(), session.playback().speed()),
             (None, 1.0)
         );
-        assert!(session.look().skin_view.is_none() && !session.turntable());
+        let look = session.look();
+        assert!(look.skin_view.is_none() && !session.turntable());
+        assert!(look.ghosts.is_none() && !look.bind_ghost && look.trails.is_empty());
         assert_eq!(
             session.joints().selected(),
             Some(JointIndex(1)),
@@ -80,7 +97,7 @@ fn chips_stand_in_the_view_beside_each_other_and_off_the_panels() {
             window.apply(command);
         }
         let chips = chips(&window);
-        assert_eq!(chips.len(), 6, "{chips:?}");
+        assert_eq!(chips.len(), 9, "{chips:?}");
         for (index, (name, rect)) in chips.iter().enumerate() {
             for panel in ["title", "toolbar", "model", "inspector", "timeline", "sheet", "legend"] {
                 if let Some(panel_rect) = shown_panel(&window, panel) {
@@ -123,4 +140,14 @@ fn without_a_clip_or_a_model_there_is_no_mode_to_leave() {
     assert!(chips(&window).is_empty());
     window.apply(FileCommand::Add(vec![broken("bad.m3d")]));
     assert!(chips(&window).is_empty());
+}
+
+#[test]
+fn trails_are_counted_and_all_end_at_once() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    for joint in [0, 1] {
+        window.apply(LookCommand::ToggleTrail(JointIndex(joint)));
+    }
+    window.click("Leave trails 2");
+    assert!(window.session().look().trails.is_empty());
 }

@@ -65,7 +65,7 @@ fn matrices_numbers_and_keys_are_copied_as_text() {
         offset.starts_with("offset (row vectors") && offset.contains("-0.500000"),
         "{offset}"
     );
-    let last = copied_by(&mut window, "Copy: Final matrix");
+    let last = copied_by(&mut window, "Copy: Final transform");
     assert!(last.starts_with("finalTransform = offset · toRoot"), "{last}");
     let local = copied_by(&mut window, "Copy: place now");
     assert!(local.starts_with("position") && local.contains("0.500000"), "{local}");
@@ -201,7 +201,7 @@ fn an_explanation_stands_still_and_inside_of_the_slimmest_panel() {
             window(size, chains(5))
         };
         if window.shows("Model facts") {
-            window.click("Model facts");
+            window.click("Show Vertex 4");
         }
         window.apply(JointCommand::SelectVertex(Some(4)));
         window.click("Explain this vertex");
@@ -337,4 +337,47 @@ fn on_a_phone_the_keys_have_half_of_the_sheet_and_links_are_rows() {
     let keys = window.named(|name| name.starts_with("Key "));
     let height = keys.iter().map(|(_, rect)| rect.height()).sum::<f32>();
     assert!(height >= 0.5 * 0.47 * PHONE.y, "{height}: {keys:?}");
+}
+
+#[test]
+fn the_words_of_the_books_stand_beside_ours_and_are_explained() {
+    let mut window = tree(vec2(1440.0, 1300.0), 5);
+    window.click("Bone 1, ");
+    assert!(window.shows("Palette 1 of 5; the demo holds 96"));
+    assert!(window.shows("F = offset · toRoot, for row vectors"));
+    for name in [
+        "Palette 1 of 5; the demo holds 96",
+        "Relative to: Local (toParent)",
+        "Relative to: Model (toRoot)",
+        "Offset",
+        "Final transform",
+    ] {
+        let told = window.node(name).description().expect("a sentence");
+        assert!(told.ends_with('.') && !told.contains('`'), "{name}: {told}");
+        let at = window.named(|shown| shown == name)[0].1.center();
+        // Soon after a click there are no tooltips.
+        window.wait(0.5);
+        window.harness.hover_at(at);
+        window.wait(1.0);
+        assert!(window.shows(&told), "{name} on hover: {:?}", window.widgets());
+    }
+    window.apply(JointCommand::SelectVertex(Some(4)));
+    window.click("Explain this vertex");
+    window.click("Unfold the matrices of Bone 1");
+    let toward_model = window.node("bone to model").description().expect("a sentence");
+    assert!(toward_model.starts_with("toRoot "), "{toward_model}");
+}
+
+#[test]
+fn a_bone_without_a_mirror_or_children_moves_nothing_below() {
+    // By touch each child has a row.
+    for (mut window, joints) in [(tree(vec2(1440.0, 1300.0), 5), [0, 1]), (phone(chains(5)), [1, 3])] {
+        let mut places = Vec::new();
+        for joint in joints {
+            window.harness.state_mut().state.sheet = Some(bindpose::ui::SheetPage::Selection);
+            window.apply(JointCommand::Select(Some(JointIndex(joint))));
+            places.push(window.rect("Copy: place now").min.y);
+        }
+        assert_eq!(places[0], places[1]);
+    }
 }

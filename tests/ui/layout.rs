@@ -495,3 +495,56 @@ fn targets_are_large_enough_for_fingers() {
     let rect = window.rect("Close the sheet");
     assert!(rect.height() >= 44.0, "the grip: {rect}");
 }
+
+#[test]
+fn the_button_that_frames_covers_no_panel() {
+    for size in [vec2(1280.0, 800.0), WIDE] {
+        let mut window = window(size, vec![moving("a.m3d")]);
+        let drag = glam::Vec2::new(0.1, 0.0);
+        window.apply(bindpose::session::CameraCommand::Pan { drag });
+        window.apply(JointCommand::Select(Some(JointIndex(1))));
+        show_findings(&mut window);
+        window.apply(JointCommand::SelectVertex(Some(0)));
+        let button = window.rect("Frame the model");
+        let buttons = window.named(|name| name == "Frame the model");
+        assert_eq!(buttons.len(), 1, "{size}: {buttons:?}");
+        for (name, rect) in panels(&window) {
+            assert!(!button.intersects(rect), "{size}: it lies on {name}");
+        }
+    }
+}
+
+#[test]
+fn what_stands_over_the_view_of_a_phone_counts_when_the_model_is_framed() {
+    let mut window = phone(vec![moving("a.m3d")]);
+    let top_of_model = |window: &mut Window| {
+        let session = &mut window.harness.state_mut().session;
+        let bounds = session.open_model().expect("open").bind_bounds;
+        let places = bounds
+            .corners()
+            .map(|corner| session.place_in_picture(corner).expect("in view"));
+        let [low, high] = [f32::min, f32::max].map(|pick| places.map(|at| at.y).into_iter().reduce(pick).expect("8"));
+        [high, low].map(|y| 0.5 * (1.0 - y) * PHONE.y)
+    };
+    window.apply(JointCommand::Select(Some(JointIndex(1))));
+    window.apply(LookCommand::SetSkinView(Some(SkinView::Weight)));
+    window.apply(PlayCommand::SetSpeed(0.5));
+    window.wait(1.0);
+    for sheet in [None, Some(SheetPage::Model)] {
+        window.harness.state_mut().state.sheet = sheet;
+        window.wait(1.0);
+        let [top, bottom] = top_of_model(&mut window);
+        let chip = window.rect("Leave speed 0.5×");
+        assert!(chip.center().y <= top, "{sheet:?}: {chip} over {top}");
+        for below in ["legend", "shortcuts", "sheet"] {
+            let id = egui::Id::unique(("panel", below));
+            let shown = window.harness.ctx.memory(|memory| {
+                let is_shown = memory.areas().visible_layer_ids().iter().any(|layer| layer.id == id);
+                memory.area_rect(id).filter(|_| is_shown)
+            });
+            if let Some(rect) = shown {
+                assert!(rect.min.y >= bottom, "{sheet:?}: {below} {rect} over {bottom}");
+            }
+        }
+    }
+}

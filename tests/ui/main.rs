@@ -1,6 +1,7 @@
 //! The interface, used as a person uses it: by the names of its controls, by keys, pointer and fingers; and looked at.
 
 mod access;
+mod announce;
 mod app;
 mod browser_golden;
 mod camera_motion;

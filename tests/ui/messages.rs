@@ -4,6 +4,8 @@ use egui::{Key, Modifiers, pos2};
 
 use crate::models::moving;
 use crate::page::{WIDE, Window, phone, window};
+use bindpose::model::JointIndex;
+use bindpose::session::{NameCommand, SubmeshCommand};
 use bindpose::ui::Request;
 
 const WORDS: &str = "Saved a-Bend-15.png, 1920 × 1080";
@@ -72,10 +74,64 @@ fn the_cross_ends_it_and_the_next_takes_its_place() {
     window.harness.state_mut().state.messages.say("Something else");
     window.pass_on();
     assert!(window.shows("Something else") && !window.shows(WORDS) && !window.shows("Save the picture as…"));
-    assert_eq!(
-        window.harness.state_mut().state.messages.take_spoken().as_deref(),
-        Some("Something else.")
-    );
+    assert!(window.take_told().ends_with("Something else."));
     window.click("Close the message");
     assert!(!window.shows("Something else"));
+}
+
+#[test]
+fn names_are_told_and_can_be_taken_back_at_once() {
+    let mut window = window(WIDE, crate::skeleton::chains(5));
+    let name = |joint: u32, name: &str| NameCommand::Rename {
+        joint: JointIndex(joint),
+        name: name.to_owned(),
+    };
+    window.take_told();
+    window.apply(name(1, "L arm"));
+    assert!(window.shows("Bone 1 is named L arm"), "{:?}", window.widgets());
+    assert_eq!(window.take_told(), "Bone 1 is named L arm.");
+    window.apply(NameCommand::AcceptMirrored);
+    assert!(window.shows("Bone 2 is named R arm"), "{:?}", window.widgets());
+    window.click("Panel: Skeleton");
+    window.take_told();
+    window.click("Names and branches");
+    window.click("Clear names");
+    assert!(window.shows("2 names cleared") && window.take_told().contains("2 names cleared."));
+    window.click("Undo what the message tells of");
+    assert_eq!(window.session().joint_names().all().len(), 2);
+    assert!(window.shows("Undone: name 2 bones"), "{:?}", window.widgets());
+    assert!(!window.shows("Undo what the message tells of"));
+}
+
+#[test]
+fn the_step_that_a_message_offers_to_undo_is_its_own() {
+    let mut window = window(WIDE, crate::skeleton::chains(5));
+    let (joint, name) = (JointIndex(1), "L arm".to_owned());
+    window.apply(NameCommand::Rename { joint, name });
+    assert!(window.shows("Undo what the message tells of"));
+    window.apply(SubmeshCommand::SetVisible {
+        submesh: 0,
+        visible: false,
+    });
+    assert!(window.shows("Bone 1 is named L arm") && !window.shows("Undo what the message tells of"));
+}
+
+#[test]
+fn what_keys_change_out_of_sight_is_said_and_shown_in_the_same_words() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.take_told();
+    for (key, words) in [
+        (Key::L, "At the end: There and back"),
+        (Key::Num5, "Orthographic"),
+        (Key::Num5, "Perspective"),
+    ] {
+        window.press(Modifiers::NONE, key);
+        assert!(window.shows(words), "{words}: {:?}", window.widgets());
+        assert_eq!(window.take_told(), format!("{words}."));
+    }
+    window.click("Close the message");
+    window.click("Speed 1×");
+    window.click("Speed: 0.5×");
+    assert_eq!(window.take_told(), "Speed 0.5×.");
+    assert!(!window.shows("Close the message"), "the chip shows it");
 }

@@ -24,6 +24,8 @@ pub(crate) struct Page {
     pub(crate) exported: Vec<ExportedFile>,
     /// Nothing is done of what is exported.
     pub(crate) holds_export: bool,
+    /// All that a screen reader was told.
+    pub(crate) told: Vec<String>,
     was_moving: bool,
 }
 
@@ -43,7 +45,15 @@ impl Page {
         if let Some(file) = self.session.take_exported() {
             self.exported.push(file);
         }
-        self.requests.extend(self.state.take_requests());
+        if !ui.ctx().will_discard() {
+            self.state.announce(&self.session);
+        }
+        for request in self.state.take_requests() {
+            match request {
+                Request::Announce(announcement) => self.told.push(announcement.text),
+                request => self.requests.push(request),
+            }
+        }
         self.was_moving = self.session.is_moving();
         if self.was_moving {
             ui.ctx().request_repaint();
@@ -83,6 +93,7 @@ impl Window {
             requests: Vec::new(),
             exported: Vec::new(),
             holds_export: false,
+            told: Vec::new(),
             was_moving: false,
         };
         let mut harness = Harness::builder()
@@ -201,6 +212,11 @@ impl Window {
         self.wait(0.2);
         self.harness.drop_at(to);
         self.pass_on();
+    }
+
+    /// What a screen reader was told since the last call.
+    pub(crate) fn take_told(&mut self) -> String {
+        std::mem::take(&mut self.harness.state_mut().told).join(" ")
     }
 
     /// The name of the control that has the keyboard.

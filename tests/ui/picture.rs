@@ -502,7 +502,7 @@ fn a_vertex_explained_with_the_matrices_of_a_bone() {
 #[test]
 fn a_vertex_explained_in_the_sheet_of_a_phone() {
     let then = vec![JointCommand::SelectVertex(Some(4_962)).into()];
-    let clicks = ["Inspector", "Explain", "Unfold the matrices of Bone 15"];
+    let clicks = ["Show Vertex", "Explain", "Unfold the matrices of Bone 15"];
     // Higher than a phone, so that all of it is seen without scrolling.
     let size = Vec2::new(PHONE.x, 1_800.0);
     compare(
@@ -521,7 +521,7 @@ fn what_is_opened_on_a_phone_on_its_side() {
     let size = Vec2::new(844.0, 390.0);
     compare(
         "low-light-weights",
-        &draw_after(size, Theme::Light, true, inspected(), &["Inspector"]),
+        &draw_after(size, Theme::Light, true, inspected(), &["Show L clavicle"]),
     );
     let then = vec![JointCommand::Select(Some(JointIndex(2))).into()];
     let clicks = ["Dope sheet and", "Sheet: Curves"];
@@ -611,4 +611,23 @@ fn the_panel_that_exports() {
         "phone-light-export",
         &draw_after(PHONE, Theme::Light, true, vec![], &page),
     );
+}
+
+#[test]
+fn ghosts_and_trails_with_their_chips() {
+    let then = || -> Vec<Command> {
+        let plan = bindpose::anim::GhostPlan {
+            before: 3,
+            after: 3,
+            step_frames: 5,
+        };
+        vec![
+            LookCommand::SetGhosts(Some(plan)).into(),
+            LookCommand::ToggleTrail(JointIndex(12)).into(),
+            LookCommand::ToggleTrail(JointIndex(38)).into(),
+        ]
+    };
+    let overlays = draw_after(WIDE, Theme::Light, false, then(), &["Lines over"]);
+    compare("wide-light-ghosts", &overlays);
+    compare("phone-dark-ghosts", &draw(PHONE, Theme::Dark, true, then()));
 }

@@ -62,7 +62,7 @@ fn pages_of_the_sheet_fit_a_phone_and_fingers() {
             window.click("Close the sheet");
         }
         window.apply(SubmeshCommand::Select(Some(0)));
-        window.click("Inspector");
+        window.click("Show Painted");
         assert!(window.shows("Selected: Painted"));
         let last = window.rect("Fresnel R0: blue");
         assert!(last.max.x <= size.x - 14.0, "{last} leaves the sheet's margin");

@@ -38,13 +38,17 @@ fn sizes_are_chosen_by_name() {
 }
 
 #[test]
-fn sizes_are_typed_and_kept_in_reach() {
+fn sizes_are_typed_and_refused_out_of_reach() {
     let mut window = open();
-    for (typed, width) in [("640", 640), ("0", 1), ("99999", bindpose::ui::MAX_PICTURE_SIDE)] {
+    for (typed, width) in [("640", 640), ("0", 640), ("99999", 640)] {
         window.click("Width in pixels");
         window.press(Modifiers::COMMAND, Key::A);
         window.harness.event(Event::Text(typed.to_owned()));
         window.press(Modifiers::NONE, Key::Enter);
+        assert_eq!(window.shows("A number from 1 to 8192"), typed != "640", "{typed}");
+        if typed != "640" {
+            window.press(Modifiers::NONE, Key::Escape);
+        }
         window.click("Save PNG");
         let (size, transparent) = ([width, 900], false);
         assert_eq!(
@@ -101,7 +105,7 @@ fn a_contact_sheet_is_asked_for_as_chosen() {
     window.harness.state_mut().state.end_sheet();
     window.pass_on();
     type_into(&mut window, "Columns", "6");
-    type_into(&mut window, "Rows", "0");
+    type_into(&mut window, "Rows", "1");
     window.click("Contact sheet of: Turntable");
     // A switch of its own: the picture's does not count.
     window.click("Transparent ground");

@@ -1,14 +1,15 @@
 //! The sheet of a phone: its handle, its title, what it covers and what stays in its place.
 
+use bindpose::anim::SkinView;
 use bindpose::model::JointIndex;
-use bindpose::session::{CameraCommand, FileCommand, JointCommand, SubmeshCommand};
+use bindpose::session::{CameraCommand, FileCommand, JointCommand, LookCommand, SubmeshCommand};
 use bindpose::ui::SheetPage;
-use egui::{Key, Modifiers, Rect, Vec2, pos2, vec2};
+use egui::{Key, Modifiers, Rect, TouchPhase, Vec2, pos2, vec2};
 
 use crate::layout::{panel, shown_panel};
-use crate::models::{broken, moving};
+use crate::models::{broken, moving, still};
 use crate::page::{PHONE, Window, phone, touch_window};
-use crate::pointer::gesture;
+use crate::pointer::{fingers, gesture};
 
 fn top(window: &Window) -> f32 {
     panel(window, "sheet").min.y
@@ -27,7 +28,7 @@ fn the_transport_stays_where_it_is_whatever_the_sheet_does() {
     let play = window.rect("Play");
     for page in [
         SheetPage::Model,
-        SheetPage::Skeleton,
+        SheetPage::Selection,
         SheetPage::Light,
         SheetPage::Timeline,
         SheetPage::Picture,
@@ -148,7 +149,7 @@ fn arrow_keys_move_the_handle_too() {
 fn every_page_has_a_title_and_is_closed_by_its_button_or_by_a_tap_on_the_view() {
     for page in [
         SheetPage::Model,
-        SheetPage::Skeleton,
+        SheetPage::Selection,
         SheetPage::ViewMode,
         SheetPage::Light,
         SheetPage::Overlays,
@@ -189,7 +190,7 @@ fn the_tree_of_bones_can_be_asked_for() {
     assert!(window.session().joints().selected().is_some());
     assert_eq!(
         window.harness.state().state.sheet,
-        Some(SheetPage::Model),
+        Some(SheetPage::Selection),
         "then its numbers"
     );
 }
@@ -241,4 +242,56 @@ fn more_than_half_of_the_sheet_of_the_timeline_is_keys() {
     let ruler = window.rect("Ruler");
     let keys = Rect::from_min_max(ruler.min, pos2(sheet.max.x, window.rect("Play").min.y));
     assert!(keys.height() >= 0.5 * sheet.height(), "{keys} of {sheet}");
+}
+
+#[test]
+fn what_is_selected_is_a_tab_beside_model_and_skeleton() {
+    for size in [PHONE, vec2(844.0, 390.0)] {
+        let mut window = touch_window(size, vec![moving("a.m3d")]);
+        let tabs = ["Panel: Model", "Panel: Skeleton", "Panel: Selection"];
+        window.click("Model facts");
+        let places = tabs.map(|tab| window.rect(tab));
+        window.click("Panel: Selection");
+        assert!(!window.named(|name| name.starts_with("Nothing is selected.")).is_empty());
+        window.apply(SubmeshCommand::Select(Some(0)));
+        assert!(window.shows("Selected: Painted"));
+        window.apply(LookCommand::SetSkinView(Some(SkinView::Weight)));
+        window.click("Close the sheet");
+        window.click("Choose a bone in the tree");
+        assert!(window.shows("Search bones"), "though a subset is selected");
+        window.click("Bone 1, ");
+        assert!(window.shows("Selected: Bone 1"));
+        assert_eq!(tabs.map(|tab| window.rect(tab)), places, "the way to the rest stays");
+        window.click("Panel: Skeleton");
+        window.click("Bone 0, ");
+        assert!(
+            window.shows("Selected: Bone 0"),
+            "the next one, without losing the first before"
+        );
+        window.click("Panel: Model");
+        assert!(window.shows("Dialect D3D12 book"));
+        assert!(window.session().joints().selected().is_some(), "nothing was let go");
+        window.click("Panel: Selection");
+        window.click("Clear the selection");
+        assert!(window.shows("Dialect D3D12 book"), "the page of before");
+    }
+    let mut window = phone(vec![still("a.m3d")]);
+    window.click("Model facts");
+    assert!(window.shows("Panel: Model") && window.shows("Panel: Selection") && !window.shows("Panel: Skeleton"));
+}
+
+#[test]
+fn a_long_press_says_what_a_control_is_and_does_nothing_else() {
+    let mut window = phone(vec![moving("a.m3d")]);
+    let at = window.rect("Dope sheet and").center();
+    fingers(&mut window, TouchPhase::Start, &[at]);
+    window.wait(1.2);
+    assert!(
+        window.named(|name| name == "Dope sheet and curves").len() > 1,
+        "{:?}",
+        window.widgets()
+    );
+    fingers(&mut window, TouchPhase::End, &[at]);
+    window.pass_on();
+    assert_eq!(window.harness.state().state.sheet, None);
 }

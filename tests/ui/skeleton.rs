@@ -141,7 +141,7 @@ fn place_of_vertex(window: &mut Window, vertex: u32) -> egui::Pos2 {
     let at = session.place_in_picture(place).expect("in view");
     window.apply(JointCommand::SelectVertex(None));
     let share = vec2(0.5 * (at.x + 1.0), 0.5 * (1.0 - at.y));
-    egui::Pos2::ZERO + share * WIDE
+    egui::Pos2::ZERO + share * window.harness.ctx.content_rect().size()
 }
 
 fn click_at(window: &mut Window, at: egui::Pos2) {
@@ -173,14 +173,21 @@ fn a_click_in_the_view_means_what_the_panel_is_about() {
         "the model's page is about subsets"
     );
     let bone = bone_place(&mut window, 1);
-    assert_eq!(click(&mut window, bone).2, None, "whatever is drawn there");
-    assert_eq!(window.session().joints().hovered(), None);
-
-    window.click("Panel: Skeleton");
-    window.harness.hover_at(bone);
-    window.pass_on();
-    assert_eq!(window.session().joints().hovered(), Some(JointIndex(1)));
-    assert_eq!(click(&mut window, bone), (None, false, Some(1)));
+    window.press(Modifiers::NONE, Key::W);
+    assert!(click(&mut window, at).1, "on a coloured skin about vertices");
+    window.press(Modifiers::NONE, Key::W);
+    for tab in ["Panel: Model", "Panel: Skeleton"] {
+        window.click(tab);
+        window.apply(JointCommand::Select(None));
+        window.harness.hover_at(bone);
+        window.pass_on();
+        assert_eq!(window.session().joints().hovered(), Some(JointIndex(1)), "{tab}");
+        assert_eq!(
+            click(&mut window, bone),
+            (None, false, Some(1)),
+            "a bone that is drawn is selected: {tab}"
+        );
+    }
     window.press(Modifiers::NONE, Key::W);
     assert_eq!(
         click(&mut window, at),
@@ -318,4 +325,53 @@ fn tree_and_inspector_fit_every_window() {
     window.click("Bone 1, ");
     assert!(window.shows("Selected: Bone 1"), "the sheet is about it");
     assert_between_sides(&window, PHONE);
+}
+
+#[test]
+fn a_tap_means_what_is_drawn_whatever_tab_is_behind_a_closed_sheet() {
+    for tab in ["Panel: Model", "Panel: Skeleton"] {
+        let mut window = phone(vec![models::moving("a.m3d")]);
+        window.click("Model facts");
+        window.click(tab);
+        window.click("Close the sheet");
+        window.apply(LookCommand::SetBonesVisible(false));
+        window.wait(1.0);
+        let corner = place_of_vertex(&mut window, 2);
+        let opposite = place_of_vertex(&mut window, 0);
+        let at = corner + 0.12 * (opposite - corner);
+        let mut tap = |look: LookCommand| {
+            window.apply(look);
+            window.wait(1.0);
+            click_at(&mut window, at);
+            let joints = window.session().joints();
+            let submesh = window.session().submeshes().selected();
+            (submesh, joints.selected_vertex().is_some(), joints.selected().is_some())
+        };
+        let shown = LookCommand::SetBonesVisible;
+        assert_eq!(tap(shown(false)), (Some(0), false, false), "{tab}: the model as it is");
+        assert_eq!(tap(shown(true)), (None, false, true), "{tab}: with bones");
+        assert_eq!(
+            tap(LookCommand::SetSkinView(Some(SkinView::Weight))),
+            (None, true, true),
+            "{tab}: with weights"
+        );
+    }
+}
+
+#[test]
+fn bones_are_drawn_while_the_tree_is_the_page_unless_somebody_hid_them() {
+    let mut window = tree(WIDE, 5);
+    let drawn = |window: &Window| window.session().look().bones_visible;
+    assert!(drawn(&window));
+    window.click("Panel: Model");
+    assert!(!drawn(&window), "they were drawn for the tree");
+    window.click("Panel: Skeleton");
+    window.press(Modifiers::NONE, Key::B);
+    assert!(!drawn(&window));
+    window.click("Panel: Model");
+    window.click("Panel: Skeleton");
+    assert!(!drawn(&window), "somebody hid them");
+    window.press(Modifiers::NONE, Key::B);
+    window.click("Panel: Model");
+    assert!(drawn(&window), "somebody showed them");
 }

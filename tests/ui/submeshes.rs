@@ -3,6 +3,7 @@
 use bindpose::format::{Dialect, Document, Reflectance as FileReflectance};
 use bindpose::model::{AlphaMode, Reflectance};
 use bindpose::session::File;
+use egui::accesskit::{Action, ActionData};
 use egui::{Event, Key, Modifiers, PointerButton, Vec2, pos2};
 
 use crate::models;
@@ -248,8 +249,10 @@ fn a_colour_is_chosen_by_eye() {
     window.harness.event(Event::Text("#ff0000".to_owned()));
     window.pass_on();
     assert_eq!(window.session().materials()[0].diffuse, [1.0, 0.0, 0.0]);
-    window.press(Modifiers::NONE, Key::Escape);
-    assert!(!window.shows("Diffuse: number"));
+    for _ in ["the field", "the picker"] {
+        window.press(Modifiers::NONE, Key::Escape);
+    }
+    assert!(window.named(|name| name.starts_with("Diffuse: number")).is_empty());
     assert!(
         window.session().submeshes().selected().is_some(),
         "the picker alone was shut"
@@ -348,4 +351,60 @@ fn subsets_of_one_material_are_told_apart_by_a_number() {
     window.click(&format!("{numbered}, 3 triangles"));
     assert_eq!(window.session().submeshes().selected(), Some(2));
     assert!(window.shows(&format!("Selected: {numbered}")), "{:?}", window.widgets());
+}
+
+#[test]
+fn a_wrong_value_is_refused_in_words() {
+    let mut window = open();
+    window.click("Painted, 6 triangles");
+    let of_file = window.session().materials().to_vec();
+    for typed in ["abc", "7", "-1", "0.5 apples"] {
+        type_number(&mut window, "Diffuse: red", typed);
+        assert!(window.shows("A number from 0 to 1"), "{typed}: {:?}", window.widgets());
+        assert_eq!(
+            window.value_of("Type the diffuse: red").as_deref(),
+            Some(typed),
+            "it is kept"
+        );
+        assert_eq!(window.session().materials(), of_file);
+        window.press(Modifiers::NONE, Key::Escape);
+        assert!(!window.shows("A number from 0 to 1"));
+    }
+    let set = ActionData::Value("2".into());
+    window.ask("Diffuse: red", Action::SetValue, Some(set));
+    assert!(window.shows("A number from 0 to 1"), "asked for by a screen reader too");
+    window.press(Modifiers::NONE, Key::Escape);
+    type_number(&mut window, "Diffuse: red", "0,25");
+    assert_eq!(window.session().materials()[0].diffuse[0], 0.25);
+    window.click("Diffuse: #");
+    type_number(&mut window, "Diffuse: number", "redish");
+    assert!(window.shows("Six digits 0–9, a–f: #5aa9ff"));
+}
+
+#[test]
+fn a_number_is_dragged_and_stepped_within_its_range() {
+    let mut window = open();
+    window.click("Painted, 6 triangles");
+    let red = |window: &Window| window.session().materials()[0].diffuse[0];
+    let (from, before) = (window.rect("Diffuse: red").center(), red(&window));
+    window.harness.hover_at(from);
+    window.harness.drag_at(from);
+    for step in 1..=20_u8 {
+        window.harness.hover_at(from - Vec2::new(f32::from(step), 0.0));
+        window.pass_on();
+    }
+    window.harness.drop_at(from - Vec2::new(20.0, 0.0));
+    window.pass_on();
+    let dragged = red(&window);
+    // The first points only tell that it is a drag.
+    assert!((0.05..=0.1).contains(&(before - dragged)), "{before} {dragged}");
+    window.ask("Diffuse: red", Action::Increment, None);
+    assert!(
+        (red(&window) - dragged - 0.005).abs() < 1e-4,
+        "{} {dragged}",
+        red(&window)
+    );
+    let number = window.node("Diffuse: red");
+    assert_eq!(number.min_numeric_value(), Some(0.0));
+    assert_eq!(number.max_numeric_value(), Some(1.0));
 }

@@ -344,7 +344,7 @@ fn speed_loop_wrap_and_range_are_set_in_one_place() {
         assert_eq!(book_demo.1, wrap.1, "nothing moves");
         window.click("At the end: Once");
         assert_eq!(window.session().playback().loop_mode(), LoopMode::Once);
-        assert!(!window.shows("Loop: Wrap"), "only a loop wraps");
+        assert!(window.node("Loop: Wrap").is_disabled(), "only a loop wraps");
         type_into(&mut window, "In 0.000 s", "0.2", Key::Enter);
         type_into(&mut window, "Out 1.000 s", "0.8 s", Key::Enter);
         assert_eq!(window.session().playback().range_secs(), Some([0.2, 0.8]));
@@ -652,7 +652,7 @@ fn the_loop_gap_of_each_bone_is_listed_and_a_row_selects_its_bone() {
             format!("Loop gap of Bone 1: distance 0, angle {angle:.2}°")
         );
         window.apply(PlayCommand::SetLoopMode(LoopMode::Once));
-        assert!(rows(&window).is_empty() && !window.shows("Loop gap of the range"));
+        assert!(window.node(&rows(&window)[0]).is_disabled(), "nothing loops");
     }
 }
 
@@ -741,5 +741,18 @@ fn clips_are_blended_faded_and_added() {
         window.press(Modifiers::NONE, Key::Escape);
         let told = "more.m3d was added before; its 3 clips replace the 3 clips from then.";
         assert!(window.session().diagnostics().any(|notice| notice.message == told));
+    }
+}
+
+#[test]
+fn the_panel_of_the_speed_keeps_its_height_whatever_happens_at_the_end() {
+    for mut window in [window(WIDE, vec![moving("a.m3d")]), phone(vec![moving("a.m3d")])] {
+        window.click("Speed 1×");
+        let heading = window.rect("At the end");
+        for mode in ["There and back", "Once", "Loop"] {
+            window.click(&format!("At the end: {mode}"));
+            assert_eq!(window.rect("At the end"), heading, "{mode}");
+            assert!(window.shows("Loop gap of the clip"), "{mode}");
+        }
     }
 }

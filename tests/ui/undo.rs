@@ -162,7 +162,7 @@ fn a_phone_has_them_in_its_menu_while_there_is_something_to_undo() {
     let mut window = touch_window(PHONE, vec![moving("a.m3d")]);
     let in_menu = |window: &mut Window| {
         window.click("More");
-        let found = window.named(|name| name.starts_with("Undo") || name.starts_with("Redo"));
+        let found = window.named(|name| name.starts_with("Undo:") || name.starts_with("Redo:"));
         window.press(Modifiers::NONE, Key::Escape);
         found.into_iter().map(|(name, _)| name).collect::<Vec<_>>()
     };

@@ -18,6 +18,13 @@ use crate::wasm::{self, Profile};
 const CASES: &str = "BINDPOSE_CASES";
 const LONG_CASES: &str = "10";
 
+/// Tests of the page's scripts that need no browser.
+const SCRIPT_TESTS: [&str; 3] = [
+    "tests/browser/alone.node.js",
+    "tests/browser/mirror.js",
+    "tests/browser/rim/files.js",
+];
+
 /// The package with the browser tests.
 const BROWSER_TESTS: &str = "tests/browser";
 
@@ -33,6 +40,12 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     }
     let page = page(&mut steps)?;
     if !options.browser_alone {
+        steps.step("The page's scripts alone", || {
+            Line::new("node")
+                .args(["--test", "--test-reporter=spec"])
+                .args(SCRIPT_TESTS)
+                .run()
+        })?;
         // The core's tests have written the files.
         steps.step("Written models, read by others", || {
             Line::new("node")

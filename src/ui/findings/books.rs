@@ -14,9 +14,7 @@ use crate::session::{ExportFormat, OpenModel, Session};
 use crate::ui::error_card::show_excerpt;
 use crate::ui::state::{Request, UiState};
 use crate::ui::theme::Tokens;
-use crate::ui::widgets::{
-    TextButton, hint_beside, paint_fold_mark, paint_row_ground, pressed_row_height, tell_open,
-};
+use crate::ui::widgets::{TextButton, hint_beside, paint_fold_mark, paint_row_ground, pressed_row_height, tell_open};
 use crate::ui::wording::counted;
 
 /// The row of the model panel: what the demo of the file's own book does. That the other book's reads no such file is no news. It opens the

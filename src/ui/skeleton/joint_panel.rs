@@ -3,18 +3,20 @@
 use egui::style::ScrollAnimation;
 use egui::{Align, Align2, FontId, Id, Rangef, Rect, Response, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use super::numbers::{fitted, show_matrix, show_parts};
+use super::numbers::{FINAL_EXPLAINED, OFFSET_EXPLAINED, fitted, show_matrix, show_meaning, show_parts};
 use super::state::{KeyList, KeyPart, SkeletonState, Space};
 use super::vertex_panel;
 use super::walk::{focus_row, labelled, row_sense, tell_row};
 use crate::actions;
 use crate::anim::{JointReadout, KeyRow, key_rows, key_table};
+use crate::check::book::MOST_BONES;
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, LookCommand, PlayCommand, Session};
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{
-    TextButton, focus_ring, is_touch, paint_name, paint_row_ground, pressed_row, pressed_row_height, rule,
-    section_with_action, section_with_labelled_action, segmented, selected_heading, switch_row, value_row, walked,
+    TextButton, explained, explained_section, explained_segmented, focus_ring, is_touch, paint_name, paint_row_ground,
+    pressed_row, pressed_row_height, rule, section_with_action, section_with_labelled_action, segmented,
+    selected_heading, switch_row, value_row, walked,
 };
 use crate::ui::wording::{counted, counted_vertices, grouped};
 
@@ -74,6 +76,15 @@ fn show_joint(
     let counts = session.joints().vertex_counts();
     let own = counts.own.get(joint.index()).copied().unwrap_or_default();
     value_row(ui, "Moves", &counted_vertices(own));
+    let of = format!(
+        "{} of {}; the demo holds {MOST_BONES}",
+        readout.bone,
+        session.joints().count()
+    );
+    explained(
+        value_row(ui, "Palette", &of),
+        "The place of its final transform in gBoneTransforms, the matrix palette that the books' vertex shader reads.",
+    );
     relatives(ui, session, state, joint, commands);
 
     rule(ui, MARGIN);
@@ -84,26 +95,34 @@ fn show_joint(
     if section_with_labelled_action(ui, "Now", Some(("Copy", "Copy: place now"))) {
         ui.ctx().copy_text(parts.to_text());
     }
-    let spaces = [(Space::Local, "Local"), (Space::Model, "Model")];
-    if let Some(space) = segmented(ui, "Relative to", &spaces, Some(state.space)) {
+    let spaces = [(Space::Local, "Local (toParent)"), (Space::Model, "Model (toRoot)")];
+    let sentences = [
+        "toParent brings what is in the bone's space into that of its parent; the clip's keys are of it.",
+        "toRoot brings what is in the bone's space into that of the model: toParent times the parent's toRoot.",
+    ];
+    if let Some(space) = explained_segmented(ui, "Relative to", &spaces, &sentences, Some(state.space)) {
         state.space = space;
     }
     ui.add_space(4.0);
     let digits = state.reading.digits;
     show_parts(ui, parts, digits);
     let matrices = [
-        ("Offset", "offset", &readout.offset),
+        ("Offset", "offset", OFFSET_EXPLAINED, &readout.offset),
         (
-            "Final matrix",
+            "Final transform",
             "finalTransform = offset · toRoot",
+            FINAL_EXPLAINED,
             &readout.final_transform,
         ),
     ];
-    for (name, in_books, matrix) in matrices {
+    for (name, in_books, sentence, matrix) in matrices {
         rule(ui, MARGIN);
         let label = format!("Copy: {name}");
-        if section_with_labelled_action(ui, name, Some(("Copy", &label))) {
+        if explained_section(ui, name, sentence, Some(("Copy", &label))) {
             ui.ctx().copy_text(matrix.to_text(in_books));
+        }
+        if sentence == FINAL_EXPLAINED {
+            show_meaning(ui);
         }
         show_matrix(ui, name, matrix, digits);
     }
@@ -134,19 +153,27 @@ fn relatives(
     let children: Vec<_> = session.joints().tree().children(joint).collect();
     match parent {
         Some(parent) => links(ui, session, state, ["Parent"; 2], &[parent], commands),
-        None => drop(value_row(ui, "Parent", "none, it is a root")),
+        None => no_link(ui, "Parent", "none, it is a root"),
     }
     let shown = &children[..children.len().min(CHILDREN)];
     match shown {
-        [] => drop(value_row(ui, "Children", "none")),
+        [] => no_link(ui, "Children", "none"),
         _ => links(ui, session, state, ["Children", "Child"], shown, commands),
     }
     if let more @ 1.. = children.len() - shown.len() {
         value_row(ui, "", &format!("and {more} more in the tree"));
     }
-    if let Some(partner) = state.mirrored.partner(session, joint) {
-        links(ui, session, state, ["Mirror"; 2], &[partner], commands);
+    match state.mirrored.partner(session, joint) {
+        Some(partner) => links(ui, session, state, ["Mirror"; 2], &[partner], commands),
+        None => no_link(ui, "Mirror", "none"),
     }
+}
+
+/// A row as high as one with a link, so that nothing below moves from bone to bone.
+fn no_link(ui: &mut Ui, label: &str, words: &str) {
+    let top = ui.cursor().min.y;
+    value_row(ui, label, words);
+    ui.add_space(top + pressed_row_height(ui) - ui.cursor().min.y);
 }
 
 /// A label, then joints on as many lines as they need. By touch each joint has a row. `one`: what screen readers call each of them.

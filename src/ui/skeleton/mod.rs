@@ -12,5 +12,5 @@ mod width;
 
 pub(super) use in_view::{LegendShape, STRIP_MARGIN, colored_view, show_legend, show_marks};
 pub(super) use joint_panel::show as show_inspector;
-pub(super) use tree::{show as show_tree, show_pages};
+pub(super) use tree::show as show_tree;
 pub(super) use width::{show_handle as show_width_handle, side_width};

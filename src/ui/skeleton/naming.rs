@@ -192,7 +192,7 @@ pub(super) fn show_proposals(ui: &mut Ui, session: &Session, naming: &mut Naming
         let words = if session.joint_names().is_empty() {
             "Name bones of one side first: double click a bone, or press F2."
         } else {
-            "Every bone with a partner on the other side has its name, or none of the two has one."
+            "There are no names to propose: both bones of each pair are named, or neither is."
         };
         ui.label(egui::RichText::new(words).color(tokens.muted));
     }

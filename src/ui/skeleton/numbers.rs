@@ -277,6 +277,32 @@ impl Formula {
     }
 }
 
+/// What the books call their matrices means, in a sentence each.
+pub(super) const OFFSET_EXPLAINED: &str =
+    "offset brings a vertex from bind space, as the file has it, into the bone's space; it is the same in all poses.";
+pub(super) const TO_ROOT_EXPLAINED: &str =
+    "toRoot brings what is in the bone's space into that of the model, as the clip poses it now.";
+pub(super) const FINAL_EXPLAINED: &str =
+    "The final transform F brings a vertex from bind space to where this bone has it now: offset, then toRoot.";
+
+/// What F is.
+pub(super) fn show_meaning(ui: &mut Ui) {
+    let meaning = Formula::new(12.0, Tokens::of(ui).muted)
+        .bold("F")
+        .plain(" = offset · toRoot, for row vectors");
+    show_spoken(ui, meaning, "F = offset · toRoot, for row vectors");
+}
+
+/// A line with a formula, and how it is spoken.
+pub(super) fn show_spoken(ui: &mut Ui, formula: Formula, spoken: &str) {
+    let galley = ui.painter().layout_job(formula.into_job());
+    let size = vec2(ui.available_width(), galley.size().y + 4.0);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    ui.painter()
+        .galley(rect.min + vec2(0.0, 2.0), galley, Tokens::of(ui).text);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, spoken));
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -8,7 +8,7 @@ use super::numbers::Digits;
 use crate::anim::{JointReadout, SkinView, VertexExplanation};
 use crate::model::{Handedness, JointIndex, MirrorPair, UpAxis};
 use crate::scene::{LabelPlace, joint_colors};
-use crate::session::{Command, JointCommand, JointRow, Session};
+use crate::session::{Command, JointCommand, JointRow, LookCommand, Session};
 use crate::ui::viewport::in_picture;
 
 /// The page of the side panel.
@@ -39,6 +39,7 @@ pub(in crate::ui) struct SkeletonState {
     pub(super) unfolded: [bool; 4],
     /// The joint whose row or link is under the pointer in this pass.
     pub(in crate::ui) hovered: Option<JointIndex>,
+    bones: TreeBones,
     /// The pointer if it is over the view: x right, y up, −1…1.
     pointer_in_view: Option<Vec2>,
     model: u64,
@@ -51,6 +52,7 @@ impl SkeletonState {
             self.model = session.model_revision();
             self.naming = Naming::default();
             self.tree = TreeState::default();
+            self.bones = TreeBones::default();
         }
         if !has_joints(session) {
             self.page = SidePage::Model;
@@ -68,8 +70,7 @@ impl SkeletonState {
 
     /// Highlights the joint under the pointer. `elsewhere`: the joint hovered in another panel.
     pub(in crate::ui) fn hover(&self, session: &Session, elsewhere: Option<JointIndex>, commands: &mut Vec<Command>) {
-        let shows_picks = self.picks_bones() && session.look().bones_visible;
-        let bones_at = self.pointer_in_view.filter(|_| shows_picks);
+        let bones_at = self.pointer_in_view.filter(|_| session.look().bones_visible);
         match (self.hovered.or(elsewhere).or(self.tree.focused), bones_at) {
             (None, Some(pointer)) => commands.push(JointCommand::HoverAt(Some(pointer)).into()),
             (hovered, _) if session.joints().hovered() != hovered => {
@@ -79,9 +80,31 @@ impl SkeletonState {
         }
     }
 
-    /// Whether a click in the view is about bones and vertices: the page of the side panel decides.
-    pub(in crate::ui) fn picks_bones(&self) -> bool {
-        self.page == SidePage::Skeleton
+    /// Whether a click in the view is about bones and vertices: on a coloured skin, and else as the page of the side panel says. While that
+    /// is not seen, where bones are drawn.
+    pub(in crate::ui) fn picks_bones(&self, session: &Session, page_seen: bool) -> bool {
+        let by_page = match page_seen {
+            true => self.page == SidePage::Skeleton,
+            false => session.look().bones_visible,
+        };
+        session.look().skin_view.is_some() || by_page
+    }
+
+    /// Draws the bones while the tree is the page, unless the person hid them.
+    pub(in crate::ui) fn draw_bones(&mut self, session: &Session, commands: &mut Vec<Command>) {
+        let (visible, tree) = (session.look().bones_visible, self.page == SidePage::Skeleton);
+        let bones = &mut self.bones;
+        if bones.tree != tree {
+            bones.tree = tree;
+            let shows = tree && !visible && !bones.refused;
+            if shows || (bones.shown && visible) {
+                commands.push(LookCommand::SetBonesVisible(shows).into());
+            }
+            bones.shown = shows;
+        } else if bones.shown != visible {
+            bones.refused = bones.shown;
+            bones.shown = false;
+        }
     }
 
     /// Shows a page of the side panel. The tree scrolls to the joint selected next.
@@ -114,6 +137,17 @@ impl SkeletonState {
             self.naming.begin(ui, session, joint);
         }
     }
+}
+
+/// Whether the bones are drawn for the tree.
+#[derive(Debug, Default)]
+struct TreeBones {
+    /// The tree is the page.
+    tree: bool,
+    /// They are drawn for that reason alone.
+    shown: bool,
+    /// The person hid them.
+    refused: bool,
 }
 
 /// Whether a joint or a vertex is selected.

@@ -7,7 +7,7 @@ use egui::{
 };
 
 use super::naming::{show_field, show_proposals};
-use super::state::{SidePage, SkeletonState, TreeState, Typed};
+use super::state::{SkeletonState, TreeState, Typed};
 use super::walk::{asks, focus_row, labelled, row_sense, tell_row};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, JointRow, NameCommand, Session};
@@ -15,17 +15,9 @@ use crate::ui::icons::Icon;
 use crate::ui::theme::{self, Tokens};
 use crate::ui::widgets::{
     MenuLine, control_size, is_touch, menu_item, paint_fold_mark, paint_name, paint_row_ground, pressed_row_height,
-    push_button, retain_plain_keys, segmented, tell_popup, walked,
+    push_button, retain_plain_keys, tell_popup, walked,
 };
 use crate::ui::wording::{counted_vertices, grouped};
-
-/// The heading of the side panel: a switch between its pages.
-pub(in crate::ui) fn show_pages(ui: &mut Ui, state: &mut SkeletonState) {
-    let pages = [(SidePage::Model, "Model"), (SidePage::Skeleton, "Skeleton")];
-    if let Some(page) = segmented(ui, "Panel", &pages, Some(state.page)) {
-        state.page = page;
-    }
-}
 
 /// The fewest rows in view, however low the window is.
 const LEAST_ROWS: f32 = 4.0;

@@ -4,15 +4,18 @@ use egui::text::LayoutJob;
 use egui::{Align2, Color32, FontId, Id, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 use glam::Vec3;
 
-use super::numbers::{Digits, Formula, LINE_HEIGHT, number_column, row, rule_over_numbers, show_line, show_matrix};
+use super::numbers::{
+    Digits, FINAL_EXPLAINED, Formula, LINE_HEIGHT, OFFSET_EXPLAINED, TO_ROOT_EXPLAINED, number_column, row,
+    rule_over_numbers, show_line, show_matrix, show_meaning, show_spoken,
+};
 use super::state::SkeletonState;
 use super::walk::{focus_row, labelled, tell_row};
 use crate::anim::{ExplainedInfluence, VertexExplanation};
 use crate::session::{Command, JointCommand, Session};
 use crate::ui::theme::{self, MARGIN, Tokens};
 use crate::ui::widgets::{
-    elided_name, is_touch, paint_fold_mark, paint_name, paint_row_ground, pressed_row, pressed_row_height, rule,
-    section_name, section_with_labelled_action, selected_heading, walked,
+    elided_name, explained, is_touch, paint_fold_mark, paint_name, paint_row_ground, pressed_row, pressed_row_height,
+    rule, section_name, section_with_labelled_action, selected_heading, walked,
 };
 use crate::ui::wording::grouped;
 
@@ -191,20 +194,8 @@ fn show_formula(ui: &mut Ui, influences: usize) {
         sum = sum.bold("v");
         spoken += "v";
     }
-    let meaning = Formula::new(LABEL_SIZE, tokens.muted)
-        .bold("F")
-        .plain(" = offset · toRoot, for row vectors");
-    let lines = [
-        (sum, spoken),
-        (meaning, "F = offset · toRoot, for row vectors".to_owned()),
-    ];
-    for (line, spoken) in lines {
-        let galley = ui.painter().layout_job(line.into_job());
-        let size = vec2(ui.available_width(), galley.size().y + 4.0);
-        let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-        ui.painter().galley(rect.min + vec2(0.0, 2.0), galley, tokens.text);
-        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &spoken));
-    }
+    show_spoken(ui, sum, &spoken);
+    show_meaning(ui);
 }
 
 /// One influence: its row, its matrices when unfolded, and its term of the sum.
@@ -241,11 +232,12 @@ fn show_matrices(
 ) {
     let tokens = Tokens::of(ui);
     let symbol = |symbol: &str| Formula::new(LABEL_SIZE, tokens.text).plain(symbol);
-    caption(ui, symbol("offset"), "bind space to bone");
+    caption(ui, symbol("offset"), "bind space to bone", OFFSET_EXPLAINED);
     show_matrix(ui, &format!("{name}: offset"), &influence.offset, digits);
-    caption(ui, symbol("· toRoot"), "bone to model");
+    caption(ui, symbol("· toRoot"), "bone to model", TO_ROOT_EXPLAINED);
     show_matrix(ui, &format!("{name}: toRoot"), &influence.to_root, digits);
-    caption(ui, symbol("= ").bold("F").below(slot), "each row times a number of v");
+    let product = symbol("= ").bold("F").below(slot);
+    caption(ui, product, "each row times a number of v", FINAL_EXPLAINED);
     let [x, y, z] = digits.place(bind_position.to_array());
     let factors = [x, y, z, "1".to_owned()];
     for (row, (factor, [x, y, z, _])) in factors.iter().zip(influence.final_transform.0).enumerate() {
@@ -307,9 +299,9 @@ fn influence_row(
 }
 
 /// The caption of a matrix: its symbol, and in words what it does.
-fn caption(ui: &mut Ui, symbol: Formula, words: &str) {
+fn caption(ui: &mut Ui, symbol: Formula, words: &str, sentence: &str) {
     let tokens = Tokens::of(ui);
-    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), LINE_HEIGHT + 3.0), Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), LINE_HEIGHT + 3.0), Sense::hover());
     let galley = ui.painter().layout_job(symbol.into_job());
     let y = rect.center().y + 1.5;
     let at = pos2(rect.min.x, y - 0.5 * galley.size().y);
@@ -317,6 +309,8 @@ fn caption(ui: &mut Ui, symbol: Formula, words: &str) {
     let font = FontId::proportional(11.0);
     ui.painter()
         .text(pos2(rect.max.x, y), Align2::RIGHT_CENTER, words, font, tokens.faint);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
+    explained(response, sentence);
 }
 
 /// `0.6676 ×` and a row of the final matrix: four such lines add up to the product.

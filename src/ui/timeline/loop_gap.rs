@@ -1,6 +1,6 @@
 //! The loop gap, where the last pose of a loop meets its first, in numbers and words. It is read again when the loop changed.
 
-use crate::anim::{JointGap, LoopGap};
+use crate::anim::{JointGap, LoopGap, LoopMode};
 use crate::model::JointIndex;
 use crate::session::Session;
 
@@ -16,7 +16,8 @@ const LEAST_SCALE: f32 = 5e-4;
 pub(super) struct LoopGapReading {
     of: Option<ReadOf>,
     gap: LoopGap,
-    /// All joints, the farthest travelled first. Empty if nothing loops.
+    loops: bool,
+    /// All joints, the farthest travelled first.
     order: Vec<JointIndex>,
     words: Option<String>,
     /// The least distance that does not count as zero, and the decimals of distances.
@@ -37,6 +38,7 @@ struct ReadOf {
 impl LoopGapReading {
     /// Reads the gap if the loop changed.
     pub(super) fn update(&mut self, session: &Session) {
+        self.loops = session.playback().loop_mode() == LoopMode::Loop;
         let of = Some(ReadOf {
             clips: session.clips_revision(),
             names: session.joint_names_revision(),
@@ -59,13 +61,18 @@ impl LoopGapReading {
 
     /// Whether something loops.
     pub(super) fn loops(&self) -> bool {
+        self.loops && self.could_loop()
+    }
+
+    /// Whether there are two poses to go between.
+    pub(super) fn could_loop(&self) -> bool {
         self.of.is_some_and(|of| of.span_secs.is_some())
     }
 
     /// Where the loop ends, in seconds, if its gap is visible.
     pub(super) fn seen_at_secs(&self) -> Option<f32> {
         let [_, last_secs] = self.of?.span_secs?;
-        self.gap.visible.then_some(last_secs)
+        (self.loops && self.gap.visible).then_some(last_secs)
     }
 
     /// The gap in words, if it is visible.

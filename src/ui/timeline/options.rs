@@ -12,10 +12,9 @@ use crate::anim::{LoopMode, WrapMode};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, PlayCommand, SPEEDS, Session};
 use crate::ui::panel::{popover_gap, scrolled};
-use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
+use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
 use crate::ui::widgets::{
-    TypedValue, control_size, focus_ring, is_touch, paint_name, pressed_row_height, section_name, section_with_action,
-    segmented,
+    TypedValue, focus_ring, is_touch, paint_name, pressed_row_height, section_name, section_with_action, segmented,
 };
 use crate::ui::wording::trimmed;
 
@@ -51,9 +50,10 @@ pub(super) fn show(
     at_the_end(ui, session, commands);
     popover_gap(ui);
     range(ui, session, commands);
-    if state.loop_gap.loops() {
+    if state.loop_gap.could_loop() {
         popover_gap(ui);
-        loop_gap_list(ui, session, state, commands);
+        let loops = state.loop_gap.loops();
+        ui.add_enabled_ui(loops, |ui| loop_gap_list(ui, session, state, commands));
     }
 }
 
@@ -61,7 +61,10 @@ fn speed(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let speed = session.playback().speed();
     section_name(ui, "Speed");
     let text = speed_label(speed);
-    if let Some(speed) = typed_row(ui, "Times as fast", "", &text, &trimmed(speed), typed::speed) {
+    let typed = trimmed(speed);
+    let field = TypedValue::new(ui, "Times as fast", &text, &typed).width(FIELD_WIDTH);
+    let typed = ui.horizontal(|ui| field.row(ui, 0.0, ("", "Click to type"), typed::speed));
+    if let Some(speed) = typed.inner {
         commands.push(PlayCommand::SetSpeed(speed).into());
     }
     let labels = SPEEDS.map(speed_label);
@@ -81,13 +84,14 @@ fn at_the_end(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     if let Some(mode) = segmented(ui, "At the end", &modes, Some(playback.loop_mode())) {
         commands.push(PlayCommand::SetLoopMode(mode).into());
     }
-    if playback.loop_mode() == LoopMode::Loop {
+    // What is about loops alone stays, so that nothing moves.
+    ui.add_enabled_ui(playback.loop_mode() == LoopMode::Loop, |ui| {
         let modes = WrapMode::ALL.map(|mode| (mode, mode.label()));
         if let Some(mode) = segmented(ui, "Loop", &modes, Some(playback.wrap_mode())) {
             commands.push(PlayCommand::SetWrapMode(mode).into());
         }
         wrap_explained(ui, playback.wrap_mode());
-    }
+    });
 }
 
 /// Says how a loop begins again. As high for all modes, so that nothing moves when another is chosen.
@@ -137,7 +141,10 @@ fn range(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                 _ => Ok(secs),
             }
         };
-        if let Some(secs) = typed_row(ui, name, &frame, &format!("{typed} s"), &typed, read) {
+        let text = format!("{typed} s");
+        let field = TypedValue::new(ui, name, &text, &typed).width(FIELD_WIDTH);
+        let hint = "Click to type seconds, 0.33, or a frame, f20";
+        if let Some(secs) = ui.horizontal(|ui| field.row(ui, 0.0, (&frame, hint), read)).inner {
             commands.push(if begins {
                 PlayCommand::SetRangeStart(Some(secs)).into()
             } else {
@@ -145,37 +152,6 @@ fn range(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             });
         }
     }
-}
-
-/// A label, a quiet text, and a number that can be typed.
-fn typed_row<T>(
-    ui: &mut Ui,
-    name: &'static str,
-    beside: &str,
-    text: &str,
-    typed: &str,
-    read: impl FnOnce(&str) -> Result<T, String>,
-) -> Option<T> {
-    let height = control_size(ui).max(ROW_HEIGHT);
-    ui.horizontal(|ui| {
-        let tokens = Tokens::of(ui);
-        let label_width = ui.available_width() - FIELD_WIDTH - ui.spacing().item_spacing.x;
-        let (rect, _) = ui.allocate_exact_size(vec2(label_width, height), Sense::hover());
-        let painter = ui.painter();
-        let font = FontId::proportional(13.0);
-        painter.text(rect.left_center(), Align2::LEFT_CENTER, name, font, tokens.muted);
-        let font = FontId::proportional(12.0);
-        painter.text(rect.right_center(), Align2::RIGHT_CENTER, beside, font, tokens.faint);
-        let (read, response) = TypedValue::new(ui, name, text, typed).width(FIELD_WIDTH).show(ui, read);
-        let hint = if beside.is_empty() {
-            "Click to type"
-        } else {
-            "Click to type seconds, 0.33, or a frame, f20"
-        };
-        response.on_hover_text(hint);
-        read
-    })
-    .inner
 }
 
 /// The loop gap in words, and the jump of each joint.
@@ -299,7 +275,7 @@ fn joint_row(
 
     response.widget_info(|| {
         let label = format!("Loop gap of {name}: {}", jump.words());
-        WidgetInfo::selected(Role::ListItem, true, selected, label)
+        WidgetInfo::selected(Role::ListItem, ui.is_enabled(), selected, label)
     });
     if response.clicked() {
         let joint = (!selected).then_some(joint);

@@ -3,7 +3,7 @@
 use super::time_area::seconds;
 use crate::anim::{MAX_SPEED, MIN_SPEED};
 use crate::model::Clip;
-use crate::ui::wording::trimmed;
+use crate::ui::widgets::{leading_number, number_within};
 
 /// A time that is typed is right if it rounds to the clip's end as it is shown.
 const ROUNDING_SECS: f64 = 0.0005;
@@ -39,14 +39,8 @@ pub(super) fn time(typed: &str, clip: &Clip, unit: Unit) -> Result<f32, String> 
 
 /// A speed: `0.3`, `2×`.
 pub(super) fn speed(typed: &str) -> Result<f32, String> {
-    match number(typed.trim()) {
-        Some((speed, _)) if (f64::from(MIN_SPEED)..=f64::from(MAX_SPEED)).contains(&speed) => Ok(speed as f32),
-        _ => Err(format!(
-            "A number from {} to {}",
-            trimmed(MIN_SPEED),
-            trimmed(MAX_SPEED)
-        )),
-    }
+    let typed = typed.trim_end().trim_end_matches(['x', 'X']);
+    number_within(typed, &(MIN_SPEED..=MAX_SPEED))
 }
 
 /// A number, and what it counts. What stands behind a number alone is ignored where it is no unit: `31 / 75`.
@@ -54,7 +48,7 @@ fn number_and_unit(typed: &str, unit: Unit) -> Option<(f64, Unit)> {
     let typed = typed.trim().to_lowercase();
     let after = typed.trim_start_matches(|letter: char| letter.is_alphabetic());
     let before = typed[..typed.len() - after.len()].trim_end();
-    let (number, rest) = number(after.trim_start())?;
+    let (number, rest) = leading_number(after.trim_start())?;
     let behind: String = rest
         .trim_start()
         .chars()
@@ -71,15 +65,6 @@ fn number_and_unit(typed: &str, unit: Unit) -> Option<(f64, Unit)> {
         (before, "" | "of") => Some((number, unit_of(before)?)),
         _ => None,
     }
-}
-
-/// The number with which a text begins, and the text after it. A comma is a decimal point.
-fn number(typed: &str) -> Option<(f64, &str)> {
-    let end = typed
-        .find(|letter: char| !matches!(letter, '0'..='9' | '.' | ',' | '-' | '−' | '+'))
-        .unwrap_or(typed.len());
-    let number: f64 = typed[..end].replace(',', ".").replace('−', "-").parse().ok()?;
-    number.is_finite().then_some((number, &typed[end..]))
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use egui::{
 };
 
 use super::control::{
-    MOUSE_CONTROL, TOUCH_CONTROL, arrow_steps, control_size, focus_ring, hint_of_name, is_touch, key_hint,
+    MOUSE_CONTROL, TOUCH_CONTROL, arrow_steps, control_size, explained, focus_ring, hint_of_name, is_touch, key_hint,
     paint_ground, paint_name, paint_row_ground, tell_push,
 };
 use crate::actions::Action;
@@ -219,6 +219,17 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
     choices: &[(T, &str)],
     in_force: Option<T>,
 ) -> Option<T> {
+    explained_segmented(ui, name, choices, &[], in_force)
+}
+
+/// The same with a sentence about each choice.
+pub(crate) fn explained_segmented<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    name: &str,
+    choices: &[(T, &str)],
+    sentences: &[&str],
+    in_force: Option<T>,
+) -> Option<T> {
     let tokens = Tokens::of(ui);
     let size = vec2(ui.available_width(), control_size(ui));
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
@@ -263,7 +274,13 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
         focus_ring(ui, place, &part);
         ui.painter()
             .text(place.center(), Align2::CENTER_CENTER, label, font.clone(), color);
-        part.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, on, format!("{name}: {label}")));
+        part.widget_info(|| {
+            WidgetInfo::selected(Role::RadioButton, group.is_enabled(), on, format!("{name}: {label}"))
+        });
+        let part = match sentences.get(index) {
+            Some(sentence) => explained(part, sentence),
+            None => part,
+        };
         let beside = index as i32 + arrow_steps(ui, &part) as i32;
         if beside != index as i32
             && let Some(&(choice, _)) = usize::try_from(beside).ok().and_then(|beside| choices.get(beside))

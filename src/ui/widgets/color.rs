@@ -4,11 +4,12 @@
 use egui::accesskit::HasPopup;
 use egui::ecolor::{hsv_from_rgb, rgb_from_hsv};
 use egui::{
-    Color32, CornerRadius, CursorIcon, Id, Key, Mesh, Modifiers, Popup, PopupCloseBehavior, Pos2, Rangef, Rect,
-    Response, Role, Sense, Shape, Stroke, StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
+    Color32, CornerRadius, CursorIcon, Key, Mesh, Modifiers, Popup, PopupCloseBehavior, Pos2, Rangef, Rect, Response,
+    Role, Sense, Shape, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
 };
 
 use super::control::{MOUSE_CONTROL, SliderNode, control_size, focus_ring, hint_of_name, slider_keys, tell_popup};
+use super::number::TypedValue;
 use crate::scene::srgb8_from_linear;
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 
@@ -69,7 +70,11 @@ pub(crate) fn color_picker(ui: &mut Ui, label: &str, srgb: [u8; 3]) -> Option<[u
         .horizontal(|ui| {
             let (swatch, _) = ui.allocate_exact_size(Vec2::splat(MOUSE_CONTROL), Sense::hover());
             ui.painter().rect_filled(swatch, CONTROL_RADIUS, color32(srgb));
-            hex_field(ui, id.with("hex"), label, srgb)
+            // Typing changes the colour as soon as the text is one.
+            let (name, text) = (format!("{label}: number"), hex(srgb));
+            let field = TypedValue::new(ui, &name, &text, &text).at_once();
+            let read = |typed: &str| from_hex(typed).ok_or_else(|| "Six digits 0–9, a–f: #5aa9ff".to_owned());
+            field.width(ui.available_width()).show(ui, read).0
         })
         .inner;
     typed.or(asked.map(srgb_from_hsv)).filter(|&chosen| chosen != srgb)
@@ -182,26 +187,6 @@ fn mark(ui: &Ui, at: Pos2, color: Color32) {
     ui.painter()
         .circle(at, 6.0, color, Stroke::new(3.0, Color32::from_black_alpha(90)));
     ui.painter().circle_stroke(at, 6.0, Stroke::new(1.6, Color32::WHITE));
-}
-
-/// The colour as `#rrggbb`. Typing changes it as soon as the text is a colour.
-fn hex_field(ui: &mut Ui, id: Id, label: &str, srgb: [u8; 3]) -> Option<[u8; 3]> {
-    let typing = ui.memory(|memory| memory.has_focus(id));
-    let kept = ui.data(|data| data.get_temp::<String>(id)).filter(|_| typing);
-    let mut text = kept.unwrap_or_else(|| hex(srgb));
-    let field = TextEdit::singleline(&mut text)
-        .id(id)
-        .font(TextStyle::Monospace)
-        .text_color(Tokens::of(ui).text)
-        .char_limit(7)
-        .margin(vec2(8.0, 6.0))
-        .desired_width(f32::INFINITY);
-    let response = ui.add(field);
-    focus_ring(ui, response.rect, &response);
-    response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, format!("{label}: number")));
-    let typed = response.changed().then(|| from_hex(&text)).flatten();
-    ui.data_mut(|data| data.insert_temp(id, text));
-    typed
 }
 
 /// A square in a colour (linear).

@@ -191,6 +191,19 @@ pub(crate) fn tell_push(response: &Response) {
         .accesskit_node_builder(response.id, |node| node.clear_toggled());
 }
 
+/// Draws words at both ends of a row, each in its colour.
+pub(crate) fn paint_ends(
+    ui: &Ui,
+    row: Rect,
+    (left, left_color): (&str, Color32),
+    (right, right_color): (&str, Color32),
+) {
+    let font = FontId::proportional(13.0);
+    let painter = ui.painter();
+    painter.text(row.left_center(), Align2::LEFT_CENTER, left, font.clone(), left_color);
+    painter.text(row.right_center(), Align2::RIGHT_CENTER, right, font, right_color);
+}
+
 /// A tooltip at the side of a row of a panel, so that it covers no other row. `row` is the row that the widget is in, if it is not one
 /// itself.
 pub(crate) fn hint_beside(response: Response, row: Option<Rect>, words: &str) -> Response {
@@ -206,6 +219,14 @@ pub(crate) fn hint_beside(response: Response, row: Option<Rect>, words: &str) ->
         ui.label(words);
     });
     response
+}
+
+/// A sentence about what a widget shows: on hover, and for screen readers.
+pub(crate) fn explained(response: Response, sentence: &str) -> Response {
+    response
+        .ctx
+        .accesskit_node_builder(response.id, |node| node.set_description(sentence));
+    response.on_hover_text(sentence)
 }
 
 /// The mark before something that folds. It points right while folded, otherwise down.

@@ -7,19 +7,20 @@ mod number;
 mod row;
 
 pub(super) use button::{
-    ICON_SIZE, MenuLine, TextButton, action_button, action_switch, choices, icon_button, keyed_menu_item, menu_item,
-    noted_switch_row, push_action, push_button, segmented, switch_row, untold_icon_button, valued_menu_item,
+    ICON_SIZE, MenuLine, TextButton, action_button, action_switch, choices, explained_segmented, icon_button,
+    keyed_menu_item, menu_item, noted_switch_row, push_action, push_button, segmented, switch_row, untold_icon_button,
+    valued_menu_item,
 };
 pub(super) use color::{color_button, color_picker, gradient_shape, paint_swatch};
 pub(super) use control::{
-    SliderNode, arrow_steps, by_finger, chip, chip_size, control_size, elided_name, focus_ring, focused_keys,
-    hint_beside, hint_of_name, is_touch, paint_chip, paint_elided, paint_focus_ring, paint_fold_mark, paint_name,
-    paint_row_ground, pressed_chip, pressed_row_height, retain_plain_keys, size_for_touch, slider_keys, tell_open,
-    tell_popup, tell_push, walked,
+    SliderNode, arrow_steps, by_finger, chip, chip_size, control_size, elided_name, explained, focus_ring,
+    focused_keys, hint_beside, hint_of_name, is_touch, paint_chip, paint_elided, paint_ends, paint_focus_ring,
+    paint_fold_mark, paint_name, paint_row_ground, pressed_chip, pressed_row_height, retain_plain_keys, size_for_touch,
+    slider_keys, tell_open, tell_popup, tell_push, walked,
 };
-pub(super) use number::{Slider, TypedValue, number_field};
+pub(super) use number::{Slider, TypedValue, leading_number, number_field, number_within};
 pub(super) use row::{
-    RowList, choice_row, closable_heading, heading_with_close, keyed_section_name, paint_ends, pressed_row,
+    RowList, choice_row, closable_heading, explained_section, heading_with_close, keyed_section_name, pressed_row,
     progress_bar, row_icon, rule, section_name, section_with_action, section_with_labelled_action, selected_heading,
     sheet_handle, value_row,
 };

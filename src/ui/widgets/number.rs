@@ -5,13 +5,14 @@ use std::ops::RangeInclusive;
 use egui::accesskit::{Action, ActionData, Invalid};
 use egui::text::{CCursor, CCursorRange};
 use egui::{
-    Align, Align2, Color32, CornerRadius, CursorIcon, DragValue, FontId, Id, Key, LayerId, Modifiers, Order, Rect,
-    Response, Role, Sense, Stroke, StrokeKind, TextEdit, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align, Align2, Color32, CornerRadius, CursorIcon, FontId, Id, Key, LayerId, Modifiers, Order, Rect, Response, Role,
+    Sense, Stroke, StrokeKind, TextEdit, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use super::control::{MOUSE_CONTROL, SliderNode, control_size, focus_ring, hint_of_name, slider_keys};
+use super::control::{MOUSE_CONTROL, SliderNode, arrow_steps, control_size, focus_ring, paint_ends, slider_keys};
 use crate::ui::input::press_field;
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
+use crate::ui::wording::trimmed;
 
 /// Width of the label before the track.
 const LABEL_WIDTH: f32 = 90.0;
@@ -118,8 +119,8 @@ impl<'a> Slider<'a> {
     }
 }
 
-/// A field for a number. A drag changes it by `speed` a point. It always shows all `decimals`, so that it stands still. Returns a new
-/// value.
+/// A field for a number: a drag changes it by `speed` a point, the arrow keys by a step, and a click lets one type it. What is no number of
+/// the range is refused. It always shows all `decimals`, so that it stands still. Returns a new value.
 pub(crate) fn number_field(
     ui: &mut Ui,
     label: &str,
@@ -128,31 +129,58 @@ pub(crate) fn number_field(
     range: RangeInclusive<f32>,
     (speed, decimals): (f32, usize),
 ) -> Option<f32> {
-    let mut changed = value;
-    let response = ui
-        .scope(|ui| {
-            ui.style_mut().drag_value_text_style = TextStyle::Monospace;
-            ui.visuals_mut().widgets.inactive.fg_stroke.color = Tokens::of(ui).text;
-            ui.spacing_mut().button_padding = vec2(2.0, 2.0);
-            ui.spacing_mut().interact_size = size;
-            let field = DragValue::new(&mut changed)
-                .range(range)
-                .speed(speed)
-                .fixed_decimals(decimals)
-                .update_while_editing(false);
-            ui.add_sized(size, field)
-        })
-        .inner;
-    if response.is_pointer_button_down_on() {
-        press_field(ui);
+    let text = format!("{value:.decimals$}");
+    // A value of the file may be outside the range. It may stay.
+    let read = |typed: &str| match typed == text {
+        true => Ok(value),
+        false => number_within(typed, &range),
+    };
+    let field = TypedValue {
+        size,
+        align: Align::Center,
+        number: Some((value, &range)),
+        ..TypedValue::new(ui, label, &text, &text)
+    };
+    let (typed, response) = field.show(ui, read);
+    // The number shown is rounded, what a drag adds up is not.
+    let dragged_to = response.id.with("dragged to");
+    let least = 0.1_f32.powi(decimals as i32);
+    let asked = if response.dragged() {
+        let before = ui.data(|data| data.get_temp(dragged_to)).unwrap_or(value);
+        let now = before + speed * response.drag_delta().x;
+        ui.data_mut(|data| data.insert_temp(dragged_to, now));
+        now
+    } else {
+        ui.data_mut(|data| data.remove::<f32>(dragged_to));
+        value + speed.max(least) * arrow_steps(ui, &response)
+    };
+    if asked == value {
+        return typed.filter(|typed| *typed != value);
     }
-    response.widget_info(|| {
-        let mut info = egui::WidgetInfo::drag_value(true, f64::from(value));
-        info.label = Some(label.to_owned());
-        info
-    });
-    hint_of_name(response, label);
-    (changed != value).then_some(changed)
+    let rounded = (asked / least).round() * least;
+    Some(rounded.clamp(*range.start(), *range.end())).filter(|asked| (asked - value).abs() >= 0.5 * least)
+}
+
+/// Reads a number of a range, with a sign behind it or none: `0.3`, `2×`.
+pub(crate) fn number_within(typed: &str, range: &RangeInclusive<f32>) -> Result<f32, String> {
+    let is_alone = |rest: &str| !rest.contains(char::is_alphanumeric);
+    match leading_number(typed.trim()) {
+        Some((number, rest)) if is_alone(rest) && range.contains(&(number as f32)) => Ok(number as f32),
+        _ => Err(format!(
+            "A number from {} to {}",
+            trimmed(*range.start()),
+            trimmed(*range.end())
+        )),
+    }
+}
+
+/// The number with which a text begins, and the text after it. A comma is a decimal point.
+pub(crate) fn leading_number(typed: &str) -> Option<(f64, &str)> {
+    let end = typed
+        .find(|letter: char| !matches!(letter, '0'..='9' | '.' | ',' | '-' | '−' | '+'))
+        .unwrap_or(typed.len());
+    let number: f64 = typed[..end].replace(',', ".").replace('−', "-").parse().ok()?;
+    number.is_finite().then_some((number, &typed[end..]))
 }
 
 /// The most characters that can be typed, more than any number needs.
@@ -163,10 +191,14 @@ const MOST_CHARS: usize = 24;
 #[derive(Clone, Debug)]
 pub(crate) struct TypedValue<'a> {
     /// Unique among the read-outs.
-    name: &'static str,
+    name: &'a str,
     text: &'a str,
     typed: &'a str,
-    width: f32,
+    size: Vec2,
+    /// It is a number of a range, to drag and for the arrow keys.
+    number: Option<(f32, &'a RangeInclusive<f32>)>,
+    /// What is typed is taken as soon as it can be read.
+    at_once: bool,
     color: Color32,
     font: FontId,
     ground: Color32,
@@ -175,13 +207,15 @@ pub(crate) struct TypedValue<'a> {
 
 impl<'a> TypedValue<'a> {
     /// A read-out of this text. Its field begins with `typed`, all selected.
-    pub(crate) fn new(ui: &Ui, name: &'static str, text: &'a str, typed: &'a str) -> Self {
+    pub(crate) fn new(ui: &Ui, name: &'a str, text: &'a str, typed: &'a str) -> Self {
         let tokens = Tokens::of(ui);
         Self {
             name,
             text,
             typed,
-            width: 72.0,
+            size: vec2(72.0, control_size(ui)),
+            number: None,
+            at_once: false,
             color: tokens.text,
             font: theme::mono(12.0),
             ground: tokens.field,
@@ -191,7 +225,13 @@ impl<'a> TypedValue<'a> {
 
     /// Its width, whatever the text.
     pub(crate) fn width(self, width: f32) -> Self {
-        Self { width, ..self }
+        let size = vec2(width, self.size.y);
+        Self { size, ..self }
+    }
+
+    /// What is typed is taken as soon as it can be read, not once it ends.
+    pub(crate) fn at_once(self) -> Self {
+        Self { at_once: true, ..self }
     }
 
     /// Words in a colour, without a ground.
@@ -207,8 +247,9 @@ impl<'a> TypedValue<'a> {
 
     /// Shows it. `read` reads what is typed once Enter ends it. Where it refuses, the field stays and says why, until Esc. A click
     /// elsewhere ends it too, and leaves the value where that makes no sense. Returns what was read.
-    pub(crate) fn show<T>(self, ui: &mut Ui, read: impl FnOnce(&str) -> Result<T, String>) -> (Option<T>, Response) {
-        let (rect, response) = ui.allocate_exact_size(vec2(self.width, control_size(ui)), Sense::click());
+    pub(crate) fn show<T>(self, ui: &mut Ui, read: impl Fn(&str) -> Result<T, String>) -> (Option<T>, Response) {
+        let sense = self.number.map_or(Sense::click(), |_| Sense::click_and_drag());
+        let (rect, response) = ui.allocate_exact_size(self.size, sense);
         let id = Id::unique(("typed", self.name));
         if response.is_pointer_button_down_on() {
             press_field(ui);
@@ -218,17 +259,34 @@ impl<'a> TypedValue<'a> {
             let typing = Typing::of(ui, self.typed);
             ui.data_mut(|data| data.insert_temp(id, typing));
         }
-        let field = Rect::from_center_size(rect.center(), vec2(rect.width(), MOUSE_CONTROL));
+        let height = if self.number.is_some() {
+            rect.height()
+        } else {
+            MOUSE_CONTROL
+        };
+        let field = Rect::from_center_size(rect.center(), vec2(rect.width(), height));
         let typing: Option<Typing> = ui.data(|data| data.get_temp(id));
         // A field that went away with its panel does not come back with what was typed.
         if let Some(typing) = typing.filter(|typing| typing.shown_in + 1 >= ui.ctx().cumulative_frame_nr()) {
             return (self.edit(ui, field, id, typing, begins, read), response);
         }
         self.paint(ui, field, &response);
-        let label = format!("{} {}", self.name, self.text);
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
-        ui.ctx()
-            .accesskit_node_builder(response.id, |node| node.add_action(Action::SetValue));
+        response.widget_info(|| match self.number {
+            Some((value, _)) => WidgetInfo {
+                label: Some(self.name.to_owned()),
+                ..WidgetInfo::drag_value(true, value.into())
+            },
+            None => WidgetInfo::labeled(Role::Button, true, format!("{} {}", self.name, self.text)),
+        });
+        ui.ctx().accesskit_node_builder(response.id, |node| {
+            node.add_action(Action::SetValue);
+            if let Some((_, range)) = self.number {
+                node.set_min_numeric_value((*range.start()).into());
+                node.set_max_numeric_value((*range.end()).into());
+                node.add_action(Action::Increment);
+                node.add_action(Action::Decrement);
+            }
+        });
         let set = ui.input(|input| {
             let mut requests = input.accesskit_action_requests(response.id, Action::SetValue);
             requests.find_map(|request| match &request.data {
@@ -252,7 +310,30 @@ impl<'a> TypedValue<'a> {
                 None
             }
         });
-        (value, response.on_hover_cursor(CursorIcon::Text))
+        let response = match self.number {
+            Some(_) => response
+                .on_hover_text(self.name)
+                .on_hover_cursor(CursorIcon::ResizeHorizontal),
+            None => response.on_hover_cursor(CursorIcon::Text),
+        };
+        (value, response)
+    }
+
+    /// Shows it at the right end of a row, after its name and quiet words, with room `behind` it.
+    pub(crate) fn row<T>(
+        self,
+        ui: &mut Ui,
+        behind: f32,
+        (beside, hint): (&str, &str),
+        read: impl Fn(&str) -> Result<T, String>,
+    ) -> Option<T> {
+        let tokens = Tokens::of(ui);
+        let width = ui.available_width() - self.size.x - behind - ui.spacing().item_spacing.x;
+        let (rect, _) = ui.allocate_exact_size(vec2(width, self.size.y), Sense::hover());
+        paint_ends(ui, rect, (self.name, tokens.muted), (beside, tokens.faint));
+        let (read, response) = self.show(ui, read);
+        response.on_hover_text(hint);
+        read
     }
 
     fn paint(&self, ui: &Ui, field: Rect, response: &Response) {
@@ -268,7 +349,11 @@ impl<'a> TypedValue<'a> {
 
     /// Where the text is in its field, typed or not.
     fn inside(&self, field: Rect) -> Rect {
-        let margin = if self.align == Align::Min { 4.0 } else { 7.0 };
+        let margin = match self.align {
+            Align::Min => 4.0,
+            Align::Center => 2.0,
+            Align::Max => 7.0,
+        };
         field.shrink2(vec2(margin, 0.0))
     }
 
@@ -280,7 +365,7 @@ impl<'a> TypedValue<'a> {
         id: Id,
         mut typing: Typing,
         begins: bool,
-        read: impl FnOnce(&str) -> Result<T, String>,
+        read: impl Fn(&str) -> Result<T, String>,
     ) -> Option<T> {
         let tokens = Tokens::of(ui);
         ui.painter().rect_filled(field, CONTROL_RADIUS, tokens.field_hovered);
@@ -298,7 +383,7 @@ impl<'a> TypedValue<'a> {
         let inside = self.inside(field);
         let mut child = ui.new_child(egui::UiBuilder::new().max_rect(inside));
         // By touch egui would make the field higher than it is drawn.
-        child.spacing_mut().interact_size.y = MOUSE_CONTROL;
+        child.spacing_mut().interact_size.y = field.height();
         let mut output = TextEdit::singleline(&mut typing.text)
             .id(id.with("field"))
             .font(self.font.clone())
@@ -315,8 +400,10 @@ impl<'a> TypedValue<'a> {
             current_text_value: Some(typing.text.clone()),
             ..WidgetInfo::labeled(Role::TextInput, true, format!("Type the {}", self.name.to_lowercase()))
         });
+        let mut value = None;
         if response.changed() {
             typing.refused = None;
+            value = read(&typing.text).ok().filter(|_| self.at_once);
         }
         if begins {
             response.request_focus();
@@ -335,7 +422,7 @@ impl<'a> TypedValue<'a> {
                 }
                 read => {
                     ui.data_mut(|data| data.remove::<Typing>(id));
-                    return read?.ok();
+                    return read?.ok().filter(|_| !self.at_once);
                 }
             }
         }
@@ -348,7 +435,7 @@ impl<'a> TypedValue<'a> {
         }
         typing.shown_in = ui.ctx().cumulative_frame_nr();
         ui.data_mut(|data| data.insert_temp(id, typing));
-        None
+        value
     }
 }
 

@@ -5,8 +5,8 @@ use egui::{Align2, Color32, FontId, Id, Rect, Response, Role, Sense, Stroke, Ui,
 use super::button::push_button;
 use super::color::paint_swatch;
 use super::control::{
-    MOUSE_CONTROL, control_size, focus_ring, hint_beside, is_touch, key_hint, paint_ground, paint_name,
-    paint_row_ground, pressed_row_height, walked,
+    MOUSE_CONTROL, control_size, explained, focus_ring, hint_beside, is_touch, key_hint, paint_ends, paint_ground,
+    paint_name, paint_row_ground, pressed_row_height, walked,
 };
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
@@ -86,19 +86,6 @@ impl RowList {
             ui.memory_mut(|memory| memory.request_focus(self.rows[to]));
         }
     }
-}
-
-/// Draws words at both ends of a row, each in its colour.
-pub(crate) fn paint_ends(
-    ui: &Ui,
-    row: Rect,
-    (left, left_color): (&str, Color32),
-    (right, right_color): (&str, Color32),
-) {
-    let font = FontId::proportional(13.0);
-    let painter = ui.painter();
-    painter.text(row.left_center(), Align2::LEFT_CENTER, left, font.clone(), left_color);
-    painter.text(row.right_center(), Align2::RIGHT_CENTER, right, font, right_color);
 }
 
 /// A row of a panel: a quiet label and a value at the right edge.
@@ -186,12 +173,12 @@ pub(crate) fn selected_heading(ui: &mut Ui, name: &str, color: Color32, swatch: 
 }
 
 /// The name of a section: 11 points, capitals.
-pub(crate) fn section_name(ui: &mut Ui, name: &str) {
-    keyed_section_name(ui, name, "");
+pub(crate) fn section_name(ui: &mut Ui, name: &str) -> Response {
+    keyed_section_name(ui, name, "")
 }
 
 /// The name of a section with the key that changes it.
-pub(crate) fn keyed_section_name(ui: &mut Ui, name: &str, key: &str) {
+pub(crate) fn keyed_section_name(ui: &mut Ui, name: &str, key: &str) -> Response {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), SECTION_HEIGHT), Sense::hover());
     // The words are a little above the middle.
@@ -208,6 +195,7 @@ pub(crate) fn keyed_section_name(ui: &mut Ui, name: &str, key: &str) {
     ui.painter()
         .text(pos2(rect.max.x, y), Align2::RIGHT_CENTER, key, font, tokens.faint);
     response.widget_info(|| WidgetInfo::labeled(Role::Heading, true, name));
+    response
 }
 
 /// The name of a section, and an action at its right end. Returns whether the action was clicked.
@@ -217,8 +205,16 @@ pub(crate) fn section_with_action(ui: &mut Ui, name: &str, action: Option<&str>)
 
 /// The same with a longer label of the action, for screen readers.
 pub(crate) fn section_with_labelled_action(ui: &mut Ui, name: &str, action: Option<(&str, &str)>) -> bool {
+    explained_section(ui, name, "", action)
+}
+
+/// The same with a sentence about the section, or none.
+pub(crate) fn explained_section(ui: &mut Ui, name: &str, sentence: &str, action: Option<(&str, &str)>) -> bool {
     let top = ui.cursor().min;
-    section_name(ui, name);
+    let heading = section_name(ui, name);
+    if !sentence.is_empty() {
+        explained(heading, sentence);
+    }
     let Some((action, label)) = action else { return false };
     let tokens = Tokens::of(ui);
     let galley = ui

@@ -99,7 +99,7 @@ fn the_loop_gap_is_that_of_what_loops() {
     assert_eq!(session.playback().loop_gap_secs(), Some([-0.3, 0.6]));
     for mode in [LoopMode::Once, LoopMode::PingPong] {
         session.apply(PlayCommand::SetLoopMode(mode));
-        assert_eq!(session.loop_gap(), None, "{mode:?} never jumps");
+        assert!(session.loop_gap().is_some(), "{mode:?} does not jump, a loop would");
     }
     session.apply(PlayCommand::SetLoopMode(LoopMode::Loop));
     session.apply(PlayCommand::SelectClip(1));
