@@ -38,7 +38,7 @@ export function takeDrops(area, { receive, refuse, openModel, show, gaveWay = ()
     const addsClips = event.shiftKey;
     const mine = ++drops;
     const { files, problems } = await collect(roots);
-    if (mine < received) return gaveWay(roots[0].name);
+    if (mine < received) return gaveWay(roots[0].entry.name);
     if (files.length && !addsClips && !onlyJoins(files)) received = mine;
     if (problems.length) refuse(problems.join("\n"));
     if (files.length) receive(files, addsClips);
@@ -83,8 +83,11 @@ function describe(event, openModel, addsClips) {
 
 function entriesOf(transfer) {
   const items = Array.from(transfer.items).filter((item) => item.kind === "file");
-  const entries = items.map((item) => item.webkitGetAsEntry?.() ?? item.getAsFile()).filter(Boolean);
-  return entries.length ? entries : Array.from(transfer.files);
+  const roots = items.map((item) => {
+    const file = item.getAsFile?.();
+    return { entry: item.webkitGetAsEntry?.() ?? file, file };
+  }).filter(({ entry }) => entry);
+  return roots.length ? roots : Array.from(transfer.files, (file) => ({ entry: file, file }));
 }
 
 /** Every useful file below the roots, with its path. What was dropped by itself is always taken. */
@@ -93,7 +96,7 @@ async function collect(roots) {
   const problems = [];
   let seen = 0;
 
-  const visit = async (entry, isRoot) => {
+  const visit = async ({ entry, file }, isRoot) => {
     const path = (entry.fullPath ?? entry.name).replace(/^\/+/, "");
     if (++seen > MAX_ENTRIES) return;
     try {
@@ -103,12 +106,13 @@ async function collect(roots) {
         const reader = entry.createReader();
         // A call gives some hundred entries at most; an empty answer is the end.
         for (let batch = await next(reader); batch.length && seen <= MAX_ENTRIES; batch = await next(reader)) {
-          for (const child of batch) await visit(child, false);
+          for (const child of batch) await visit({ entry: child }, false);
         }
       } else if (isRoot || isUseful(path)) {
         // A file that was changed since cannot be read through its old `File`, so another can be asked for.
         const again = () => new Promise((done, fail) => entry.file(done, fail));
-        files.push({ name: path, file: await again(), again });
+        // WebKit's entry of a file that a script made never answers.
+        files.push({ name: path, file: file ?? (await again()), again });
       }
     } catch (error) {
       problems.push(`${path} could not be read: ${error.message}`);

@@ -16,7 +16,7 @@ use super::theme::{self, LOW_HEIGHT, LOW_WIDTH, Tokens};
 use super::widgets::{
     ICON_SIZE, MenuLine, TextButton, action_button, chip, chip_size, control_size, hint_beside, hint_of_name,
     icon_button, keyed_menu_item, menu_item, pressed_chip, push_action, push_button, section_name, tell_open,
-    untold_icon_button, valued_menu_item,
+    untold_icon_button, valued_choice, valued_menu_item,
 };
 use super::wording::{bytes, shortened_front};
 use super::{export, light, overlays, picture};
@@ -416,7 +416,7 @@ fn file_line(ui: &mut Ui, file: &File, is_open: bool, commands: &mut Vec<Command
         let line = ui.scope(|ui| {
             ui.set_max_width(room);
             ui.style_mut().wrap_mode = Some(TextWrapMode::Truncate);
-            valued_menu_item(ui, &path, &size, is_open)
+            valued_choice(ui, &path, &size, is_open)
         });
         let line = hint_beside(line.inner, None, &file.path);
         let note = format!("{size}, Delete closes it");

@@ -16,4 +16,3 @@ import "./fingers.js";
 import "./several.js";
 import "./lasting.js";
 import "./visits.js";
-import "./alone.node.js";

@@ -14,7 +14,7 @@ const { greeting, keep, kept } = await script("kept.js");
  * once it has resolved, as on the page.
  */
 function page(framesUntilLoss, { hidden = false, model = "heavy.m3d" } = {}) {
-  const canvas = { parentElement: { contains: () => false }, cloneNode: () => canvas, removeAttribute() {}, replaceWith() {}, focus() {} };
+  const canvas = { parentElement: { contains: () => false }, cloneNode: () => canvas, removeAttribute() {}, replaceWith() {}, focus() {}, getRootNode: () => document };
   globalThis.document = { hidden, body: {}, activeElement: null };
   document.activeElement = document.body;
   const log = [];

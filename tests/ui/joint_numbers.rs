@@ -200,10 +200,10 @@ fn an_explanation_stands_still_and_inside_of_the_slimmest_panel() {
         } else {
             window(size, chains(5))
         };
+        window.apply(JointCommand::SelectVertex(Some(4)));
         if window.shows("Model facts") {
             window.click("Show Vertex 4");
         }
-        window.apply(JointCommand::SelectVertex(Some(4)));
         window.click("Explain this vertex");
         window.click("Unfold the matrices of Bone 0, ");
         assert_between_sides(&window, size);

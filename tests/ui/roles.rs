@@ -222,11 +222,11 @@ fn every_panel_of_a_wide_window_is_what_it_is_said_to_be() {
         assert_sound(&Told::of(&mut window), button);
         window.press(Modifiers::NONE, Key::Escape);
     }
-    window.click("Keys (?)");
+    window.click("Help (?)");
     let told = Told::of(&mut window);
     assert_sound(&told, "keys");
-    assert_eq!(told.find("button", "Keys (?)").expanded, Some(true));
-    window.click("Keys (?)");
+    assert_eq!(told.find("button", "Help (?)").expanded, Some(true));
+    window.click("Help (?)");
     window.click("Findings: ");
     let told = Told::of(&mut window);
     assert_sound(&told, "findings");
@@ -377,7 +377,7 @@ fn every_page_of_a_small_window_is_what_it_is_said_to_be() {
         );
         for page in [
             SheetPage::Model,
-            SheetPage::Skeleton,
+            SheetPage::Selection,
             SheetPage::ViewMode,
             SheetPage::Light,
             SheetPage::Overlays,
@@ -388,13 +388,15 @@ fn every_page_of_a_small_window_is_what_it_is_said_to_be() {
         ] {
             let mut window = open();
             let state = window.harness.state_mut();
-            if page == SheetPage::Skeleton {
-                state.state.show_skeleton(&state.session);
-            }
             state.state.sheet = Some(page);
             window.pass_on();
             assert_sound(&Told::of(&mut window), &format!("{page:?}"));
         }
+        let mut window = open();
+        let state = window.harness.state_mut();
+        state.state.show_skeleton(&state.session);
+        window.pass_on();
+        assert_sound(&Told::of(&mut window), "Skeleton");
         shut.click("More");
         let told = Told::of(&mut shut);
         assert_sound(&told, "more");
@@ -441,9 +443,14 @@ fn the_grip_of_the_sheet_says_what_it_opens() {
     let mut phone = touch_window(PHONE, files());
     assert!(phone.shows("Model facts"));
     phone.apply(SubmeshCommand::Select(Some(0)));
-    assert!(!phone.shows("Model facts"));
-    phone.click("Inspector");
+    phone.click("Show Painted");
     assert!(phone.shows("Selected: Painted"));
+    phone.click("Close the sheet");
+    let state = phone.harness.state_mut();
+    state.state.show_skeleton(&state.session);
+    state.state.sheet = None;
+    phone.pass_on();
+    assert!(phone.shows("Skeleton") && !phone.shows("Model facts"));
 }
 
 #[test]

@@ -166,9 +166,14 @@ pub(crate) fn keyed_menu_item(ui: &mut Ui, text: &str, key: &str, line: MenuLine
     menu_line(ui, text, key, theme::mono(11.0), line)
 }
 
+/// A line of a menu that is one of several choices, with a value behind it.
+pub(crate) fn valued_choice(ui: &mut Ui, text: &str, value: &str, on: bool) -> Response {
+    menu_line(ui, text, value, FontId::proportional(12.0), MenuLine::Choice(on))
+}
+
 /// A line of a menu that opens a page, with the current choice of that page.
 pub(crate) fn valued_menu_item(ui: &mut Ui, text: &str, value: &str, on: bool) -> Response {
-    let response = menu_line(ui, text, value, FontId::proportional(12.0), MenuLine::Choice(on));
+    let response = valued_choice(ui, text, value, on);
     let with_value = format!("{text}: {value}");
     let name = if value.is_empty() { text } else { &with_value };
     response.widget_info(|| WidgetInfo::labeled(Role::MenuItem, true, name));

@@ -9,7 +9,7 @@ mod row;
 pub(super) use button::{
     ICON_SIZE, MenuLine, TextButton, action_button, action_switch, choices, explained_segmented, icon_button,
     keyed_menu_item, menu_item, noted_switch_row, push_action, push_button, segmented, switch_row, untold_icon_button,
-    valued_menu_item,
+    valued_choice, valued_menu_item,
 };
 pub(super) use color::{color_button, color_picker, gradient_shape, paint_swatch};
 pub(super) use control::{

@@ -9,7 +9,9 @@ use egui::{
     Sense, Stroke, StrokeKind, TextEdit, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use super::control::{MOUSE_CONTROL, SliderNode, arrow_steps, control_size, focus_ring, paint_ends, slider_keys};
+use super::control::{
+    MOUSE_CONTROL, SliderNode, arrow_steps, control_size, focus_ring, hint_of_name, paint_ends, slider_keys,
+};
 use crate::ui::input::press_field;
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 use crate::ui::wording::trimmed;
@@ -311,9 +313,7 @@ impl<'a> TypedValue<'a> {
             }
         });
         let response = match self.number {
-            Some(_) => response
-                .on_hover_text(self.name)
-                .on_hover_cursor(CursorIcon::ResizeHorizontal),
+            Some(_) => hint_of_name(response, self.name).on_hover_cursor(CursorIcon::ResizeHorizontal),
             None => response.on_hover_cursor(CursorIcon::Text),
         };
         (value, response)

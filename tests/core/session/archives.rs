@@ -80,12 +80,12 @@ fn what_is_exported_with_its_maps_is_opened_again() {
     };
     let exported = session.export_job(&options).expect("a model is open").run();
     let exported = exported.expect("it can be written");
-    assert_eq!(exported.name, "box.zip");
+    assert_eq!(exported.name, "box-d3d11.zip");
     let again = added(vec![File::new(&exported.name, exported.bytes)]);
     assert_eq!(again.error(), None);
     let [before, after] = [&session, &again].map(|session| session.open_model().expect("a model"));
     assert_eq!(before.model.mesh.positions, after.model.mesh.positions);
-    assert_eq!(after.file.base_name(), "box.m3d");
+    assert_eq!(after.file.base_name(), "box-d3d11.m3d");
     assert_eq!(again.maps().used().count(), 1);
 }
 
