@@ -359,8 +359,8 @@ function keepVisit() {
   if (hasFailed()) return;
   const chosen = Object.entries(choicesNow()).filter(([name, value]) => value !== choices[name]);
   if (chosen.length) keep(Object.fromEntries(chosen));
-  const { model, skeleton } = viewer.state();
-  if (model && sources.hasModel()) keep({ open: model.name, names: Object.keys(skeleton.names).length });
+  const state = viewer.state();
+  if (sources.hasModel(state)) keep({ open: state.model.name, names: Object.keys(state.skeleton.names).length });
 }
 
 /** Shows what changed of the viewer's controls; those of another start stand behind another canvas. */

@@ -55,7 +55,7 @@ test("in the model's page a click selects no bone", {}, async (page) => {
   assert.equal((await state(page)).skeleton.selected, null, "the click is about a subset");
 });
 
-/** The sample's vertices as its file has them. */
+/** The sample's vertices in the world, 72 units high. */
 function vertices() {
   const text = readFileSync(SAMPLE, "latin1");
   const numbers = (words) => words.trim().split(/\s+/).map(Number);
@@ -63,7 +63,9 @@ function vertices() {
   return Array.from(text.matchAll(vertex), ([, position, normal, weights, bones]) => {
     const [weightsOfVertex, indices] = [numbers(weights), numbers(bones)];
     const weightOf = (bone) => weightsOfVertex.reduce((sum, weight, at) => sum + (indices[at] === bone ? weight : 0), 0);
-    return { position: numbers(position), normal: numbers(normal), weightOf };
+    // Right-handed, as the exporters of the book leave it.
+    const [at, towards] = [position, normal].map((words) => numbers(words)).map(([x, y, z]) => [-x, y, z]);
+    return { position: at, normal: towards, weightOf };
   });
 }
 
@@ -72,7 +74,7 @@ const minus = (one, other) => one.map((at, axis) => at - other[axis]);
 
 /**
  * Where a vertex of the bind pose is in a picture, in pixels; how far from the eye, along the view; and how much it faces the
- * eye. The sample stands in the world as in its file: left-handed, y up.
+ * eye. The world is left-handed, y up.
  */
 function projected({ camera }, { width, height }, { position, normal }) {
   const [sinYaw, cosYaw] = [Math.sin(camera.yawRadians), Math.cos(camera.yawRadians)];
@@ -98,8 +100,8 @@ function plainlySeen(now, drawn, bone) {
   return all.filter((vertex) => {
     if (vertex.facing < 0.85) return false;
     const around = all.filter(({ x, y }) => Math.hypot(x - vertex.x, y - vertex.y) < 2.5);
-    const sameSide = around.filter(({ depth }) => depth < vertex.depth + 0.06);
-    const alike = ({ weight, depth }) => Math.abs(weight - vertex.weight) < 0.25 && depth > vertex.depth - 0.03;
+    const sameSide = around.filter(({ depth }) => depth < vertex.depth + 2.4);
+    const alike = ({ weight, depth }) => Math.abs(weight - vertex.weight) < 0.25 && depth > vertex.depth - 1.2;
     return sameSide.length > 1 && sameSide.every(alike);
   });
 }

@@ -39,22 +39,36 @@ test("an export that was begun goes on in a hidden tab", { own: true }, async (p
   assert.match((await saved).suggestedFilename(), /^figure\.glb$/);
 });
 
-test("the first visit says what the page is for, until something is dropped", { own: true, firstVisit: true }, async (page) => {
-  assert.equal(await greeting(page), 1);
-  assert.match(await page.textContent("#spoken"), /Files stay on this machine\./);
+/** Waits until there are so many greetings: the mirror of the controls follows the window some times a second. */
+async function greeted(page, count) {
+  for (const deadline = Date.now() + 20_000; (await greeting(page)) !== count; await page.waitForTimeout(50)) {
+    assert.ok(Date.now() < deadline, `${await greeting(page)} greetings, not ${count}`);
+  }
+}
+
+/** Keeps all that a screen reader is given from the beginning. */
+const listen = (page) => page.addInitScript(() => {
+  globalThis.heard = [];
+  const note = () => globalThis.heard.push(document.getElementById("spoken")?.textContent);
+  new MutationObserver(note).observe(document, { subtree: true, childList: true, characterData: true });
+});
+
+test("the first visit says what the page is for, until something is dropped", { own: true, firstVisit: true, prepare: listen }, async (page) => {
+  await greeted(page, 1);
+  await page.waitForFunction(() => globalThis.heard.some((words) => /Files stay on this machine\./.test(words)));
   await dropAndWait(page, [SAMPLE]);
   await settled(page);
-  assert.equal(await greeting(page), 0);
+  await greeted(page, 0);
   await page.reload();
   await running(page);
   await settled(page);
-  assert.equal(await control(page, "Choose files to open").count(), 1, "now it tells what was open");
-  assert.match(await page.textContent("#spoken"), /figure\.m3d was open: drop it again\./);
+  await control(page, "Choose files to open").waitFor({ state: "attached" }); // Now it tells what was open.
+  await page.waitForFunction(() => globalThis.heard.some((words) => /figure\.m3d was open: drop it again\./.test(words)));
   await press(page, "Close the welcome");
   await page.reload();
   await running(page);
   await settled(page);
-  assert.equal(await greeting(page), 0);
+  await greeted(page, 0);
 });
 
 test("what a person has chosen is there at the next visit", { own: true, query: `?backend=${BACKEND}&scale=0.2` }, async (page) => {

@@ -18,6 +18,8 @@ export const TRIM_EYE = [238, 452];
 export const FILE_MENU = [140, 30];
 export const LAST_OF_THREE = [150, 131];
 
+/** The panel's first page. */
+export const MODEL_PAGE = [70, 87];
 /** The panel's other page: its tree of bones, and in it the bone that hangs from the root. */
 export const SKELETON_PAGE = [190, 87];
 export const TREE = { x: 14, y: 140, width: 240, height: 300 };
