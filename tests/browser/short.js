@@ -168,6 +168,10 @@ check("Tab goes from the view into the controls, and their elements do what the 
     await page.press("Tab");
   }
   assert.equal(names.size, 3, [...names].join(", "));
+  await call("pause");
+  await until(({ playing }) => !playing);
+  // The mirror follows the window some times a second.
+  await new Promise((done) => setTimeout(done, 500));
   const clickPlay = () => page.evaluate(() => {
     const buttons = Array.from(document.querySelectorAll("button[data-mirror]"));
     buttons.find((button) => /^(Play|Pause)/.test(button.ariaLabel ?? button.textContent)).click();
