@@ -68,7 +68,8 @@ test("the first visit says what the page is for, until something is dropped", { 
   await page.reload();
   await running(page);
   await settled(page);
-  await greeted(page, 0);
+  await control(page, "Help (?)").waitFor({ state: "attached" }); // What is on the window is told as a whole.
+  assert.equal(await greeting(page), 0);
 });
 
 test("what a person has chosen is there at the next visit", { own: true, query: `?backend=${BACKEND}&scale=0.2` }, async (page) => {

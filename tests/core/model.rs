@@ -11,4 +11,5 @@ mod names;
 mod overflow;
 mod real_files;
 mod skeleton;
+mod space;
 mod tree;

@@ -14,7 +14,7 @@ use egui_kittest::Harness;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
 use image::RgbaImage;
 
-use crate::page::{app_options, whole_window};
+use crate::page::{new_app, whole_window};
 use crate::picture::{sample_with_its_maps, share_that_differs};
 
 /// The window of the browser tests, and the size of their pictures: the camera stands where that window's panels let it.
@@ -51,15 +51,7 @@ fn a_native_device_draws_what_browsers_draw() {
         .renderer(WgpuTestRenderer::from_render_state(gpu.clone()))
         .build_ui(move |ui| {
             let mut app = of_window.borrow_mut();
-            let app = app.get_or_insert_with(|| {
-                App::new(
-                    ui.ctx(),
-                    &of_app,
-                    Rc::clone(&session),
-                    Rc::default(),
-                    app_options(false),
-                )
-            });
+            let app = app.get_or_insert_with(|| new_app(ui.ctx(), &of_app, &session, false));
             app.ui(&mut whole_window(ui));
         });
     harness.run();

@@ -1,8 +1,11 @@
 //! A window with the interface in it, its commands applied to a real session, without a GPU.
 
-use bindpose::app::AppOptions;
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use bindpose::app::{App, AppOptions};
 use bindpose::session::{Command, ExportedFile, File, FileCommand, Session};
-use bindpose::ui::{self, Request, UiState};
+use bindpose::ui::{self, Request, SheetPage, UiState};
 use egui::accesskit::{Action, ActionData, ActionRequest, Role};
 use egui::{Rect, Vec2};
 use egui_kittest::kittest::{AccessKitNode, NodeT as _};
@@ -13,6 +16,19 @@ pub(crate) const STEP_SECS: f32 = 1.0 / 60.0;
 
 pub(crate) const WIDE: Vec2 = Vec2::new(1440.0, 900.0);
 pub(crate) const PHONE: Vec2 = Vec2::new(390.0, 844.0);
+
+/// Every page of the sheet.
+pub(crate) const SHEET_PAGES: [SheetPage; 9] = [
+    SheetPage::Model,
+    SheetPage::Selection,
+    SheetPage::ViewMode,
+    SheetPage::Light,
+    SheetPage::Overlays,
+    SheetPage::ViewFrom,
+    SheetPage::Picture,
+    SheetPage::Export,
+    SheetPage::Timeline,
+];
 
 /// What is behind the window.
 pub(crate) struct Page {
@@ -257,6 +273,16 @@ impl Window {
         self.harness.key_press_modifiers(modifiers, key);
         self.pass_on();
     }
+}
+
+/// The app over a session, with panels as at first and a clock that stands still.
+pub(crate) fn new_app(
+    ctx: &egui::Context,
+    gpu: &egui_wgpu::RenderState,
+    session: &Rc<RefCell<Session>>,
+    coarse_pointer: bool,
+) -> App {
+    App::new(ctx, gpu, Rc::clone(session), Rc::default(), app_options(coarse_pointer))
 }
 
 /// For an app whose clock stands still.

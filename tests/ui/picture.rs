@@ -21,7 +21,7 @@ use image::RgbaImage;
 use image::imageops::{self, FilterType};
 
 use crate::models::broken;
-use crate::page::{PHONE, WIDE, app_options, whole_window};
+use crate::page::{PHONE, WIDE, new_app, whole_window};
 use crate::rigs::chain;
 
 /// Drivers round and antialias differently: a channel may be off by this much anywhere …
@@ -85,15 +85,7 @@ fn draw_with(
         .with_context_setup(ui::install)
         .renderer(WgpuTestRenderer::from_render_state(gpu))
         .build_ui(move |ui| {
-            let app = app.get_or_insert_with(|| {
-                App::new(
-                    ui.ctx(),
-                    &of_app,
-                    Rc::clone(&session),
-                    Rc::default(),
-                    app_options(coarse_pointer),
-                )
-            });
+            let app = app.get_or_insert_with(|| new_app(ui.ctx(), &of_app, &session, coarse_pointer));
             app.set_contrast(contrast);
             app.ui(&mut whole_window(ui));
             while app.step_export().0 {

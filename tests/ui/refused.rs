@@ -15,7 +15,7 @@ use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_set
 use egui_wgpu::{RendererOptions, WgpuSetup, wgpu};
 
 use crate::models;
-use crate::page::{WIDE, app_options, whole_window};
+use crate::page::{WIDE, new_app, whole_window};
 
 /// Bytes of the largest buffer of the device: room for 29 000 vertices.
 const LARGEST_BUFFER: u64 = 1 << 20;
@@ -59,15 +59,7 @@ fn a_model_that_the_gpu_refuses_leaves_the_one_before_drawn_picked_and_told() {
         .renderer(WgpuTestRenderer::from_render_state(gpu.clone()))
         .build_ui(move |ui| {
             let mut app = of_window.borrow_mut();
-            let app = app.get_or_insert_with(|| {
-                App::new(
-                    ui.ctx(),
-                    &of_app,
-                    Rc::clone(&of_session),
-                    Rc::default(),
-                    app_options(false),
-                )
-            });
+            let app = app.get_or_insert_with(|| new_app(ui.ctx(), &of_app, &of_session, false));
             app.ui(&mut whole_window(ui));
         });
     let picture = || {

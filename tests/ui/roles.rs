@@ -9,7 +9,7 @@ use egui::accesskit::Action;
 use egui::{Key, Modifiers, Vec2, vec2};
 
 use crate::models::{broken, moving};
-use crate::page::{PHONE, WIDE, Window, touch_window, window};
+use crate::page::{PHONE, SHEET_PAGES, WIDE, Window, touch_window, window};
 use crate::rigs::rig;
 
 const LOW: Vec2 = vec2(844.0, 390.0);
@@ -375,17 +375,7 @@ fn every_page_of_a_small_window_is_what_it_is_said_to_be() {
             "they are read from left to right: {}",
             told.outline
         );
-        for page in [
-            SheetPage::Model,
-            SheetPage::Selection,
-            SheetPage::ViewMode,
-            SheetPage::Light,
-            SheetPage::Overlays,
-            SheetPage::ViewFrom,
-            SheetPage::Picture,
-            SheetPage::Export,
-            SheetPage::Timeline,
-        ] {
+        for page in SHEET_PAGES {
             let mut window = open();
             let state = window.harness.state_mut();
             state.state.sheet = Some(page);

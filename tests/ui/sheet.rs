@@ -8,7 +8,7 @@ use egui::{Key, Modifiers, Rect, TouchPhase, Vec2, pos2, vec2};
 
 use crate::layout::{panel, shown_panel};
 use crate::models::{broken, moving, still};
-use crate::page::{PHONE, Window, phone, touch_window};
+use crate::page::{PHONE, SHEET_PAGES, Window, phone, touch_window};
 use crate::pointer::{fingers, gesture};
 
 fn top(window: &Window) -> f32 {
@@ -26,13 +26,7 @@ fn open() -> Window {
 fn the_transport_stays_where_it_is_whatever_the_sheet_does() {
     let mut window = phone(vec![moving("a.m3d")]);
     let play = window.rect("Play");
-    for page in [
-        SheetPage::Model,
-        SheetPage::Selection,
-        SheetPage::Light,
-        SheetPage::Timeline,
-        SheetPage::Picture,
-    ] {
+    for page in SHEET_PAGES {
         window.harness.state_mut().state.sheet = Some(page);
         window.pass_on();
         assert_eq!(window.rect("Play"), play, "{page:?}");
@@ -147,16 +141,7 @@ fn arrow_keys_move_the_handle_too() {
 
 #[test]
 fn every_page_has_a_title_and_is_closed_by_its_button_or_by_a_tap_on_the_view() {
-    for page in [
-        SheetPage::Model,
-        SheetPage::Selection,
-        SheetPage::ViewMode,
-        SheetPage::Light,
-        SheetPage::Overlays,
-        SheetPage::ViewFrom,
-        SheetPage::Picture,
-        SheetPage::Timeline,
-    ] {
+    for page in SHEET_PAGES {
         let mut window = phone(vec![moving("a.m3d")]);
         let show = |window: &mut Window| {
             window.harness.state_mut().state.sheet = Some(page);

@@ -19,11 +19,7 @@ const CASES: &str = "BINDPOSE_CASES";
 const LONG_CASES: &str = "10";
 
 /// Tests of the page's scripts that need no browser.
-const SCRIPT_TESTS: [&str; 3] = [
-    "tests/browser/alone.node.js",
-    "tests/browser/mirror.js",
-    "tests/browser/rim/files.js",
-];
+const SCRIPT_TESTS: &str = "tests/browser/alone/all.js";
 
 /// The package with the browser tests.
 const BROWSER_TESTS: &str = "tests/browser";
@@ -42,8 +38,7 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     if !options.browser_alone {
         steps.step("The page's scripts alone", || {
             Line::new("node")
-                .args(["--test", "--test-reporter=spec"])
-                .args(SCRIPT_TESTS)
+                .args(["--test", "--test-reporter=spec", SCRIPT_TESTS])
                 .run()
         })?;
         // The core's tests have written the files.

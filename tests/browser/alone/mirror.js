@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { mirrorOf } from "../../web/mirror.js";
+import { mirrorOf } from "../../../web/mirror.js";
 import { pageOf } from "./dom.js";
 
 const RECORD = {

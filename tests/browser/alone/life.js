@@ -1,11 +1,11 @@
-// Scripts of the page alone, with stand-ins for the viewer and the browser: no GPU. `node --test tests/browser/alone.node.js`
+// Scripts of the page alone, with stand-ins for the viewer and the browser: no GPU.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
 /** The page's scripts are modules without a package that says so. */
-const script = (name) => import(`data:text/javascript,${encodeURIComponent(readFileSync(new URL(`../../web/${name}`, import.meta.url), "utf8"))}`);
+const script = (name) => import(`data:text/javascript,${encodeURIComponent(readFileSync(new URL(`../../../web/${name}`, import.meta.url), "utf8"))}`);
 const { keepOnCanvas } = await script("restart.js");
 const { greeting, keep, kept } = await script("kept.js");
 

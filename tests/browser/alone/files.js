@@ -1,4 +1,4 @@
-// What comes in, without a browser: api.js, drop.js, sources.js and files.js against small stand-ins. `node --test tests/browser/rim`.
+// What comes in, without a browser: api.js, drop.js, sources.js and files.js against small stand-ins.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";

@@ -1,0 +1,4 @@
+// The page's own scripts without a browser and without a viewer. `node --test tests/browser/alone/all.js`
+import "./files.js";
+import "./life.js";
+import "./mirror.js";
