@@ -21,7 +21,7 @@ const TURNS_OF_SMALL: u32 = 4;
 const SMALL_HEIGHT: f32 = 1.0 / 150.0;
 
 /// Buffers that are kept from frame to frame.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct CrowdCache {
     filled_for: Option<Key>,
     /// Poses so far, in which instances take turns.

@@ -145,13 +145,19 @@ struct Selection {
     joints: Joints,
 }
 
-/// Buffers that are kept from frame to frame, each with what it was filled for.
-#[derive(Clone, Debug, Default)]
+/// Buffers that are kept from frame to frame, each with what it was filled for. A copy of a session fills its own.
+#[derive(Debug, Default)]
 struct Caches {
     picker: Picker,
     skeleton: SkeletonCache,
     overlays: OverlayCache,
     crowd: CrowdCache,
+}
+
+impl Clone for Caches {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
 }
 
 impl Session {

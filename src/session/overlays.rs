@@ -32,7 +32,7 @@ const RING_SEGMENTS: usize = 64;
 const RING_WIDTH: f32 = 0.05;
 
 /// Buffers, and what they were filled for.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct OverlayCache {
     geometry: OverlayGeometry,
     trails: Trails,

@@ -13,7 +13,7 @@ use crate::model::{MapSlot, Material, Mesh, Wrap};
 use crate::scene::{Hit, Ray, pick, value_at};
 
 /// Buffers that are kept from pick to pick.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct Picker {
     /// The revision of the pose of the positions.
     posed: Option<u64>,
@@ -144,7 +144,7 @@ pub(super) fn first_met(
 }
 
 /// Alpha of diffuse maps, by material.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 struct Cutouts {
     maps_revision: u64,
     /// None where the map is not there or has no alpha.
@@ -190,7 +190,7 @@ impl Cutouts {
 }
 
 /// Alpha of a picture's largest level, rows from the top.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 struct Alpha {
     width: usize,
     height: usize,

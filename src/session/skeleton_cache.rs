@@ -10,7 +10,7 @@ use crate::scene::{
 };
 
 /// Buffers that are kept from pose to pose.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct SkeletonCache {
     placed: Option<PlaceKey>,
     bones: Bones,
