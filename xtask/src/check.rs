@@ -1,5 +1,6 @@
 //! `cargo xtask test`: every check, in order, stopping at the first failure.
 
+use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::absent;
@@ -26,7 +27,7 @@ const BROWSER_TESTS: &str = "tests/browser";
 
 /// Runs all of them, or those in the browser alone.
 pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
-    let mut steps = Steps::default();
+    let mut steps = Steps::new();
     let absent = List::new("absent-files")?;
     let second_tries = List::new("second-tries")?;
     steps.step("What the tests draw with", prerequisites::ensure)?;
@@ -58,21 +59,7 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
         absent: &absent,
         second_tries: &second_tries,
     };
-    for run in here {
-        steps.step(&format!("The page in {run}"), || {
-            let outcome = match browser(run, tests).run() {
-                // Chromium's tests are tried again one by one. The walk in the others is one piece, and a browser may fail in it
-                // that does not the next time: WebKit's compiler was seen to give the program wrong numbers.
-                Err(_) if run.browser != Browser::Chromium => {
-                    eprintln!("── The page in {run} is tried again; what fails twice is broken.");
-                    second_tries.add(&format!("The page in {run}"))?;
-                    browser(run, tests).run()
-                }
-                outcome => outcome,
-            };
-            outcome.map_err(|failure| repeated_with_xtask(failure, run))
-        })?;
-    }
+    browsers(&mut steps, &here, tests)?;
     steps.summary();
     for run in elsewhere {
         eprintln!("Not looked at: the page in {run}, which is driven on Linux alone.");
@@ -83,7 +70,7 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
 
 /// Draws the README's pictures.
 pub(crate) fn pictures() -> Result<(), Failure> {
-    let mut steps = Steps::default();
+    let mut steps = Steps::new();
     steps.step("What the pictures are drawn with", prerequisites::ensure)?;
     let page = page(&mut steps)?;
     let run = RUNS[1];
@@ -170,6 +157,51 @@ fn node(run: BrowserRun, only: Option<&str>, tests: &str, page: &str) -> Line {
         .env("BACKEND", run.backend)
 }
 
+/// Drives the first browser, and meanwhile the others one after the other: a page that software draws waits for its frames more than it
+/// keeps two cores busy. What the others print comes when the first has ended.
+fn browsers(steps: &mut Steps, runs: &[BrowserRun], tests: BrowserTests<'_>) -> Result<(), Failure> {
+    let Some((&first, others)) = runs.split_first() else {
+        return Ok(());
+    };
+    let name = |run: BrowserRun| format!("The page in {run}");
+    thread::scope(|scope| {
+        let beside = scope.spawn(|| {
+            let drive = |&run: &BrowserRun| {
+                let (started, mut printed) = (Instant::now(), String::new());
+                let outcome = drive(run, tests, |line| line.run_into(&mut printed));
+                (run, outcome, started.elapsed(), printed)
+            };
+            others.iter().map(drive).collect::<Vec<_>>()
+        });
+        let mut outcome = steps.step(&name(first), || drive(first, tests, Line::run));
+        for (run, of_run, elapsed, printed) in beside.join().expect("it does not panic") {
+            steps.begin(&format!("{}, beside the first", name(run)));
+            eprint!("{printed}");
+            let of_run = steps.end(&name(run), elapsed, of_run);
+            outcome = outcome.and(of_run);
+        }
+        outcome
+    })
+}
+
+/// Runs the tests of a browser.
+fn drive(
+    run: BrowserRun,
+    tests: BrowserTests<'_>,
+    mut start: impl FnMut(Line) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let outcome = match start(browser(run, tests)) {
+        // Chromium's tests are tried again one by one. The walk in the others is one piece, and a browser may fail in it that does not
+        // the next time: WebKit's compiler was seen to give the program wrong numbers.
+        Err(_) if run.browser != Browser::Chromium => {
+            tests.second_tries.add(&format!("The page in {run}"))?;
+            start(browser(run, tests))
+        }
+        outcome => outcome,
+    };
+    outcome.map_err(|failure| repeated_with_xtask(failure, run))
+}
+
 /// What every run of browser tests is told.
 #[derive(Clone, Copy)]
 struct BrowserTests<'a> {
@@ -210,17 +242,31 @@ fn repeated_with_xtask(failure: Failure, run: BrowserRun) -> Failure {
 }
 
 /// Names each step, times it and lists them at the end.
-#[derive(Default)]
 struct Steps {
+    begun: Instant,
     done: Vec<(String, Duration)>,
 }
 
 impl Steps {
+    fn new() -> Self {
+        Self {
+            begun: Instant::now(),
+            done: Vec::new(),
+        }
+    }
+
     fn step<T>(&mut self, name: &str, work: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
-        eprintln!("\n── {}. {name}", self.done.len() + 1);
+        self.begin(name);
         let started = Instant::now();
         let outcome = work();
-        let elapsed = started.elapsed();
+        self.end(name, started.elapsed(), outcome)
+    }
+
+    fn begin(&self, name: &str) {
+        eprintln!("\n── {}. {name}", self.done.len() + 1);
+    }
+
+    fn end<T>(&mut self, name: &str, elapsed: Duration, outcome: Result<T, Failure>) -> Result<T, Failure> {
         let word = if outcome.is_ok() { "passed" } else { "FAILED" };
         eprintln!("── {word} in {:.1} s: {name}", elapsed.as_secs_f32());
         self.done.push((name.to_owned(), elapsed));
@@ -232,7 +278,6 @@ impl Steps {
         for (name, elapsed) in &self.done {
             eprintln!("{:8.1} s  {name}", elapsed.as_secs_f32());
         }
-        let total: Duration = self.done.iter().map(|(_, elapsed)| elapsed).sum();
-        eprintln!("{:8.1} s  in all", total.as_secs_f32());
+        eprintln!("{:8.1} s  in all", self.begun.elapsed().as_secs_f32());
     }
 }

@@ -1,6 +1,7 @@
 //! What tests tell the checks, a line each, in a file that they are told of by an environment variable.
 
 use std::fs;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use crate::failure::{Doing as _, Failure};
@@ -32,7 +33,8 @@ impl List {
 
     /// Adds a line.
     pub(crate) fn add(&self, line: &str) -> Result<(), Failure> {
-        let text = format!("{}{line}\n", self.read()?);
-        fs::write(&self.path, text).doing(format!("writing {}", self.path.display()))
+        let open = fs::OpenOptions::new().append(true).open(&self.path);
+        open.and_then(|mut file| writeln!(file, "{line}"))
+            .doing(format!("writing {}", self.path.display()))
     }
 }

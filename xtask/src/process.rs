@@ -1,7 +1,8 @@
 //! Starting other programs, with the line shown first so that a person can repeat it.
 
 use std::ffi::OsStr;
-use std::process::{Command, Stdio};
+use std::io;
+use std::process::{Command, ExitStatus, Stdio};
 
 use crate::failure::Failure;
 
@@ -54,15 +55,26 @@ impl Line {
     /// Runs it with its output going to the terminal.
     pub(crate) fn run(mut self) -> Result<(), Failure> {
         eprintln!("$ {}", self.shown);
-        let failed = match self.command.status() {
+        let status = self.command.status();
+        self.judge(status)
+    }
+
+    /// Runs it and adds what it printed to `printed`, after the line itself.
+    pub(crate) fn run_into(mut self, printed: &mut String) -> Result<(), Failure> {
+        let outcome = self.command.stdin(Stdio::null()).output();
+        let texts = outcome.iter().flat_map(|output| [&output.stdout, &output.stderr]);
+        *printed += &format!("$ {}\n", self.shown);
+        texts.for_each(|text| *printed += &String::from_utf8_lossy(text));
+        self.judge(outcome.map(|output| output.status))
+    }
+
+    fn judge(self, outcome: io::Result<ExitStatus>) -> Result<(), Failure> {
+        let why = match outcome {
             Ok(status) if status.success() => return Ok(()),
             Ok(status) => format!("the command ended with {status}"),
             Err(error) => format!("the command could not be started: {error}"),
         };
-        Err(Failure::Command {
-            shown: self.shown,
-            why: failed,
-        })
+        Err(Failure::Command { shown: self.shown, why })
     }
 
     /// Runs it quietly; gives what it wrote to standard output, or `None` when it is not there or ended with an error.
