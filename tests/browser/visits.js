@@ -68,7 +68,7 @@ test("the first visit says what the page is for, until something is dropped", { 
   await page.reload();
   await running(page);
   await settled(page);
-  await control(page, "Help (?)").waitFor({ state: "attached" }); // What is on the window is told as a whole.
+  await control(page, "Help").waitFor({ state: "attached" }); // What is on the window is told as a whole.
   assert.equal(await greeting(page), 0);
 });
 
