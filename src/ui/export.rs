@@ -36,7 +36,12 @@ pub(super) fn show(ui: &mut Ui, most: f32, session: &Session, state: &mut UiStat
     } else {
         0.0
     };
-    scrolled("export", most - foot).show(ui, |ui| choices(ui, session, state, commands));
+    let mut scrolled = scrolled("export", most - foot);
+    if state.export.outcome_height == 0.0 {
+        // It was shut: it begins with the format, wherever it was scrolled to before.
+        scrolled = scrolled.vertical_scroll_offset(0.0);
+    }
+    scrolled.show(ui, |ui| choices(ui, session, state, commands));
     if foot > 0.0 {
         ui.add_space(FOOT_GAP);
         let export = session.export();
@@ -81,6 +86,7 @@ fn choices(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut V
             choice.options.format = format;
         }
         ui.add_space(6.0);
+        demo(ui, &mut choice.options);
         clip_list(ui, session, &mut choice.options);
         edits(ui, session, &mut choice.options);
     });
@@ -170,6 +176,10 @@ fn edits(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
             options.reduce = reduce.map(|percent| percent / 100.0);
         }
     });
+}
+
+/// The switch for what the books' programs need, and what that means.
+fn demo(ui: &mut Ui, options: &mut ExportOptions) {
     let is_of_book = options.format.dialect().is_some();
     ui.add_enabled_ui(is_of_book, |ui| {
         let demo = switch_row(ui, "For the book's demo", "", is_of_book && options.for_book)
@@ -178,8 +188,10 @@ fn edits(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
             options.for_book = !options.for_book;
         }
     });
+    let keeps_none = options.clips.as_ref().is_some_and(Vec::is_empty);
     let words = match (is_of_book, options.for_book) {
         (false, _) => "A demo of the books reads .m3d only.",
+        (true, true) if keeps_none => "No clip is kept: the demo shows the model standing still.",
         (true, true) => "The demo plays one clip, Take1: the first one that is kept. Maps come along as DDS.",
         (true, false) => {
             "The demo may show nothing: it wants a clip Take1, keys for each bone, its size, and maps as DDS."
@@ -268,9 +280,13 @@ fn number_row(
 /// What would be otherwise, or why it cannot be. `mended`: how many changes are what was mended on reading.
 fn outcome(ui: &mut Ui, export: Option<Export<'_>>, mended: usize, unfolded: &mut [bool; 2]) {
     let tokens = Tokens::of(ui);
-    if let Some(refusal) = export.and_then(|export| export.refusal) {
+    if let Some((refusal, options)) = export.and_then(|export| Some((export.refusal?, export.options))) {
         section_name(ui, "Cannot be written");
         sentence(ui, refusal, tokens.error);
+        if options.for_book && options.format.dialect().is_some() {
+            let words = "What the demo cannot hold is written when \u{201c}For the book's demo\u{201d} is off.";
+            sentence(ui, words, tokens.muted);
+        }
         return;
     }
     let Some(plan) = export.and_then(|export| export.plan) else {

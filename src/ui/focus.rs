@@ -230,6 +230,7 @@ impl Focus {
             self.opened.push(Opened { key, opener });
             let enters = !self.by_pointer && before.is_some();
             if enters || asked_to_click(ctx).is_some() {
+                let first = in_force(ctx, key).unwrap_or(first);
                 ctx.memory_mut(|memory| memory.request_focus(first));
                 ctx.request_repaint();
             } else {
@@ -308,6 +309,21 @@ fn open_now(ctx: &Context) -> Vec<(Id, Id)> {
             .map(|(_, key, first)| (key, first)),
     );
     open
+}
+
+/// Notes that this is the choice in force of a menu: the focus begins with it when the menu opens.
+pub(super) fn note_in_force(ui: &Ui, id: Id) {
+    let pass = ui.ctx().cumulative_pass_nr();
+    ui.data_mut(|data| data.insert_temp(in_force_id(), (pass, ui.layer_id().id, id)));
+}
+
+fn in_force(ctx: &Context, key: Id) -> Option<Id> {
+    let (pass, layer, id) = ctx.data(|data| data.get_temp::<(u64, Id, Id)>(in_force_id()))?;
+    (pass == ctx.cumulative_pass_nr() && layer == key).then_some(id)
+}
+
+fn in_force_id() -> Id {
+    Id::unique("the choice in force")
 }
 
 fn first_of(ctx: &Context, key: Id) -> Option<Id> {

@@ -18,7 +18,12 @@ pub(super) const MOST_PASSES: NonZeroUsize = NonZeroUsize::new(32).unwrap();
 #[derive(Debug, Default)]
 pub(super) struct InputOrder {
     waiting: VecDeque<Event>,
+    /// The frame in which the pointer was pressed last.
+    pressed_in: Option<u64>,
 }
+
+/// A press that is held longer is no click, and of a finger a long one.
+const MOST_CLICK_SECS: f64 = 0.8;
 
 impl egui::Plugin for InputOrder {
     fn debug_name(&self) -> &'static str {
@@ -29,6 +34,19 @@ impl egui::Plugin for InputOrder {
         self.waiting.extend(input.events.drain(..));
         let count = first_pass(&self.waiting);
         input.events.extend(self.waiting.drain(..count));
+        // Frames may be longer than a click. What is let go in the frame after the press is one, however long that took.
+        let frame = ctx.cumulative_frame_nr();
+        if input.events.iter().any(|event| Kind::of(event) == Kind::Press) {
+            self.pressed_in = Some(frame);
+        }
+        let is_next = self.pressed_in.is_some_and(|pressed_in| frame <= pressed_in + 1);
+        let releases = input.events.iter().any(|event| Kind::of(event) == Kind::Release);
+        let most_secs = if is_next && releases {
+            f64::INFINITY
+        } else {
+            MOST_CLICK_SECS
+        };
+        ctx.options_mut(|options| options.input_options.max_click_duration = most_secs);
         if input.events.iter().any(MirrorAction::is_focus) {
             ctx.request_discard("a widget claims its arrow keys in the pass after it got the focus");
         }

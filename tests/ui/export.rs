@@ -8,6 +8,7 @@ use crate::findings;
 use crate::joint_tree::drawn;
 use crate::models::{moving, still};
 use crate::page::{PHONE, WIDE, Window, touch_window, window};
+use crate::rigs::rig;
 
 const BUTTON: &str = "Export… (E)";
 
@@ -227,6 +228,18 @@ fn what_cannot_be_written_is_said_and_not_saved() {
     window.press(Modifiers::NONE, Key::Enter);
     assert!(window.shows("Cannot be written"));
     assert!(window.node("Save").is_disabled());
+}
+
+#[test]
+fn what_the_demo_cannot_hold_names_the_switch_that_asks_for_it() {
+    let mut window = window(WIDE, vec![rig(120, 2)]);
+    window.press(Modifiers::NONE, Key::E);
+    let words = "What the demo cannot hold is written when \u{201c}For the book's demo\u{201d} is off.";
+    assert!(!window.shows(words), "a .glb holds it");
+    window.click("Format: .m3d D3D12");
+    assert!(window.shows("Cannot be written") && window.shows(words));
+    window.click("For the book's demo");
+    assert!(!window.shows("Cannot be written") && !window.shows(words));
 }
 
 #[test]

@@ -33,6 +33,26 @@ pub(crate) fn drag(window: &mut Window, button: PointerButton, modifiers: Modifi
     window.pass_on();
 }
 
+#[test]
+fn a_press_and_its_release_in_two_long_frames_are_a_click() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    let at = window.rect("Export").center();
+    let press = |pressed| Event::PointerButton {
+        pos: at,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    window.frame([Event::PointerMoved(at)]);
+    window.frame([press(true)]);
+    let now_secs = window.harness.ctx.input(|input| input.time);
+    window.harness.input_mut().time = Some(now_secs + 2.5);
+    window.frame([press(false)]);
+    window.harness.input_mut().time = None;
+    window.pass_on();
+    assert!(window.shows("Save a.glb"));
+}
+
 /// Where a point of the world is in the window.
 fn in_window(camera: &Camera, size: Vec2, point: Vec3) -> Pos2 {
     let view = camera.view_from_world().transform_point3(point);

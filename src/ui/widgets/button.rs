@@ -11,6 +11,7 @@ use super::control::{
 };
 use crate::actions::Action;
 use crate::session::{Command, Session};
+use crate::ui::focus::note_in_force;
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 
@@ -201,8 +202,10 @@ fn menu_line(ui: &mut Ui, text: &str, behind: &str, font_behind: FontId, line: M
     };
     let role = if in_menu { role } else { other_role };
     response.widget_info(|| WidgetInfo::selected(role, true, on, text));
-    if line == MenuLine::Action {
-        tell_push(&response);
+    match line {
+        MenuLine::Action => tell_push(&response),
+        MenuLine::Choice(true) => note_in_force(ui, response.id),
+        _ => {}
     }
     response
 }
