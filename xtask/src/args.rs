@@ -19,7 +19,8 @@ Bindpose's own commands. Each does its set-up itself.
         Every check: formatting, lints, documentation, native tests, the wasm build and the browser tests: all of them
         in Chromium on WebGPU, those that draw on WebGL2 too, a walk in Firefox and in WebKit. Stops at the first failure
         and prints the command that repeats it.
-        --long      what takes longer too: every browser test on both backends, properties with ten times as many cases
+        --long      what takes longer too: every browser test on both backends, properties with ten times as many cases,
+                    a minute of fuzzing
         --browser   the browser tests alone: all, or those in Chromium on one backend, or those in another browser
         --only      of these the tests whose name fits a regular expression
 

@@ -30,6 +30,13 @@ pub(crate) struct FuzzOptions {
     pub(crate) keep: bool,
 }
 
+impl FuzzOptions {
+    /// A minute on two cores.
+    pub(crate) fn of_the_checks() -> Self {
+        Self { secs: 24, keep: false }
+    }
+}
+
 /// Fuzzes all targets, as many at a time as there are cores.
 pub(crate) fn run(options: &FuzzOptions) -> Result<(), Failure> {
     prerequisites::ensure_fuzzer()?;

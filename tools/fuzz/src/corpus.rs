@@ -23,7 +23,7 @@ pub fn inputs(target: &str) -> io::Result<Vec<(String, Vec<u8>)>> {
         let mut entry = archive.by_index(index)?;
         let mut bytes = Vec::new();
         entry.read_to_end(&mut bytes)?;
-        inputs.push((entry.name().to_owned(), bytes));
+        inputs.push((entry.name()?.into_owned(), bytes));
     }
     Ok(inputs)
 }
