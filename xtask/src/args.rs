@@ -2,6 +2,7 @@
 
 use crate::browsers::{BrowserRun, RUNS};
 use crate::failure::Failure;
+use crate::fuzz::FuzzOptions;
 
 /// What `cargo xtask --help` prints.
 pub(crate) const HELP: &str = "\
@@ -18,7 +19,8 @@ Bindpose's own commands. Each does its set-up itself.
         Every check: formatting, lints, documentation, native tests, the wasm build and the browser tests: all of them
         in Chromium on WebGPU, those that draw on WebGL2 too, a walk in Firefox and in WebKit. Stops at the first failure
         and prints the command that repeats it.
-        --long      what takes longer too: every browser test on both backends, properties with ten times as many cases
+        --long      what takes longer too: every browser test on both backends, properties with ten times as many cases,
+                    a minute of fuzzing
         --browser   the browser tests alone: all, or those in Chromium on one backend, or those in another browser
         --only      of these the tests whose name fits a regular expression
 
@@ -27,6 +29,10 @@ Bindpose's own commands. Each does its set-up itself.
 
     cargo xtask dist
         The static site in dist/: smallest download, hashed names, .br and .gz beside each file.
+
+    cargo xtask fuzz [--secs N] [--keep]
+        Files that libFuzzer makes up are read, edited and written by the core, each target for N seconds, 60 unless told.
+        --keep      what reaches new code goes into tools/fuzz/corpus, which the checks try
 ";
 
 /// The port that `serve` takes unless told another.
@@ -40,6 +46,7 @@ pub(crate) enum Task {
     Test(TestOptions),
     Pictures,
     Dist,
+    Fuzz(FuzzOptions),
 }
 
 /// Options of `serve`.
@@ -78,6 +85,7 @@ pub(crate) fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, Fail
         "test" => test_options(&rest).map(Task::Test),
         "pictures" => nothing_more("pictures", &rest).map(|()| Task::Pictures),
         "dist" => nothing_more("dist", &rest).map(|()| Task::Dist),
+        "fuzz" => fuzz_options(&rest).map(Task::Fuzz),
         other => Err(Failure::Usage(format!("there is no command `{other}`"))),
     }
 }
@@ -119,6 +127,22 @@ fn test_options(rest: &[String]) -> Result<TestOptions, Failure> {
         },
         _ => Err(Failure::Usage(format!("`test` does not know `{}`", words.join(" ")))),
     }
+}
+
+fn fuzz_options(rest: &[String]) -> Result<FuzzOptions, Failure> {
+    let mut options = FuzzOptions { secs: 60, keep: false };
+    let mut rest = rest.iter().map(String::as_str);
+    while let Some(arg) = rest.next() {
+        match arg {
+            "--keep" => options.keep = true,
+            "--secs" => {
+                let secs = rest.next().and_then(|secs| secs.parse().ok()).filter(|&secs| secs > 0);
+                options.secs = secs.ok_or_else(|| Failure::Usage("`--secs` takes a number of seconds".to_owned()))?;
+            }
+            other => return Err(Failure::Usage(format!("`fuzz` has no option `{other}`"))),
+        }
+    }
+    Ok(options)
 }
 
 fn serve_options(rest: Vec<String>) -> Result<ServeOptions, Failure> {
@@ -205,6 +229,8 @@ mod tests {
             only: None,
         };
         assert_eq!(parsed("test --long"), Ok(Task::Test(expected)));
+        let expected = FuzzOptions { secs: 5, keep: true };
+        assert_eq!(parsed("fuzz --keep --secs 5"), Ok(Task::Fuzz(expected)));
         assert_eq!(parsed("dist --help"), Ok(Task::Help));
         assert_eq!(parsed(""), Ok(Task::Help));
     }
@@ -223,6 +249,8 @@ mod tests {
                 "`test` does not know `--browser webgl2 --only`",
             ),
             ("test --browser metal", "but `metal` was given"),
+            ("fuzz --secs 0", "`--secs` takes a number of seconds"),
+            ("fuzz --fast", "`fuzz` has no option `--fast`"),
             ("dist --fast", "`dist` takes no options, but `--fast` was given"),
         ] {
             let failure = parsed(line).expect_err(line);

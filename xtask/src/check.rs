@@ -7,6 +7,7 @@ use crate::absent;
 use crate::args::TestOptions;
 use crate::browsers::{Browser, BrowserRun, RUNS};
 use crate::failure::Failure;
+use crate::fuzz::{self, FuzzOptions};
 use crate::list::List;
 use crate::prerequisites;
 use crate::process::Line;
@@ -119,14 +120,26 @@ fn native(steps: &mut Steps, absent: &List, long: bool) -> Result<(), Failure> {
         Line::cargo()
             .env(absent::VARIABLE, absent.path())
             .env(CASES, if long { LONG_CASES } else { "1" })
-            .args(["test", "--package", "bindpose", "--package", "sample-figure"])
+            .args([
+                "test",
+                "--package",
+                "bindpose",
+                "--package",
+                "sample-figure",
+                "--package",
+                "fuzz",
+            ])
             .args(["--", "--include-ignored"])
             .run()
     })?;
     // Apart from the others: together, cargo would build what binds the wasm a second time, with the features of both.
     steps.step("Tests of these commands", || {
         Line::cargo().args(["test", "--package", "xtask"]).run()
-    })
+    })?;
+    if long {
+        steps.step("Fuzzing", || fuzz::run(&FuzzOptions::of_the_checks()))?;
+    }
+    Ok(())
 }
 
 fn clippy(what: &[&str]) -> Result<(), Failure> {

@@ -17,6 +17,7 @@
 //! | [`absent`] | which real files the tests could not look at |
 //! | [`second_tries`] | which browser tests had to be tried again |
 //! | [`dist`] | the static site: hashed names, compressed twice |
+//! | [`fuzz`] | files that a fuzzer makes up, read and written |
 
 mod absent;
 mod args;
@@ -25,6 +26,7 @@ mod check;
 mod compress;
 mod dist;
 mod failure;
+mod fuzz;
 mod http;
 mod list;
 mod prerequisites;
@@ -51,6 +53,7 @@ fn main() -> ExitCode {
         Task::Test(options) => check::run(&options),
         Task::Pictures => check::pictures(),
         Task::Dist => dist::run(),
+        Task::Fuzz(options) => fuzz::run(&options),
     });
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

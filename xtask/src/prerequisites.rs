@@ -83,9 +83,25 @@ const NEEDS: [Need; 7] = [
     },
 ];
 
-/// Makes sure that everything is there.
+/// What fuzzing needs.
+const FUZZER_NEEDS: [Need; 1] = [Need {
+    what: "a C++ compiler, for libFuzzer",
+    packages: &["g++"],
+    is_there: || on_path("c++").is_some(),
+}];
+
+/// Makes sure that everything is there that the checks need.
 pub(crate) fn ensure() -> Result<(), Failure> {
-    let missing: Vec<&Need> = NEEDS.iter().filter(|need| !(need.is_there)()).collect();
+    ensure_all(&NEEDS)
+}
+
+/// Makes sure that a fuzzer can be built.
+pub(crate) fn ensure_fuzzer() -> Result<(), Failure> {
+    ensure_all(&FUZZER_NEEDS)
+}
+
+fn ensure_all(needs: &[Need]) -> Result<(), Failure> {
+    let missing: Vec<&Need> = needs.iter().filter(|need| !(need.is_there)()).collect();
     if missing.is_empty() {
         return Ok(());
     }
