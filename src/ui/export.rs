@@ -87,6 +87,7 @@ fn choices(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut V
         }
         ui.add_space(6.0);
         demo(ui, &mut choice.options);
+        ui.add_space(6.0);
         clip_list(ui, session, &mut choice.options);
         edits(ui, session, &mut choice.options);
     });
