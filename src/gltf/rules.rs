@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use super::buffers::subject;
 use super::json::{Accessor, Index, Primitive, Root};
 use super::parse::escaped;
-use super::{Interpolation, Path, Uri};
+use super::{Fit, Interpolation, Path, Uri, Wanted};
 use crate::diagnostic::codes;
 use crate::diagnostic::collect::{Diagnostics, Place};
 
@@ -14,7 +14,12 @@ const UNSIGNED_INT: u64 = 5125;
 
 /// Notes which rules the document breaks.
 pub(crate) fn note_broken_rules(root: &Root, diagnostics: &mut Diagnostics) {
-    let mut rules = Rules { root, diagnostics };
+    let required = root.extensions_required.iter().flatten();
+    let mut rules = Rules {
+        root,
+        is_quantized: required.into_iter().any(|name| name == "KHR_mesh_quantization"),
+        diagnostics,
+    };
     rules.empty_lists();
     rules.accessors();
     rules.buffer_views();
@@ -27,6 +32,8 @@ pub(crate) fn note_broken_rules(root: &Root, diagnostics: &mut Diagnostics) {
 
 struct Rules<'a> {
     root: &'a Root,
+    /// Whether the file requires KHR_mesh_quantization.
+    is_quantized: bool,
     diagnostics: &'a mut Diagnostics,
 }
 
@@ -62,6 +69,20 @@ impl<'a> Rules<'a> {
             self.broken(pointer, message);
         }
         found
+    }
+
+    /// Notes whole numbers that are read where floats belong, though they do not belong there either.
+    fn whole_numbers(&mut self, accessor: &Accessor, wanted: Wanted, pointer: &str) {
+        let rule = match wanted.fit(accessor) {
+            Fit::Quantized if !self.is_quantized => {
+                "Floats belong here, since the file does not require KHR_mesh_quantization; its whole numbers are taken as they are."
+            }
+            Fit::NotNormalized => {
+                "The accessor does not say that its whole numbers are normalised; taken as if it did."
+            }
+            Fit::Quantized | Fit::Belongs | Fit::No => return,
+        };
+        self.broken(pointer, rule);
     }
 
     fn empty_lists(&mut self) {
@@ -165,7 +186,10 @@ impl<'a> Rules<'a> {
             }
             if let Some(sparse) = &accessor.sparse {
                 if sparse.count.0 > accessor.count.0 || sparse.count.0 == 0 {
-                    let message = format!("{} elements of {} are to be others.", sparse.count.0, accessor.count.0);
+                    let message = format!(
+                        "The sparse accessor replaces {} elements, but has {}.",
+                        sparse.count.0, accessor.count.0
+                    );
                     self.broken(at("/sparse/count"), message);
                 }
                 let views = [
@@ -306,6 +330,9 @@ impl<'a> Rules<'a> {
                 else {
                     continue;
                 };
+                if let Some(wanted) = Wanted::of_attribute(key) {
+                    self.whole_numbers(of_file, wanted, &pointer);
+                }
                 if count.is_some_and(|count| count != of_file.count) {
                     let message = format!(
                         "{key} has {} elements for {} vertices.",
@@ -454,6 +481,10 @@ impl<'a> Rules<'a> {
                 else {
                     continue;
                 };
+                if let (Path::Rotation, Some(values)) = (path, entry(root.accessors(), sampler.output)) {
+                    let pointer = format!("/animations/{animation}/samplers/{}/output", channel.sampler.0);
+                    self.whole_numbers(values, Wanted::Rotations, &pointer);
+                }
                 let count = |accessor| Some(entry(root.accessors(), accessor)?.count.0);
                 let each = if sampler.interpolation == Interpolation::CubicSpline {
                     3
@@ -533,7 +564,8 @@ fn numbers(kind: &str) -> u64 {
     }
 }
 
-fn is_attribute(key: &str) -> bool {
+/// Whether glTF has an attribute of this name, or leaves it to programs.
+pub(crate) fn is_attribute(key: &str) -> bool {
     let is_number = |text: &str| {
         !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit()) && (text == "0" || !text.starts_with('0'))
     };

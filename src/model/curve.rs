@@ -17,17 +17,27 @@ pub struct Curve<T> {
 pub trait CurveValue: Copy + std::ops::Add<Output = Self> + std::ops::Mul<f32, Output = Self> {
     /// Whether all its numbers are finite.
     fn is_finite(self) -> bool;
+    /// The greatest of its numbers without their signs.
+    fn greatest(self) -> f32;
 }
 
 impl CurveValue for Vec3 {
     fn is_finite(self) -> bool {
         Self::is_finite(self)
     }
+
+    fn greatest(self) -> f32 {
+        self.abs().max_element()
+    }
 }
 
 impl CurveValue for Vec4 {
     fn is_finite(self) -> bool {
         Self::is_finite(self)
+    }
+
+    fn greatest(self) -> f32 {
+        self.abs().max_element()
     }
 }
 
@@ -49,7 +59,7 @@ impl<T: CurveValue> Curve<T> {
     /// Cubic Hermite splines: time in seconds, value, and the slopes with which the curve comes in and goes out, in units a second.
     ///
     /// # Errors
-    /// As [`Curve::step`].
+    /// As [`Curve::step`], and when a number between two keys could overflow.
     pub fn cubic(keys: impl IntoIterator<Item = (f32, T, [T; 2])>) -> Result<Self, ModelError> {
         let keys = keys
             .into_iter()
@@ -75,8 +85,22 @@ impl<T: CurveValue> Curve<T> {
             if key > 0 && *time_secs <= self.times_secs[key - 1] {
                 return Err(ModelError::KeyNotAfter { key });
             }
+            if key > 0 && !self.stays_finite(key - 1) {
+                return Err(ModelError::KeyNotFinite { key });
+            }
         }
         Ok(self)
+    }
+
+    /// Whether all values from a key to the next can be written. The weights of [`Curve::value_at`] are 1 at most for values, and 4/27 of
+    /// the time between for slopes.
+    fn stays_finite(&self, from: usize) -> bool {
+        let Some(tangents) = &self.tangents else { return true };
+        let length_secs = f64::from(self.times_secs[from + 1]) - f64::from(self.times_secs[from]);
+        let most = |value: T| f64::from(value.greatest());
+        let of_slopes = length_secs * 4.0 / 27.0 * (most(tangents[from][1]) + most(tangents[from + 1][0]));
+        // Half of the range leaves room for what adding them rounds.
+        most(self.values[from]) + most(self.values[from + 1]) + of_slopes <= f64::from(f32::MAX / 2.0)
     }
 
     /// The same curve of other values. Values and slopes are mapped alike, so `map` is linear.

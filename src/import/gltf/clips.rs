@@ -7,7 +7,7 @@ use glam::{Quat, Vec3, Vec4};
 use super::skeleton::Rig;
 use crate::diagnostic::collect::{Diagnostics, Moments, Place, counted};
 use crate::diagnostic::{Code, Moment, Subject, codes};
-use crate::gltf::{Animation, Fault, Interpolation, Path, Reader, Root, fault, out_of_range};
+use crate::gltf::{Animation, Fault, Interpolation, Path, Reader, Root, Wanted, fault, out_of_range};
 use crate::model::{
     Clip, Curve, CurveValue, Curves, LocalJoint, ModelError, Track, part_of_way, rotation_between, unique_names,
     unit_rotation, vector_between,
@@ -89,6 +89,8 @@ struct Mended {
     not_finite: Moments,
     not_unit: Moments,
     zero_rotation: Moments,
+    negative: Moments,
+    overflowing: usize,
     elsewhere: usize,
     morphs: usize,
 }
@@ -130,23 +132,24 @@ impl ClipReader<'_> {
             };
             let parts = parts.entry(joint).or_default();
             let sampler = of_file.sampler.0;
-            match of_file.target.path {
+            let overflows = match of_file.target.path {
                 Path::Translation => set(
                     &mut parts.translation,
-                    || self.keys(animation, sampler, &pointer, joint, false),
+                    || self.keys(animation, sampler, &pointer, joint, Wanted::Floats),
                     Vec3::from_array,
                 )?,
                 Path::Scale => set(
                     &mut parts.scale,
-                    || self.keys(animation, sampler, &pointer, joint, false),
+                    || self.keys(animation, sampler, &pointer, joint, Wanted::Floats),
                     Vec3::from_array,
                 )?,
                 _ => set(
                     &mut parts.rotation,
-                    || self.keys(animation, sampler, &pointer, joint, true),
+                    || self.keys(animation, sampler, &pointer, joint, Wanted::Rotations),
                     Vec4::from_array,
                 )?,
             };
+            self.mended.overflowing += usize::from(overflows);
         }
         self.note();
         if parts.values().all(Parts::is_empty) {
@@ -171,7 +174,7 @@ impl ClipReader<'_> {
         sampler: u64,
         pointer: &str,
         joint: u32,
-        are_rotations: bool,
+        wanted: Wanted,
     ) -> Result<Keys<N>, Fault> {
         let samplers = &animation.samplers;
         let Some((index, of_file)) = usize::try_from(sampler)
@@ -186,11 +189,9 @@ impl ClipReader<'_> {
             ));
         };
         let at = format!("/animations/{}/samplers/{index}", self.index);
-        let times = self
-            .reader
-            .floats::<1>(of_file.input, &format!("{at}/input"))?
-            .into_flattened();
-        let values: Vec<[f32; N]> = self.reader.floats(of_file.output, &format!("{at}/output"))?;
+        let reader = self.reader;
+        let times = reader.floats::<1>(of_file.input, Wanted::Floats, &format!("{at}/input"))?;
+        let values: Vec<[f32; N]> = reader.floats(of_file.output, wanted, &format!("{at}/output"))?;
         let each = if of_file.interpolation == Interpolation::CubicSpline {
             3
         } else {
@@ -202,15 +203,18 @@ impl ClipReader<'_> {
         };
         let mut rows = Vec::with_capacity(times.len());
         let bone = self.rig.skeleton.file_bones()[joint as usize];
-        for (&time_secs, group) in times.iter().zip(values.chunks_exact(each)) {
+        for (&[time_secs], group) in times.iter().zip(values.chunks_exact(each)) {
             let (mut value, slopes) = slopes(group);
             let is_sound = group.as_flattened().iter().all(|number| number.is_finite());
             if !is_sound || time_secs.is_nan() || time_secs.abs() > MAX_TIME_SECS {
                 add(&mut self.mended.not_finite, bone, time_secs);
                 continue;
             }
-            if are_rotations && each == 1 {
-                value = self.mended.rotation(bone, time_secs, value);
+            if time_secs < 0.0 {
+                add(&mut self.mended.negative, bone, time_secs);
+            }
+            if wanted == Wanted::Rotations {
+                value = self.mended.unit_rotation(bone, time_secs, value);
             }
             // Adding 0 makes −0 and 0 the same time for the sort as well.
             rows.push((time_secs + 0.0, value, slopes));
@@ -236,6 +240,8 @@ impl ClipReader<'_> {
             not_finite,
             not_unit,
             zero_rotation,
+            negative,
+            overflowing,
             elsewhere,
             morphs,
         } = std::mem::take(&mut self.mended);
@@ -284,18 +290,37 @@ impl ClipReader<'_> {
             "a rotation of length 0",
             "taken as no rotation",
         );
-        let mut note = |code: &Code, count: usize, what: &str| {
+        note(
+            &codes::GLTF_RULE_BROKEN,
+            &negative,
+            keys,
+            "a time below 0, which glTF does not have",
+            "kept where they are",
+        );
+        let mut note = |code: &Code, count: usize, [one, many]: [&str; 2], what: &str| {
             if count > 0 {
-                let move_what = counted(count, "channel moves", "channels move");
-                self.diagnostics
-                    .add(code, place.clone(), format!("{move_what} {what}; left out."));
+                let message = format!("{} {what}.", counted(count, one, many));
+                self.diagnostics.add(code, place.clone(), message);
             }
         };
-        note(&codes::GLTF_CHANNEL_LEFT_OUT, elsewhere, "something that is not shown");
+        let move_what = ["channel moves", "channels move"];
+        note(
+            &codes::GLTF_RULE_BROKEN,
+            overflowing,
+            ["channel follows", "channels follow"],
+            "a spline whose numbers overflow between its keys; taken as straight",
+        );
+        note(
+            &codes::GLTF_CHANNEL_LEFT_OUT,
+            elsewhere,
+            move_what,
+            "something that is not shown; left out",
+        );
         note(
             &codes::GLTF_MORPH_ANIMATION_LEFT_OUT,
             morphs,
-            "the weights of morph targets",
+            move_what,
+            "shape keys (morph targets); left out",
         );
     }
 }
@@ -308,35 +333,32 @@ struct Keys<const N: usize> {
 
 type Row<const N: usize> = (f32, [f32; N], [[f32; N]; 2]);
 
-/// Sets a part of a joint that has none yet.
+/// Sets a part of a joint that has none yet. Whether it is a spline that overflows between its keys, and was set straight.
 fn set<T: CurveValue, const N: usize>(
     part: &mut Option<Part<T>>,
     keys: impl FnOnce() -> Result<Keys<N>, Fault>,
     value: impl Fn([f32; N]) -> T,
-) -> Result<(), Fault> {
+) -> Result<bool, Fault> {
     if part.is_some() {
-        return Ok(());
+        return Ok(false);
     }
     let Keys { interpolation, rows } = keys()?;
     if rows.is_empty() {
-        return Ok(());
+        return Ok(false);
     }
-    let rows = rows.into_iter();
+    let straight = || rows.iter().map(|&(time_secs, stored, _)| (time_secs, value(stored)));
+    let splines = rows
+        .iter()
+        .map(|&(time_secs, stored, slopes)| (time_secs, value(stored), slopes.map(&value)));
+    // The keys were mended before: only a spline can still be none.
     let curve = match interpolation {
-        Interpolation::Linear | Interpolation::Unknown => {
-            *part = Some(Part::Straight(
-                rows.map(|(time_secs, stored, _)| (time_secs, value(stored))).collect(),
-            ));
-            return Ok(());
-        }
-        Interpolation::Step => Curve::step(rows.map(|(time_secs, stored, _)| (time_secs, value(stored)))),
-        Interpolation::CubicSpline => {
-            Curve::cubic(rows.map(|(time_secs, stored, slopes)| (time_secs, value(stored), slopes.map(&value))))
-        }
+        Interpolation::Linear | Interpolation::Unknown => None,
+        Interpolation::Step => Curve::step(straight()).ok(),
+        Interpolation::CubicSpline => Curve::cubic(splines).ok(),
     };
-    // The keys were mended before.
-    *part = Some(Part::Curved(curve.map_err(|rule| Box::new(rule.diagnostic()))?));
-    Ok(())
+    let overflows = interpolation == Interpolation::CubicSpline && curve.is_none();
+    *part = Some(curve.map_or_else(|| Part::Straight(straight().collect()), Part::Curved));
+    Ok(overflows)
 }
 
 /// Counts a key of a bone. Its time is known where it is one.
@@ -349,36 +371,37 @@ fn add(moments: &mut Moments, bone: u32, time_secs: f32) {
 }
 
 impl Mended {
-    fn rotation<const N: usize>(&mut self, bone: u32, time_secs: f32, stored: [f32; N]) -> [f32; N] {
-        let length = stored.iter().map(|part| part * part).sum::<f32>().sqrt();
-        if (length - 1.0).abs() > UNIT_TOLERANCE {
-            if length > 1e-6 {
-                add(&mut self.not_unit, bone, time_secs);
-            } else {
-                add(&mut self.zero_rotation, bone, time_secs);
-                let mut none = [0.0; N];
-                none[N - 1] = 1.0;
-                return none;
-            }
+    /// A rotation at unit length, as [`unit_rotation`] has it.
+    fn unit_rotation<const N: usize>(&mut self, bone: u32, time_secs: f32, stored: [f32; N]) -> [f32; N] {
+        let length = stored.iter().map(|&part| f64::from(part).powi(2)).sum::<f64>().sqrt();
+        if length <= 1e-6 {
+            add(&mut self.zero_rotation, bone, time_secs);
+            let mut none = [0.0; N];
+            none[N - 1] = 1.0;
+            return none;
         }
-        stored
+        if (length - 1.0).abs() > f64::from(UNIT_TOLERANCE) {
+            add(&mut self.not_unit, bone, time_secs);
+        }
+        if (length - 1.0).abs() <= f64::from(f32::EPSILON) {
+            return stored;
+        }
+        stored.map(|part| (f64::from(part) / length) as f32)
     }
 
     /// Of keys at one time the first ends the motion before it and the last begins the motion after it; those between are never
-    /// seen. The last is moved to the next time that a number can name.
+    /// seen. The last is moved to the next time that a number can name, and so is a key whose time was taken so.
     fn apart<const N: usize>(&mut self, bone: u32, rows: Vec<Row<N>>) -> Vec<Row<N>> {
         if rows.is_sorted_by(|a, b| a.0 < b.0) {
             return rows;
         }
         let mut kept: Vec<Row<N>> = Vec::with_capacity(rows.len());
         for group in rows.chunk_by(|a, b| a.0 == b.0) {
-            let (time_secs, value, slopes) = group[group.len() - 1];
-            (1..group.len()).for_each(|_| add(&mut self.equal_times, bone, time_secs));
-            if kept.last().is_none_or(|before| before.0 < time_secs) {
-                kept.push(group[0]);
-            }
-            if group.len() > 1 {
-                kept.push((time_secs.next_up(), value, slopes));
+            (1..group.len()).for_each(|_| add(&mut self.equal_times, bone, group[0].0));
+            let last = group.last().filter(|_| group.len() > 1);
+            for &(time_secs, value, slopes) in group.first().into_iter().chain(last) {
+                let free_secs = kept.last().map_or(f32::NEG_INFINITY, |before| before.0.next_up());
+                kept.push((time_secs.max(free_secs), value, slopes));
             }
         }
         kept
@@ -423,13 +446,7 @@ impl Parts {
     }
 
     /// A track with a key at each time of a part. Straight parts stay straight, so the keys that this adds to them change nothing.
-    fn track(mut self, rest: LocalJoint) -> Result<Track, ModelError> {
-        // Before anything is read between them, so that the track's keys say the same of the times between.
-        if let Some(Part::Straight(keys)) = &mut self.rotation {
-            for (_, value) in keys {
-                *value = unit_rotation(Quat::from_vec4(*value)).unwrap_or(rest.rotation).into();
-            }
-        }
+    fn track(self, rest: LocalJoint) -> Result<Track, ModelError> {
         let times = [
             self.translation.as_ref().map(Part::times_secs),
             self.rotation.as_ref().map(Part::times_secs),

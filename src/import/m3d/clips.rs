@@ -242,22 +242,23 @@ fn mended_keys(bone: u32, keys: &[Keyframe], lines: &ClipLines, mended: &mut Men
 }
 
 /// Of keys at one time the first ends the motion before it and the last begins the motion after it; those between are
-/// never seen. The last is moved to the next time that a number can name. `note` is told of each key at the time of one before.
+/// never seen. The last is moved to the next time that a number can name, and so is a key whose time was taken so. `note` is told of
+/// each key at the time of one before.
 fn apart(keys: Vec<Key>, mut note: impl FnMut(&Key)) -> Vec<Key> {
     if keys.is_sorted_by(|a, b| a.time_secs < b.time_secs) {
         return keys;
     }
     let mut kept: Vec<Key> = Vec::with_capacity(keys.len());
     for group in keys.chunk_by(|a, b| a.time_secs == b.time_secs) {
-        let (first, last) = (group[0], group[group.len() - 1]);
         group[1..].iter().for_each(&mut note);
-        if kept.last().is_none_or(|before| before.time_secs < first.time_secs) {
-            kept.push(first);
-        }
-        if group.len() > 1 {
+        let last = group.last().filter(|_| group.len() > 1);
+        for &key in group.first().into_iter().chain(last) {
+            let free_secs = kept
+                .last()
+                .map_or(f32::NEG_INFINITY, |before| before.time_secs.next_up());
             kept.push(Key {
-                time_secs: first.time_secs.next_up(),
-                ..last
+                time_secs: key.time_secs.max(free_secs),
+                ..key
             });
         }
     }
