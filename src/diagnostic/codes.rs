@@ -587,7 +587,7 @@ table! {
             "Apply scales before exporting, so that nothing is turned below a node of uneven scale.";
         GLTF_IMAGE_NOT_READ = "gltf-image-not-read", Warning,
             "A picture is of a kind that is not read, or its address is none; the material is shown without it.",
-            "PNG and JPEG are read.",
+            "PNG, JPEG and WebP are read.",
             "The material is shown without it.",
             "Export textures as PNG or JPEG.";
         WEIGHTS_CUT = "weights-cut", Warning,
@@ -710,7 +710,7 @@ table! {
         BOOK_MAP_FORMAT = "book-map-format", Note,
             "A map is of a format that the book's demo does not read.",
             "The D3D12 book reads DDS alone.",
-            "PNG, JPEG, TGA and BMP are read too.",
+            "PNG, JPEG, WebP, TGA and BMP are read too.",
             "Save maps as `.dds`, and name those in the materials.";
     }
 
@@ -792,7 +792,7 @@ table! {
             "The material is drawn without the map.",
             "Save the picture again.";
         IMAGE_UNRECOGNIZED = "image-unrecognized", Warning,
-            "The file is none of DDS, PNG, JPEG, TGA and BMP.",
+            "The file is none of DDS, PNG, JPEG, WebP, TGA and BMP.",
             "Neither its first bytes nor its name say what it is.",
             "The material is drawn without the map.",
             "Save the picture as DDS, PNG, JPEG, TGA or BMP.";

@@ -258,16 +258,7 @@ impl<'a> Reader<'a> {
             return Err(fault(&codes::GLTF_ACCESSOR_FORMAT, pointer, message));
         }
         let normalized = accessor.normalized || fit == Fit::NotNormalized;
-        let mut floats = match self.elements(index, accessor, N, pointer)? {
-            Some(elements) => decoded(&elements, normalized),
-            None => vec![[0.0; N]; count_of(accessor)?],
-        };
-        if let Some((places, values)) = self.sparse(index, accessor, N)? {
-            for (place, value) in places.into_iter().zip(decoded(&values, normalized)) {
-                floats[place] = value;
-            }
-        }
-        Ok(floats)
+        self.rows(index, accessor, pointer, |elements| decoded(elements, normalized))
     }
 
     /// Elements of `N` whole numbers of 0 or more.
@@ -287,16 +278,27 @@ impl<'a> Reader<'a> {
             );
             return Err(fault(&codes::GLTF_ACCESSOR_FORMAT, pointer, message));
         }
-        let mut numbers = match self.elements(index, accessor, N, pointer)? {
-            Some(elements) => decoded_whole(&elements),
-            None => vec![[0; N]; count_of(accessor)?],
+        self.rows(index, accessor, pointer, decoded_whole)
+    }
+
+    /// All elements, those of a sparse accessor in their places.
+    fn rows<T: Copy + Default, const N: usize>(
+        &self,
+        index: Index,
+        accessor: &Accessor,
+        pointer: &str,
+        decode: impl Fn(&Elements<'_>) -> Vec<[T; N]>,
+    ) -> Result<Vec<[T; N]>, Fault> {
+        let mut rows = match self.elements(index, accessor, N, pointer)? {
+            Some(elements) => decode(&elements),
+            None => vec![[T::default(); N]; count_of(accessor)?],
         };
         if let Some((places, values)) = self.sparse(index, accessor, N)? {
-            for (place, value) in places.into_iter().zip(decoded_whole(&values)) {
-                numbers[place] = value;
+            for (place, value) in places.into_iter().zip(decode(&values)) {
+                rows[place] = value;
             }
         }
-        Ok(numbers)
+        Ok(rows)
     }
 
     /// The elements in a buffer; `None` for an accessor of zeros. Their count is proved and paid for.

@@ -70,7 +70,7 @@ objects! {
         textures: Option<Vec<Texture>>,
         images: Option<Vec<Image>>,
         samplers: Option<Vec<Sampler>>,
-        cameras: Option<Vec<Camera>>,
+        cameras: Option<Vec<IgnoredAny>>,
         extensions_used: Option<Vec<String>>,
         extensions_required: Option<Vec<String>>,
         extensions: Option<BTreeMap<String, Value>>,
@@ -325,29 +325,6 @@ objects! {
         wrap_s: Option<Index>,
         wrap_t: Option<Index>,
     }
-
-    /// A camera; it is checked and not used.
-    Camera {
-        #[serde(rename = "type")]
-        kind: Option<String>,
-        perspective: Option<Perspective>,
-        orthographic: Option<Orthographic>,
-    }
-
-    /// A camera's perspective.
-    Perspective {
-        yfov: Option<f64>,
-        znear: Option<f64>,
-        zfar: Option<f64>,
-    }
-
-    /// A camera without perspective.
-    Orthographic {
-        xmag: Option<f64>,
-        ymag: Option<f64>,
-        znear: Option<f64>,
-        zfar: Option<f64>,
-    }
 }
 
 /// What a channel moves.
@@ -402,7 +379,7 @@ lists! {
     textures: Texture,
     images: Image,
     samplers: Sampler,
-    cameras: Camera,
+    cameras: IgnoredAny,
 }
 
 impl Node {

@@ -27,7 +27,6 @@ pub(crate) fn note_broken_rules(root: &Root, diagnostics: &mut Diagnostics) {
     rules.meshes();
     rules.nodes_and_skins();
     rules.animations();
-    rules.cameras();
 }
 
 struct Rules<'a> {
@@ -509,36 +508,6 @@ impl<'a> Rules<'a> {
                 if sampler.interpolation == Interpolation::Unknown {
                     self.broken(at("interpolation"), "There is no such interpolation; taken as LINEAR.");
                 }
-            }
-        }
-    }
-
-    fn cameras(&mut self) {
-        for (index, camera) in self.root.cameras().iter().enumerate() {
-            let sides = [camera.perspective.is_some(), camera.orthographic.is_some()];
-            let is_known = match camera.kind.as_deref() {
-                Some("perspective") => sides == [true, false],
-                Some("orthographic") => sides == [false, true],
-                _ => false,
-            };
-            let is_sound = |(near, far): (Option<f64>, Option<f64>), least: f64| {
-                near.is_some_and(|near| near >= least && far.is_none_or(|far| far > near))
-            };
-            let perspective = camera.perspective.as_ref().is_none_or(|camera| {
-                let near = camera.znear.filter(|&near| near > 0.0 && near.is_finite());
-                camera.yfov.is_some_and(|angle| angle > 0.0) && is_sound((near, camera.zfar), 0.0)
-            });
-            let orthographic = camera.orthographic.as_ref().is_none_or(|camera| {
-                let sides = [camera.xmag, camera.ymag]
-                    .iter()
-                    .all(|side| side.is_some_and(|side| side != 0.0));
-                sides && camera.zfar.is_some() && is_sound((camera.znear, camera.zfar), 0.0)
-            });
-            if !(is_known && perspective && orthographic) {
-                self.broken(
-                    format!("/cameras/{index}"),
-                    "A camera is not as glTF has them; cameras are not used.",
-                );
             }
         }
     }

@@ -6,6 +6,7 @@
 mod error;
 mod gltf;
 mod imported;
+mod keys;
 pub mod m3d;
 mod normals;
 mod tangents;

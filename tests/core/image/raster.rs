@@ -1,4 +1,4 @@
-//! PNG, JPEG, TGA and BMP.
+//! PNG, JPEG, WebP, TGA and BMP.
 
 use std::io::Cursor;
 
@@ -29,6 +29,7 @@ pub(super) fn sound_files() -> Vec<(String, Vec<u8>)> {
     [
         ("a.png", encoded(ImageFormat::Png, ColorType::Rgba8, 3, 1, &PIXELS)),
         ("a.jpg", encoded(ImageFormat::Jpeg, ColorType::L8, 16, 16, &grey)),
+        ("a.webp", encoded(ImageFormat::WebP, ColorType::Rgba8, 3, 1, &PIXELS)),
         ("a.tga", encoded(ImageFormat::Tga, ColorType::Rgba8, 3, 1, &PIXELS)),
         ("a.bmp", encoded(ImageFormat::Bmp, ColorType::Rgba8, 3, 1, &PIXELS)),
     ]
@@ -40,6 +41,7 @@ pub(super) fn sound_files() -> Vec<(String, Vec<u8>)> {
 fn files_without_loss_read_back_to_their_pixels() {
     for (format, label) in [
         (ImageFormat::Png, "PNG"),
+        (ImageFormat::WebP, "WebP"),
         (ImageFormat::Tga, "TGA"),
         (ImageFormat::Bmp, "BMP"),
     ] {
