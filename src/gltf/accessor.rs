@@ -8,14 +8,14 @@ use super::json::{Accessor, Index, Root};
 use super::{Fault, fault};
 use crate::diagnostic::codes;
 
-/// Elements may be read this often beyond two for each byte that there is.
+/// So many elements may be read for each byte that there is, and beyond.
+const ELEMENTS_PER_BYTE: u64 = 2;
 const MORE_ELEMENTS: u64 = 4_000_000;
 
-/// A model may take so many bytes beyond [`BYTES_KEPT_PER_BYTE`] for each byte that there is: a fence of one mesh on hundreds of nodes fits.
-const MORE_BYTES_KEPT: u64 = 512 << 20;
-
-/// A byte of a file may become this many of a model: an index of 8 bits takes 4, and a stream that the file lacks is computed.
+/// So many bytes of a model may be kept for each byte that there is, since streams that the file lacks are computed; and beyond, so that a
+/// fence of one mesh on hundreds of nodes fits.
 const BYTES_KEPT_PER_BYTE: u64 = 16;
+const MORE_BYTES_KEPT: u64 = 512 << 20;
 
 /// Reads accessors. It keeps account of how many elements were read and how many bytes the model takes: a small file that uses one
 /// accessor a million times ends in an error, not in all memory.
@@ -97,10 +97,10 @@ impl Wanted {
 
     fn words(self) -> &'static str {
         match self {
-            Self::Floats | Self::Positions => "floats are",
-            Self::Directions => "floats or normalised signed numbers are",
-            Self::TexCoords | Self::Fractions => "floats or normalised unsigned numbers are",
-            Self::Rotations => "floats or normalised numbers are",
+            Self::Floats | Self::Positions => "floats",
+            Self::Directions => "floats or normalised signed numbers",
+            Self::TexCoords | Self::Fractions => "floats or normalised unsigned numbers",
+            Self::Rotations => "floats or normalised numbers",
         }
     }
 }
@@ -211,15 +211,7 @@ impl<'a> Reader<'a> {
     /// # Errors
     /// When they are more than a sound file of this size asks for.
     pub fn spend(&self, count: u64, pointer: impl fmt::Display) -> Result<(), Fault> {
-        let most = self.byte_count.saturating_mul(2).saturating_add(MORE_ELEMENTS);
-        let spent = self.spent.get();
-        let elements = spent.elements.saturating_add(count);
-        if elements > most {
-            let message = "The file asks for far more numbers than it holds: the same data are used again and again.";
-            return Err(fault(&codes::GLTF_TOO_LARGE, pointer.to_string(), message));
-        }
-        self.spent.set(Effort { elements, ..spent });
-        Ok(())
+        self.charge([count, 0], pointer)
     }
 
     /// Counts `count` more bytes as kept in the model. To be asked before they are.
@@ -227,22 +219,25 @@ impl<'a> Reader<'a> {
     /// # Errors
     /// When they are more than a model of a file of this size may take.
     pub fn keep(&self, count: u64, pointer: impl fmt::Display) -> Result<(), Fault> {
-        let most = self
-            .byte_count
-            .saturating_mul(BYTES_KEPT_PER_BYTE)
-            .saturating_add(MORE_BYTES_KEPT);
-        let spent = self.spent.get();
-        let bytes_kept = spent.bytes_kept.saturating_add(count);
-        if bytes_kept > most {
-            let message = format!(
-                "The model would take {} MB or more, and there are {} bytes of data: the same are used again and again.",
-                bytes_kept >> 20,
-                self.byte_count
-            );
-            return Err(fault(&codes::GLTF_TOO_LARGE, pointer.to_string(), message));
-        }
-        self.spent.set(Effort { bytes_kept, ..spent });
-        Ok(())
+        self.charge([0, count], pointer)
+    }
+
+    fn charge(&self, [elements, bytes]: [u64; 2], pointer: impl fmt::Display) -> Result<(), Fault> {
+        let most = |per_byte, more| self.byte_count.saturating_mul(per_byte).saturating_add(more);
+        let mut effort = self.spent.get();
+        effort.elements = effort.elements.saturating_add(elements);
+        effort.bytes_kept = effort.bytes_kept.saturating_add(bytes);
+        self.spent.set(effort);
+        let wants = if effort.elements > most(ELEMENTS_PER_BYTE, MORE_ELEMENTS) {
+            "The file asks for far more numbers than it holds".to_owned()
+        } else if effort.bytes_kept > most(BYTES_KEPT_PER_BYTE, MORE_BYTES_KEPT) {
+            let (kept, held) = (effort.bytes_kept >> 20, self.byte_count);
+            format!("The model would take {kept} MB or more, and the file holds {held} bytes")
+        } else {
+            return Ok(());
+        };
+        let message = format!("{wants}: the same data are used again and again.");
+        Err(fault(&codes::GLTF_TOO_LARGE, pointer.to_string(), message))
     }
 
     /// Elements of `N` numbers. Whole numbers come as they are, or as 0…1 or −1…1 where the accessor is normalised or has to be.
@@ -253,8 +248,8 @@ impl<'a> Reader<'a> {
         let accessor = self.accessor(index, pointer)?;
         let fit = wanted.fit(accessor);
         if let (Fit::No, Some(component)) = (fit, Component::of(accessor.component_type.0)) {
-            let (has, needed) = (component.words(), wanted.words());
-            let message = format!("Accessor {} has {has}, but {needed} needed here.", index.0);
+            let (has, wanted) = (component.words(), wanted.words());
+            let message = format!("Accessor {} has {has}, where {wanted} belong.", index.0);
             return Err(fault(&codes::GLTF_ACCESSOR_FORMAT, pointer, message));
         }
         let normalized = accessor.normalized || fit == Fit::NotNormalized;

@@ -10,6 +10,7 @@ mod keys;
 pub mod m3d;
 mod normals;
 mod tangents;
+mod weights;
 
 pub use error::{ImportError, ImportErrorKind};
 pub use imported::{FileFormat, Imported, Picture, Refused};

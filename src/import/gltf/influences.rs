@@ -3,10 +3,8 @@
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Diagnostic, Subject, codes};
 use crate::gltf::{Fault, Primitive, Reader, Wanted};
+use crate::import::weights::{Mended, SUM_TOLERANCE};
 use crate::model::Influences;
-
-/// A sum of weights that is off by more than this was not meant to be rounded.
-const SUM_TOLERANCE: f64 = 1e-3;
 
 /// The weights of a primitive on a skin.
 pub(super) struct Weighted<'a> {
@@ -21,9 +19,7 @@ pub(super) struct Weighted<'a> {
 /// What is noted of all vertices.
 #[derive(Default)]
 pub(super) struct Noted {
-    off_sum: Tally,
-    unweighted: Tally,
-    invalid: Tally,
+    mended: Mended,
     cut: Tally,
     /// The greatest part of a vertex's weights that was left out.
     most_lost: f64,
@@ -115,15 +111,15 @@ impl Weighted<'_> {
             }
         }
         if !is_sound {
-            noted.invalid.add(number);
+            noted.mended.invalid.add(number);
         }
         let all: f64 = pairs.iter().map(|&(weight, _)| f64::from(weight)).sum();
         if pairs.is_empty() {
-            noted.unweighted.add(number);
+            noted.mended.unweighted.add(number);
             return Ok(Influences::default());
         }
         if (all - 1.0).abs() > SUM_TOLERANCE {
-            noted.off_sum.add(number);
+            noted.mended.off_sum.add(number);
         }
         if pairs.len() > 4 {
             // Stable, so that of equal weights the first ones are kept.
@@ -166,29 +162,15 @@ impl Weighted<'_> {
 
 impl Noted {
     pub(super) fn tell(&self, diagnostics: &mut Diagnostics) {
-        let mut note = |code, tally: &Tally, rule: &str| {
-            if tally.count > 0 {
-                let have = counted(tally.count, "vertex has", "vertices have");
-                diagnostics.add(
-                    code,
-                    Place::of_rows(tally, Subject::Vertex, &[]),
-                    format!("{have} {rule}"),
-                );
-            }
-        };
-        let rule = "a blend weight that is negative or not finite; taken as 0.";
-        note(&codes::WEIGHTS_INVALID, &self.invalid, rule);
-        let rule = format!("blend weights whose sum is off from 1 by more than {SUM_TOLERANCE}; normalised.");
-        note(&codes::WEIGHTS_NOT_NORMALIZED, &self.off_sum, &rule);
-        note(
-            &codes::WEIGHTS_ALL_ZERO,
-            &self.unweighted,
-            "no blend weight; not moved by any bone.",
-        );
-        let rule = format!(
-            "weights for more than four joints; the four greatest are kept, and at most {:.2} % of a vertex's weight is lost.",
-            self.most_lost * 100.0
-        );
-        note(&codes::WEIGHTS_CUT, &self.cut, &rule);
+        let place = |tally: &Tally| Place::of_rows(tally, Subject::Vertex, &[]);
+        self.mended.tell(diagnostics, place);
+        if self.cut.count > 0 {
+            let message = format!(
+                "{} weights for more than four joints; the four greatest are kept, and at most {:.2} % of a vertex's weight is lost.",
+                counted(self.cut.count, "vertex has", "vertices have"),
+                self.most_lost * 100.0
+            );
+            diagnostics.add(&codes::WEIGHTS_CUT, place(&self.cut), message);
+        }
     }
 }

@@ -17,7 +17,9 @@ use crate::import::normals::{is_direction, mend_normals};
 use crate::import::tangents::mend_tangents;
 use crate::model::{Handedness, Influences, Mesh, Submesh, index_out_of_range};
 
-/// Bytes of a submesh with its name and what is drawn by it.
+/// What is kept of a mesh on each node: all streams of a vertex, three indices, and a submesh with its name.
+const BYTES_PER_VERTEX: u64 = 104;
+const BYTES_PER_TRIANGLE: u64 = 12;
 const BYTES_PER_SUBMESH: u64 = 64;
 
 const TRIANGLES: u64 = 4;
@@ -109,29 +111,13 @@ struct Builder<'a> {
 impl<'a> Builder<'a> {
     /// Adds a mesh for each of its nodes.
     fn add(&mut self, uses: &[MeshUse]) -> Result<(), Fault> {
-        let (shared, parts) = self.read(uses[0].mesh)?;
-        let mut shared = shared;
-        let streams = [self.source.second_tex_coords, self.source.normal_maps];
-        let of_vertex = |vertices: &Vertices| {
-            let second = if streams[0] { size_of::<Vec2>() } else { 0 };
-            let tangent = if streams[1] || !vertices.tangents.is_empty() {
-                size_of::<Vec4>()
-            } else {
-                0
-            };
-            let color = if vertices.colors.is_empty() {
-                0
-            } else {
-                size_of::<Vec4>()
-            };
-            2 * size_of::<Vec3>() + size_of::<Vec2>() + size_of::<Influences>() + second + tangent + color
-        };
+        let (mut shared, parts) = self.read(uses[0].mesh)?;
         let of_vertices = shared
             .iter()
-            .map(|shared| (shared.plain.positions.len() * of_vertex(&shared.plain)) as u64);
+            .map(|shared| BYTES_PER_VERTEX * shared.plain.positions.len() as u64);
         let of_triangles = parts
             .iter()
-            .map(|part| BYTES_PER_SUBMESH + (3 * size_of::<u32>() * triangle_count(part)) as u64);
+            .map(|part| BYTES_PER_SUBMESH + BYTES_PER_TRIANGLE * triangle_count(part) as u64);
         let once = of_vertices.chain(of_triangles).fold(0, u64::saturating_add);
         let at = format_args!("/meshes/{}", uses[0].mesh);
         self.source.reader.keep(once.saturating_mul(uses.len() as u64), at)?;

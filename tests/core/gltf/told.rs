@@ -375,7 +375,7 @@ fn whole_numbers_are_read_where_they_belong_told_where_they_make_sense_and_refus
     let file = with_numbers(skinned(false), 0, 5125, false);
     assert_eq!(
         refused(&file.glb()).message,
-        "Accessor 0 has unsigned whole numbers of 32 bits, but floats are needed here."
+        "Accessor 0 has unsigned whole numbers of 32 bits, where floats belong."
     );
 }
 
