@@ -245,8 +245,7 @@ impl<'a> Rules<'a> {
             self.refers(root.buffer_views(), "buffer view", image.buffer_view, || {
                 at("/bufferView")
             });
-            let is_data = |uri: &&String| !uri.starts_with("data:");
-            if let Some(Err(error)) = image.uri.as_ref().filter(is_data).map(|uri| Uri::parse(uri)) {
+            if let Some(Err(error)) = image.uri.as_ref().map(|uri| Uri::parse(uri)) {
                 self.broken(at("/uri"), format!("A picture is not read: {error}."));
             }
         }

@@ -36,6 +36,7 @@ fn fence(vertices: usize, nodes: usize, is_skinned: bool) -> Gltf {
     }
     file.json["meshes"] = json!([{ "primitives": [{ "attributes": attributes }] }]);
     file.json["nodes"] = vec![node; nodes].into();
+    file.json["scenes"] = json!([{ "nodes": (0..nodes).collect::<Vec<_>>() }]);
     file
 }
 
