@@ -73,7 +73,6 @@ objects! {
         cameras: Option<Vec<IgnoredAny>>,
         extensions_used: Option<Vec<String>>,
         extensions_required: Option<Vec<String>>,
-        extensions: Option<BTreeMap<String, Value>>,
         extras: Option<Value>,
     }
 

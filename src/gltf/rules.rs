@@ -1,4 +1,5 @@
-//! Rules of glTF that a file can break and still be read. What is refused elsewhere is not looked at here.
+//! Rules of glTF that a file can break and still be read. What is refused elsewhere is not looked at here, nor what no picture shows:
+//! cameras, and lists of nothing.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -20,7 +21,6 @@ pub(crate) fn note_broken_rules(root: &Root, diagnostics: &mut Diagnostics) {
         is_quantized: required.into_iter().any(|name| name == "KHR_mesh_quantization"),
         diagnostics,
     };
-    rules.empty_lists();
     rules.accessors();
     rules.buffer_views();
     rules.images_and_textures();
@@ -82,40 +82,6 @@ impl<'a> Rules<'a> {
             Fit::Quantized | Fit::Belongs | Fit::No => return,
         };
         self.broken(pointer, rule);
-    }
-
-    fn empty_lists(&mut self) {
-        let root = self.root;
-        macro_rules! empty {
-            ($($name:ident),*) => {
-                [$((stringify!($name), root.$name.as_ref().is_some_and(Vec::is_empty))),*]
-            };
-        }
-        let lists = empty!(
-            scenes, nodes, meshes, skins, animations, accessors, buffers, materials, textures, images, samplers,
-            cameras
-        );
-        let views = [("bufferViews", root.buffer_views.as_ref().is_some_and(Vec::is_empty))];
-        for (name, _) in lists.into_iter().chain(views).filter(|(_, is_empty)| *is_empty) {
-            self.broken(
-                format!("/{name}"),
-                "A list has nothing in it; it has to be left out then.",
-            );
-        }
-        for (node, of_file) in root.nodes().iter().enumerate() {
-            if of_file.children.as_ref().is_some_and(Vec::is_empty) {
-                let message = "A list has nothing in it; it has to be left out then.";
-                self.broken(format!("/nodes/{node}/children"), message);
-            }
-        }
-        for (name, value) in root.extensions.iter().flatten() {
-            if !value.is_object() {
-                self.broken(
-                    format!("/extensions/{}", escaped(name)),
-                    "An extension is no object; left out.",
-                );
-            }
-        }
     }
 
     fn accessors(&mut self) {

@@ -9,7 +9,7 @@ use super::nodes::Nodes;
 use super::skeleton::{MeshUse, Rig};
 use crate::diagnostic::collect::{Diagnostics, Place, counted};
 use crate::diagnostic::{Code, codes};
-use crate::gltf::{Root, is_attribute};
+use crate::gltf::{Node, Root, is_attribute};
 
 /// More names than this are not listed in a message.
 const MOST_NAMES: usize = 8;
@@ -23,142 +23,133 @@ pub(super) fn note(
     second_tex_coords: bool,
     diagnostics: &mut Diagnostics,
 ) {
-    let mut told = |code: &Code, count: usize, pointer: &str, message: String| {
+    let mut tell = |code: &Code, count: usize, pointer: &str, [one, many]: [&str; 2], names: Vec<String>| {
         if count > 0 {
+            let listed = if names.is_empty() { "" } else { ": " };
+            let message = format!("{}{listed}{}.", counted(count, one, many), few(&names));
             diagnostics.add(code, Place::pointer(pointer).counting(count), message);
         }
     };
+    let in_nodes = |node: &(usize, &Node)| nodes.in_scene[node.0];
+    let all = || root.nodes().iter().enumerate();
+    let name = |(index, node): (usize, &Node)| node.name.clone().unwrap_or_else(|| format!("node {index}"));
     let scenes = root.scenes().len().saturating_sub(1);
-    let outside = nodes.in_scene.iter().zip(root.nodes());
-    let outside = outside.filter(|(is_in, node)| !**is_in && node.mesh.is_some()).count();
-    let message = format!(
-        "{} left out with all that is not in the one that is shown, {}.",
-        counted(scenes, "other scene is", "other scenes are"),
-        counted(outside, "object", "objects")
-    );
-    told(&codes::GLTF_SCENE_LEFT_OUT, scenes.max(outside), "/scenes", message);
-
-    let name = |mesh: &MeshUse| {
-        let of_node = root.nodes()[mesh.node as usize].name.as_ref();
-        let name = of_node.or(root.meshes()[mesh.mesh].name.as_ref());
-        name.cloned().unwrap_or_else(|| format!("node {}", mesh.node))
-    };
-    let merged = if uses.len() > 1 { uses.len() } else { 0 };
-    let message = format!("{merged} objects become one mesh: {}.", listed(uses.iter().map(name)));
-    told(&codes::GLTF_OBJECTS_MERGED, merged, "/nodes", message);
-
-    let meshes: BTreeSet<usize> = uses.iter().map(|mesh| mesh.mesh).collect();
-    let targets = |mesh: usize| {
-        root.meshes()[mesh]
-            .primitives
-            .iter()
-            .map(|part| part.targets.len())
-            .max()
-    };
-    let of_meshes = meshes.iter().map(|&mesh| targets(mesh).unwrap_or_default());
-    let shapes = of_meshes.sum();
-    let names = meshes
-        .iter()
-        .filter_map(|&mesh| root.meshes()[mesh].extras.as_ref()?.get("targetNames")?.as_array());
-    let names: Vec<&str> = names.flatten().filter_map(Value::as_str).collect();
-    let message = format!(
-        "{} still, as the file has them outside of clips{}{}.",
-        counted(
-            shapes,
-            "shape key (morph target) stands",
-            "shape keys (morph targets) stand"
+    let outside = all().filter(|node| !in_nodes(node) && node.1.mesh.is_some());
+    let outside: Vec<String> = outside.map(name).collect();
+    let (count, what) = match scenes {
+        0 => (
+            outside.len(),
+            ["object is in no scene; left out", "objects are in no scene; left out"],
         ),
-        if names.is_empty() { "" } else { ": " },
-        listed(names.into_iter())
-    );
-    told(&codes::GLTF_MORPH_TARGETS_LEFT_OUT, shapes, "/meshes", message);
+        _ => (scenes, ["other scene is left out", "other scenes are left out"]),
+    };
+    tell(&codes::GLTF_SCENE_LEFT_OUT, count, "/scenes", what, outside);
 
-    let attributes = meshes.iter().flat_map(|&mesh| &root.meshes()[mesh].primitives);
-    let attributes = attributes.flat_map(|part| part.attributes.keys()).filter(|key| {
-        let is_second = second_tex_coords && *key == "TEXCOORD_1";
+    let merged = uses
+        .iter()
+        .map(|mesh| (mesh.node as usize, &root.nodes()[mesh.node as usize]));
+    let merged: Vec<String> = merged.map(name).filter(|_| uses.len() > 1).collect();
+    let what = ["object becomes one mesh", "objects become one mesh"];
+    tell(&codes::GLTF_OBJECTS_MERGED, merged.len(), "/nodes", what, merged);
+
+    let used: BTreeSet<usize> = uses.iter().map(|mesh| mesh.mesh).collect();
+    let meshes = || used.iter().map(|&mesh| &root.meshes()[mesh]);
+    let shapes = meshes().filter_map(|mesh| mesh.primitives.iter().map(|part| part.targets.len()).max());
+    let names = meshes().filter_map(|mesh| mesh.extras.as_ref()?.get("targetNames")?.as_array());
+    let names = names.flatten().filter_map(|name| Some(name.as_str()?.to_owned()));
+    let what = [
+        "shape key (morph target) stands still",
+        "shape keys (morph targets) stand still",
+    ];
+    tell(
+        &codes::GLTF_MORPH_TARGETS_LEFT_OUT,
+        shapes.sum(),
+        "/meshes",
+        what,
+        names.collect(),
+    );
+
+    let is_left = |key: &&String| {
         let is_further = |(name, set): (&str, &str)| matches!(name, "TEXCOORD" | "COLOR") && set != "0";
-        is_attribute(key) && !is_second && (key.starts_with('_') || key.rsplit_once('_').is_some_and(is_further))
-    });
-    let attributes: BTreeSet<&String> = attributes.collect();
-    let message = format!("Vertices have more than is read: {}.", listed(attributes.iter()));
-    told(&codes::GLTF_ATTRIBUTE_LEFT_OUT, attributes.len(), "/meshes", message);
+        let is_taken = second_tex_coords && *key == "TEXCOORD_1";
+        is_attribute(key) && !is_taken && (key.starts_with('_') || key.rsplit_once('_').is_some_and(is_further))
+    };
+    let parts = meshes().flat_map(|mesh| &mesh.primitives);
+    let left: BTreeSet<&String> = parts.flat_map(|part| part.attributes.keys()).filter(is_left).collect();
+    let what = [
+        "attribute of vertices is not read",
+        "attributes of vertices are not read",
+    ];
+    let names = left.iter().map(|key| (*key).clone()).collect();
+    tell(&codes::GLTF_ATTRIBUTE_LEFT_OUT, left.len(), "/meshes", what, names);
 
     let mut is_taken: Vec<bool> = rig.joint_of_node.iter().map(Option::is_some).collect();
     uses.iter().for_each(|mesh| is_taken[mesh.node as usize] = true);
     let has_model = is_taken.contains(&true);
     nodes.mark_above(&mut is_taken);
-    let [mut cameras, mut lights, mut empty] = [0; 3];
-    let of_scene = root.nodes().iter().zip(&nodes.in_scene).zip(is_taken);
-    for ((node, _), is_taken) in of_scene.filter(|((_, is_in), _)| **is_in && has_model) {
+    let mut counts = [0; 3];
+    for (index, node) in all().filter(|node| in_nodes(node) && has_model) {
         match (node.camera, node.extensions.light) {
-            (Some(_), _) => cameras += 1,
-            (_, Some(_)) => lights += 1,
-            _ => empty += usize::from(!is_taken),
+            (Some(_), _) => counts[0] += 1,
+            (_, Some(_)) => counts[1] += 1,
+            _ => counts[2] += usize::from(!is_taken[index]),
         }
     }
     let kinds = [
-        (cameras, ["camera", "cameras"]),
-        (lights, ["light", "lights"]),
-        (empty, ["node on which nothing hangs", "nodes on which nothing hangs"]),
+        ["camera", "cameras"],
+        ["light", "lights"],
+        ["without anything on it", "without anything on them"],
     ];
-    let kinds = kinds.into_iter().filter(|(count, _)| *count > 0);
-    let words = listed(kinds.map(|(count, [one, many])| counted(count, one, many)));
-    told(
-        &codes::GLTF_NODES_LEFT_OUT,
-        cameras + lights + empty,
-        "/nodes",
-        format!("Left out: {words}."),
-    );
+    let kinds = counts.into_iter().zip(kinds).filter(|(count, _)| *count > 0);
+    let names = kinds.map(|(count, [one, many])| counted(count, one, many)).collect();
+    let what = ["node is left out", "nodes are left out"];
+    tell(&codes::GLTF_NODES_LEFT_OUT, counts.iter().sum(), "/nodes", what, names);
 
     let extras = extras(root);
-    let message = format!(
-        "{} left out: {}.",
-        counted(
-            extras.len(),
-            "part of the file has extras, which are",
-            "parts of the file have extras, which are"
-        ),
-        listed(extras.iter())
-    );
-    told(
-        &codes::GLTF_EXTRAS_LEFT_OUT,
-        extras.len(),
-        extras.first().map_or("", String::as_str),
-        message,
-    );
+    let what = [
+        "part of the file has extras, which are left out",
+        "parts of the file have extras, which are left out",
+    ];
+    let first = extras.first().cloned().unwrap_or_default();
+    tell(&codes::GLTF_EXTRAS_LEFT_OUT, extras.len(), &first, what, extras);
 }
 
 /// Where there are `extras` that are not read.
 fn extras(root: &Root) -> Vec<String> {
-    let asset = root.asset.as_ref().and_then(|asset| asset.extras.as_ref());
-    let lone = [("", root.extras.as_ref()), ("/asset", asset)];
-    let lone = lone.into_iter().map(|(at, extras)| (at.to_owned(), extras));
-    macro_rules! of_lists {
-        ($($list:ident),*) => {
-            lone$(.chain(
-                root.$list().iter().enumerate()
-                    .map(|(index, part)| (format!(concat!("/", stringify!($list), "/{}"), index), part.extras.as_ref())),
-            ))*
-        };
-    }
-    let all = of_lists!(scenes, nodes, meshes, skins, animations, materials);
-    let is_read = |extras: &Value| match extras {
-        Value::Null => true,
-        // Names of shape keys are told with these.
-        Value::Object(keys) => keys.keys().all(|key| key == "bindpose" || key == "targetNames"),
-        _ => false,
+    // Names of shape keys are told with these.
+    let is_read = |key: &String| key == "bindpose" || key == "targetNames";
+    let is_foreign = |extras: &Value| match extras {
+        Value::Object(keys) => !keys.keys().all(is_read),
+        extras => !extras.is_null(),
     };
-    all.filter(|(_, extras)| extras.is_some_and(|extras| !is_read(extras)))
-        .map(|(at, _)| format!("{at}/extras"))
-        .collect()
+    let mut found = Vec::new();
+    let mut look = |extras: &Option<Value>, at: &dyn Fn() -> String| {
+        if extras.as_ref().is_some_and(is_foreign) {
+            found.push(at() + "/extras");
+        }
+    };
+    look(&root.extras, &String::new);
+    if let Some(asset) = &root.asset {
+        look(&asset.extras, &|| "/asset".to_owned());
+    }
+    macro_rules! look_into {
+        ($($list:ident),*) => {$(
+            for (index, part) in root.$list().iter().enumerate() {
+                look(&part.extras, &|| format!(concat!("/", stringify!($list), "/{}"), index));
+            }
+        )*};
+    }
+    look_into!(scenes, nodes, meshes, skins, animations, materials);
+    found
 }
 
-/// `a, b and c`, or the first few of many.
-fn listed<T: ToString>(names: impl Iterator<Item = T>) -> String {
-    let mut names = names.map(|name| name.to_string());
-    let first: Vec<String> = names.by_ref().take(MOST_NAMES).collect();
-    match names.count() {
-        0 => first.join(", "),
-        more => format!("{} and {more} more", first.join(", ")),
-    }
+/// All names, or the first few of many.
+fn few(names: &[String]) -> String {
+    let (first, more) = names.split_at(names.len().min(MOST_NAMES));
+    let more = if more.is_empty() {
+        String::new()
+    } else {
+        format!(" and {} more", more.len())
+    };
+    first.join(", ") + &more
 }

@@ -32,10 +32,7 @@ fn other_scenes_and_objects_outside_of_the_one_that_is_shown_are_counted() {
     let nodes = json!([{ "mesh": 0 }, { "mesh": 0 }, { "mesh": 0 }]);
     let imported = read(&triangle(&json!({ "scenes": scenes, "nodes": nodes }), |_| json!({})));
     let finding = told(&imported, "gltf-scene-left-out");
-    assert_eq!(
-        finding.message,
-        "2 other scenes are left out with all that is not in the one that is shown, 2 objects."
-    );
+    assert_eq!(finding.message, "2 other scenes are left out: node 1, node 2.");
     assert_eq!((finding.severity, finding.count), (Severity::Note, 2));
     assert!(is_silent(
         &read(&triangle(&json!({}), |_| json!({}))),
@@ -77,7 +74,7 @@ fn shape_keys_are_told_whether_a_clip_moves_them_or_not() {
     let finding = told(&imported, "gltf-morph-targets-left-out");
     assert_eq!(
         finding.message,
-        "2 shape keys (morph targets) stand still, as the file has them outside of clips: Smile, Frown."
+        "2 shape keys (morph targets) stand still: Smile, Frown."
     );
     assert_eq!(finding.count, 2);
     assert!(
@@ -101,7 +98,7 @@ fn cameras_lights_and_nodes_without_anything_are_counted() {
     let finding = told(&imported, "gltf-nodes-left-out");
     assert_eq!(
         finding.message,
-        "Left out: 1 camera, 1 light, 3 nodes on which nothing hangs."
+        "5 nodes are left out: 1 camera, 1 light, 3 without anything on them."
     );
     assert_eq!(finding.count, 5);
 }
@@ -128,7 +125,7 @@ fn attributes_that_nothing_takes_are_named() {
     );
     assert_eq!(
         told(&read(&file), "gltf-attribute-left-out").message,
-        "Vertices have more than is read: TEXCOORD_1, _HEAT."
+        "2 attributes of vertices are not read: TEXCOORD_1, _HEAT."
     );
 }
 
