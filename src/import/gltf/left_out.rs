@@ -30,11 +30,11 @@ pub(super) fn note(
             diagnostics.add(code, Place::pointer(pointer).counting(count), message);
         }
     };
-    let in_nodes = |node: &(usize, &Node)| nodes.in_scene[node.0];
+    let in_scene = |node: &(usize, &Node)| nodes.in_scene[node.0];
     let all = || root.nodes().iter().enumerate();
     let name = |(index, node): (usize, &Node)| node.name.clone().unwrap_or_else(|| format!("node {index}"));
     let scenes = root.scenes().len().saturating_sub(1);
-    let outside = all().filter(|node| !in_nodes(node) && node.1.mesh.is_some());
+    let outside = all().filter(|node| !in_scene(node) && node.1.mesh.is_some());
     let outside: Vec<String> = outside.map(name).collect();
     let (count, what) = match scenes {
         0 => (
@@ -88,7 +88,7 @@ pub(super) fn note(
     let has_model = is_taken.contains(&true);
     nodes.mark_above(&mut is_taken);
     let mut counts = [0; 3];
-    for (index, node) in all().filter(|node| in_nodes(node) && has_model) {
+    for (index, node) in all().filter(|node| in_scene(node) && has_model) {
         match (node.camera, node.extensions.light) {
             (Some(_), _) => counts[0] += 1,
             (_, Some(_)) => counts[1] += 1,

@@ -67,7 +67,7 @@ fn copies_beyond_what_memory_has_are_refused_before_they_are_made() {
         ("gltf-too-large", Some("/meshes/0"))
     );
     assert!(
-        told.message.contains(" MB or more, and the file holds 36"),
+        told.message.contains(" MB or more, and the file holds "),
         "{}",
         told.message
     );

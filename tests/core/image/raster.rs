@@ -125,7 +125,12 @@ fn every_beginning_of_a_picture_is_an_error() {
     for (name, bytes) in sound_files() {
         assert!(decode(&bytes, &name).is_ok(), "{name}");
         // The last chunk of a PNG is empty, and so is the end mark of others: what lacks of it takes nothing away.
-        let unused = if name == "a.png" { 12 } else { 0 };
+        let unused = match name.as_str() {
+            "a.png" => 12,
+            // Fills it up to an even length.
+            "a.webp" => 1,
+            _ => 0,
+        };
         for len in 0..bytes.len() - unused {
             let error = decode(&bytes[..len], &name).err();
             let error = error.unwrap_or_else(|| panic!("{name} cut to {len} of {} bytes", bytes.len()));
