@@ -171,7 +171,7 @@ fn mended_keys(bone: u32, keys: &[Keyframe], lines: &ClipLines, noted: &mut Note
         sound.push((time_secs + 0.0, (number, LocalJoint { rotation, ..joint })));
     }
     let keys = mended.in_order(sound, |moments, &(time_secs, (number, _))| {
-        add(moments, number, time_secs)
+        add(moments, number, time_secs);
     });
     for two in keys.windows(2) {
         let (time_secs, (number, joint)) = two[1];
