@@ -4,7 +4,7 @@
 const KINDS = {
   model: ["m3d", "glb", "gltf"],
   archive: ["zip"],
-  picture: ["dds", "png", "jpg", "jpeg", "tga", "bmp"],
+  picture: ["dds", "png", "jpg", "jpeg", "webp", "tga", "bmp"],
   buffer: ["bin"],
   unread: ["hdr", "exr"],
 };

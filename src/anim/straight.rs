@@ -40,7 +40,7 @@ pub(crate) fn straight(track: &Track) -> Cow<'_, Track> {
         }
     }
     keys.push((track.end_secs(), track.at(track.end_secs())));
-    // Times increase, and all numbers were finite; a curve that overflows between its keys has no straight form.
+    // It always can: times increase, and a curve is proved not to overflow between its keys.
     Track::new(keys).map_or(Cow::Borrowed(track), Cow::Owned)
 }
 

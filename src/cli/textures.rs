@@ -10,7 +10,7 @@ use super::failure::Failure;
 use crate::diagnostic::{Code, Diagnostic, Severity, codes};
 use crate::image;
 use crate::model::{MapSlot, Material};
-use crate::session::{self, File, MapNames, MapSource, Maps, find_maps};
+use crate::session::{self, File, FileKind, MapNames, MapSource, Maps, find_maps};
 
 /// The most entries of folders that are looked at, so that a whole disk given by mistake does not take for ever.
 const MOST_ENTRIES: usize = 500_000;
@@ -340,7 +340,14 @@ impl Walk {
             return Some(entry);
         }
         let name = entry.path.to_string_lossy();
-        if !File::new(&name, []).is_image() {
+        let file = File::new(&name, []);
+        if file.kind() == Some(FileKind::Unread) {
+            let is_told = |(_, warning): &(_, Diagnostic)| warning.code == codes::IMAGE_UNRECOGNIZED.name;
+            if !self.warnings.iter().any(is_told) {
+                self.warn(entry.path.clone(), &codes::IMAGE_UNRECOGNIZED, file.unread_words());
+            }
+        }
+        if !file.is_image() {
             return None;
         }
         let found = &mut self.found;

@@ -540,6 +540,41 @@ table! {
             "Morph targets are shown with the weights that the file gives them outside of clips.",
             "The rest of the clip is played.",
             "Bake what moves a face into joints, where it has to be seen here.";
+        GLTF_MORPH_TARGETS_LEFT_OUT = "gltf-morph-targets-left-out", Note,
+            "A mesh has shape keys (morph targets), which stand still.",
+            "They are shown with the weights that the file gives them outside of clips. A model here is moved by bones alone.",
+            "They are neither played nor written.",
+            "Bake what moves a face into joints, where it has to be seen here.";
+        GLTF_OBJECTS_MERGED = "gltf-objects-merged", Note,
+            "Several objects become one mesh.",
+            "A model here has one mesh, whose parts have materials and no names of their own.",
+            "They are joined, each moved by its own node or skin. A file that is written has them as one.",
+            "Export what has to stay apart as files of their own.";
+        GLTF_NODES_LEFT_OUT = "gltf-nodes-left-out", Note,
+            "Cameras, lights or nodes on which nothing hangs are left out.",
+            "They show nothing of the model.",
+            "They are not shown, and no file that is written has them.",
+            "Nothing needs to be mended.";
+        GLTF_SCENE_LEFT_OUT = "gltf-scene-left-out", Note,
+            "The file has more scenes than the one that is shown.",
+            "One scene becomes the model: the one that the file shows first.",
+            "The others are left out.",
+            "Export each scene as a file of its own.";
+        GLTF_EXTRAS_LEFT_OUT = "gltf-extras-left-out", Note,
+            "The file has `extras`: values of its author's own.",
+            "Programs that know them may need them; nothing of the picture depends on them.",
+            "They are left out.",
+            "Nothing needs to be mended.";
+        GLTF_ATTRIBUTE_LEFT_OUT = "gltf-attribute-left-out", Note,
+            "Vertices have an attribute that is not read.",
+            "It is one of a program's own, or a set of colours or texture coordinates that no material uses here.",
+            "It is left out.",
+            "Nothing needs to be mended.";
+        GLTF_TRANSMISSION = "gltf-transmission", Note,
+            "Light goes through a material, which is drawn blended.",
+            "Glass bends and tints what is behind it; blending shows it as it is, through a little of the surface.",
+            "It is blended by how much light goes through. Where a map says where that is, it stays opaque.",
+            "Give the material an alpha of its own and the mode BLEND, where it has to look so everywhere.";
         GLTF_CHANNEL_LEFT_OUT = "gltf-channel-left-out", Note,
             "A clip moves something that is not shown; left out.",
             "Cameras, lights and nodes without meshes are not shown.",
@@ -552,7 +587,7 @@ table! {
             "Apply scales before exporting, so that nothing is turned below a node of uneven scale.";
         GLTF_IMAGE_NOT_READ = "gltf-image-not-read", Warning,
             "A picture is of a kind that is not read, or its address is none; the material is shown without it.",
-            "PNG and JPEG are read.",
+            "PNG, JPEG and WebP are read.",
             "The material is shown without it.",
             "Export textures as PNG or JPEG.";
         WEIGHTS_CUT = "weights-cut", Warning,
@@ -675,7 +710,7 @@ table! {
         BOOK_MAP_FORMAT = "book-map-format", Note,
             "A map is of a format that the book's demo does not read.",
             "The D3D12 book reads DDS alone.",
-            "PNG, JPEG, TGA and BMP are read too.",
+            "PNG, JPEG, WebP, TGA and BMP are read too.",
             "Save maps as `.dds`, and name those in the materials.";
     }
 
@@ -757,7 +792,7 @@ table! {
             "The material is drawn without the map.",
             "Save the picture again.";
         IMAGE_UNRECOGNIZED = "image-unrecognized", Warning,
-            "The file is none of DDS, PNG, JPEG, TGA and BMP.",
+            "The file is none of DDS, PNG, JPEG, WebP, TGA and BMP.",
             "Neither its first bytes nor its name say what it is.",
             "The material is drawn without the map.",
             "Save the picture as DDS, PNG, JPEG, TGA or BMP.";

@@ -122,6 +122,15 @@ impl Place {
         }
     }
 
+    /// The same place, for so many occurrences.
+    #[must_use]
+    pub(crate) fn counting(self, count: usize) -> Self {
+        Self {
+            count: u32::try_from(count).unwrap_or(u32::MAX),
+            ..self
+        }
+    }
+
     /// The same place, and when and on which bones of a clip the first occurrences are.
     #[must_use]
     pub(crate) fn at(self, moments: impl IntoIterator<Item = Moment>) -> Self {

@@ -155,6 +155,11 @@ pub const ALL: &[ExportCode] = &[
         "Give at least one bone a key.",
     ),
     loss(
+        "copyright",
+        "The format has no line of copyright.",
+        "Keep it in a file beside the model.",
+    ),
+    loss(
         "up-axis",
         "Another axis is up than where the format has it.",
         "Leave out `--up`, or give the one that the message names.",

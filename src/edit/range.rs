@@ -1,8 +1,14 @@
 //! Keeps a part of a clip, with keys at the cuts.
 
+use glam::Vec4;
+
 use super::edited::{Change, Edited, with_tracks};
 use super::error::EditError;
+use crate::anim::straight;
 use crate::model::{Clip, Curve, CurveValue, Curves, ModelError, Track};
+
+/// A quaternion is of unit length within this: what rounding leaves.
+const UNIT_TOLERANCE: f32 = 1e-5;
 
 /// Cuts the only clip to a range of its own time. What is left begins at 0 s, so that no player waits for it.
 pub(super) fn cut(edited: &mut Edited, range_secs: [f32; 2]) -> Result<(), EditError> {
@@ -55,6 +61,19 @@ fn part_of_track(track: &Track, range_secs: [f32; 2]) -> Result<Track, ModelErro
         return Ok(track.clone());
     }
     let [from, to] = range_secs;
+    // A spline of rotations has unit length at its keys alone, as files want it of keys: cut between them it goes on straight.
+    let off_unit = |curve: &Curve<Vec4>| range_secs.map(|secs| (curve.value_at(secs).length() - 1.0).abs());
+    let cuts_spline = |curve: &Curve<Vec4>| off_unit(curve).iter().any(|&off| off > UNIT_TOLERANCE);
+    let track = match track.curves() {
+        Some(curves) if curves.rotation.as_ref().is_some_and(cuts_spline) => {
+            let curves = Curves {
+                rotation: None,
+                ..curves.clone()
+            };
+            &straight(track).into_owned().with_curves(curves)
+        }
+        _ => track,
+    };
     let times_secs = track.times_secs();
     if track.curves().is_none() && (track.end_secs() <= from || to <= track.start_secs()) {
         return Track::new([(from, track.at(from))]);

@@ -10,7 +10,7 @@ mod m3d;
 use std::collections::BTreeMap;
 
 use crate::image::Image;
-use crate::model::MapSlot;
+use crate::model::{MapSlot, Skeleton};
 
 pub use directions::directions;
 pub use glb::{EncodedMaps, encode_map, glb, glb_losses, glb_with, turned_materials};
@@ -45,6 +45,9 @@ pub enum ExportError {
     /// The sizes of a file's parts are written in 32 bits.
     #[error("The file would have more than 4 GiB.")]
     TooLarge,
+    /// A vertex of glTF names its joints in 16 bits.
+    #[error("The model has {0} joints; vertices of a .glb can name {most} at most.", most = Skeleton::MOST_NAMED)]
+    TooManyJoints(usize),
 }
 
 /// Decoded pictures by the material and what it uses them for. What is not there is left out of a `.glb`.

@@ -8,16 +8,101 @@ use super::json::{Accessor, Index, Root};
 use super::{Fault, fault};
 use crate::diagnostic::codes;
 
-/// Numbers may be read this often beyond one for each byte that there is.
+/// So many elements may be read for each byte that there is, and beyond.
+const ELEMENTS_PER_BYTE: u64 = 2;
 const MORE_ELEMENTS: u64 = 4_000_000;
 
-/// Reads accessors. It keeps account of how many elements were read: a small file that names one accessor a million times ends in
-/// an error, not in all memory.
+/// So many bytes of a model may be kept for each byte that there is, since streams that the file lacks are computed; and beyond, so that a
+/// fence of one mesh on hundreds of nodes fits.
+const BYTES_KEPT_PER_BYTE: u64 = 16;
+const MORE_BYTES_KEPT: u64 = 512 << 20;
+
+/// Reads accessors. It keeps account of how many elements were read and how many bytes the model takes: a small file that uses one
+/// accessor a million times ends in an error, not in all memory.
 #[derive(Debug)]
 pub struct Reader<'a> {
     root: &'a Root,
     buffers: &'a Buffers<'a>,
-    elements_left: Cell<u64>,
+    byte_count: u64,
+    spent: Cell<Effort>,
+}
+
+/// What reading took, by the reader's own account.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Effort {
+    /// Elements of accessors that were read, and steps of like cost.
+    pub elements: u64,
+    /// Bytes of vertices, triangles and pictures that are kept.
+    pub bytes_kept: u64,
+}
+
+/// What belongs where floats do, by glTF 2.0 (3.6.2.2, 3.7.2.1, 3.11) and KHR_mesh_quantization: which whole numbers may stand for them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// Floats alone.
+    Floats,
+    /// Floats, and whole numbers in a quantized mesh.
+    Positions,
+    /// Floats, and normalised signed numbers in a quantized mesh.
+    Directions,
+    /// Floats or normalised unsigned numbers, and any whole numbers in a quantized mesh.
+    TexCoords,
+    /// Floats or normalised unsigned numbers.
+    Fractions,
+    /// Floats or normalised numbers.
+    Rotations,
+}
+
+/// Whether the numbers of an accessor belong in a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fit {
+    /// They do.
+    Belongs,
+    /// They do where the file requires KHR_mesh_quantization.
+    Quantized,
+    /// They would if the accessor said that they are normalised.
+    NotNormalized,
+    /// They make no sense there.
+    No,
+}
+
+impl Wanted {
+    /// What an attribute of vertices or of a morph target wants; `None` for whole numbers and unknown attributes.
+    pub(crate) fn of_attribute(key: &str) -> Option<Self> {
+        let set = key.split_once('_').map_or(key, |(name, _)| name);
+        Some(match set {
+            "POSITION" => Self::Positions,
+            "NORMAL" | "TANGENT" => Self::Directions,
+            "TEXCOORD" => Self::TexCoords,
+            "COLOR" | "WEIGHTS" => Self::Fractions,
+            _ => return None,
+        })
+    }
+
+    pub(crate) fn fit(self, accessor: &Accessor) -> Fit {
+        use Component::{F32, I8, I16, U8, U16, U32};
+        let Some(component) = Component::of(accessor.component_type.0) else {
+            return Fit::No;
+        };
+        match (self, component) {
+            (_, F32) => Fit::Belongs,
+            (Self::Floats, _) | (_, U32) | (Self::Directions, U8 | U16) | (Self::Fractions, I8 | I16) => Fit::No,
+            (Self::TexCoords, U8 | U16) if accessor.normalized => Fit::Belongs,
+            (Self::Positions | Self::TexCoords, _) => Fit::Quantized,
+            _ if !accessor.normalized => Fit::NotNormalized,
+            (Self::Directions, _) => Fit::Quantized,
+            (Self::Fractions | Self::Rotations, _) => Fit::Belongs,
+        }
+    }
+
+    fn words(self) -> &'static str {
+        match self {
+            Self::Floats | Self::Positions => "floats",
+            Self::Directions => "floats or normalised signed numbers",
+            Self::TexCoords | Self::Fractions => "floats or normalised unsigned numbers",
+            Self::Rotations => "floats or normalised numbers",
+        }
+    }
 }
 
 /// What the numbers of an accessor are stored as.
@@ -51,6 +136,15 @@ impl Component {
             Self::U32 | Self::F32 => 4,
         }
     }
+
+    fn words(self) -> String {
+        let kind = match self {
+            Self::I8 | Self::I16 => "signed whole numbers",
+            Self::U8 | Self::U16 | Self::U32 => "unsigned whole numbers",
+            Self::F32 => "floats",
+        };
+        format!("{kind} of {} bits", 8 * self.byte_count())
+    }
 }
 
 /// The elements of an accessor or of a part of a sparse one.
@@ -59,7 +153,6 @@ struct Elements<'a> {
     stride: usize,
     count: usize,
     component: Component,
-    normalized: bool,
 }
 
 /// How many numbers an element of a kind has.
@@ -77,12 +170,17 @@ fn number_count(kind: &str) -> Option<usize> {
 impl<'a> Reader<'a> {
     /// A reader of a document of this many bytes.
     pub fn new(root: &'a Root, buffers: &'a Buffers<'a>, byte_count: u64) -> Self {
-        let byte_count = byte_count.saturating_add(buffers.byte_count());
         Self {
             root,
             buffers,
-            elements_left: Cell::new(byte_count.saturating_mul(2).saturating_add(MORE_ELEMENTS)),
+            byte_count: byte_count.saturating_add(buffers.byte_count()),
+            spent: Cell::default(),
         }
+    }
+
+    /// What was read and kept until now.
+    pub fn effort(&self) -> Effort {
+        self.spent.get()
     }
 
     /// The buffers that it reads from.
@@ -108,35 +206,54 @@ impl<'a> Reader<'a> {
         Ok(number_count(&self.accessor(accessor, pointer)?.kind))
     }
 
-    /// Takes `count` from what may be read, also for copies of what was read.
+    /// Counts `count` more elements as read, also for copies of what was read.
     ///
     /// # Errors
-    /// When it is more than is left.
+    /// When they are more than a sound file of this size asks for.
     pub fn spend(&self, count: u64, pointer: impl fmt::Display) -> Result<(), Fault> {
-        let left = self.elements_left.get().checked_sub(count).ok_or_else(|| {
-            let message = "The file asks for far more numbers than it holds: the same data are used again and again.";
-            fault(&codes::GLTF_TOO_LARGE, pointer.to_string(), message)
-        })?;
-        self.elements_left.set(left);
-        Ok(())
+        self.charge([count, 0], pointer)
     }
 
-    /// Elements of `N` numbers. Whole numbers come as they are, or as 0…1 or −1…1 where the accessor is normalised.
+    /// Counts `count` more bytes as kept in the model. To be asked before they are.
     ///
     /// # Errors
-    /// When the accessor has elements of another kind, or reaches beyond its data.
-    pub fn floats<const N: usize>(&self, index: Index, pointer: &str) -> Result<Vec<[f32; N]>, Fault> {
-        let accessor = self.accessor(index, pointer)?;
-        let mut floats = match self.elements(index, accessor, N, pointer)? {
-            Some(elements) => decoded(&elements),
-            None => vec![[0.0; N]; count_of(accessor)?],
+    /// When they are more than a model of a file of this size may take.
+    pub fn keep(&self, count: u64, pointer: impl fmt::Display) -> Result<(), Fault> {
+        self.charge([0, count], pointer)
+    }
+
+    fn charge(&self, [elements, bytes]: [u64; 2], pointer: impl fmt::Display) -> Result<(), Fault> {
+        let most = |per_byte, more| self.byte_count.saturating_mul(per_byte).saturating_add(more);
+        let mut effort = self.spent.get();
+        effort.elements = effort.elements.saturating_add(elements);
+        effort.bytes_kept = effort.bytes_kept.saturating_add(bytes);
+        self.spent.set(effort);
+        let wants = if effort.elements > most(ELEMENTS_PER_BYTE, MORE_ELEMENTS) {
+            "The file asks for far more numbers than it holds".to_owned()
+        } else if effort.bytes_kept > most(BYTES_KEPT_PER_BYTE, MORE_BYTES_KEPT) {
+            let (kept, held) = (effort.bytes_kept >> 20, self.byte_count);
+            format!("The model would take {kept} MB or more, and the file holds {held} bytes")
+        } else {
+            return Ok(());
         };
-        if let Some((places, values)) = self.sparse(index, accessor, N)? {
-            for (place, value) in places.into_iter().zip(decoded(&values)) {
-                floats[place] = value;
-            }
+        let message = format!("{wants}: the same data are used again and again.");
+        Err(fault(&codes::GLTF_TOO_LARGE, pointer.to_string(), message))
+    }
+
+    /// Elements of `N` numbers. Whole numbers come as they are, or as 0…1 or −1…1 where the accessor is normalised or has to be.
+    ///
+    /// # Errors
+    /// When the accessor has elements of another kind or numbers that are not wanted, or reaches beyond its data.
+    pub fn floats<const N: usize>(&self, index: Index, wanted: Wanted, pointer: &str) -> Result<Vec<[f32; N]>, Fault> {
+        let accessor = self.accessor(index, pointer)?;
+        let fit = wanted.fit(accessor);
+        if let (Fit::No, Some(component)) = (fit, Component::of(accessor.component_type.0)) {
+            let (has, wanted) = (component.words(), wanted.words());
+            let message = format!("Accessor {} has {has}, where {wanted} belong.", index.0);
+            return Err(fault(&codes::GLTF_ACCESSOR_FORMAT, pointer, message));
         }
-        Ok(floats)
+        let normalized = accessor.normalized || fit == Fit::NotNormalized;
+        self.rows(index, accessor, pointer, |elements| decoded(elements, normalized))
     }
 
     /// Elements of `N` whole numbers of 0 or more.
@@ -156,16 +273,27 @@ impl<'a> Reader<'a> {
             );
             return Err(fault(&codes::GLTF_ACCESSOR_FORMAT, pointer, message));
         }
-        let mut numbers = match self.elements(index, accessor, N, pointer)? {
-            Some(elements) => decoded_whole(&elements),
-            None => vec![[0; N]; count_of(accessor)?],
+        self.rows(index, accessor, pointer, decoded_whole)
+    }
+
+    /// All elements, those of a sparse accessor in their places.
+    fn rows<T: Copy + Default, const N: usize>(
+        &self,
+        index: Index,
+        accessor: &Accessor,
+        pointer: &str,
+        decode: impl Fn(&Elements<'_>) -> Vec<[T; N]>,
+    ) -> Result<Vec<[T; N]>, Fault> {
+        let mut rows = match self.elements(index, accessor, N, pointer)? {
+            Some(elements) => decode(&elements),
+            None => vec![[T::default(); N]; count_of(accessor)?],
         };
         if let Some((places, values)) = self.sparse(index, accessor, N)? {
-            for (place, value) in places.into_iter().zip(decoded_whole(&values)) {
-                numbers[place] = value;
+            for (place, value) in places.into_iter().zip(decode(&values)) {
+                rows[place] = value;
             }
         }
-        Ok(numbers)
+        Ok(rows)
     }
 
     /// The elements in a buffer; `None` for an accessor of zeros. Their count is proved and paid for.
@@ -200,11 +328,8 @@ impl<'a> Reader<'a> {
             return Ok(None);
         };
         let offset = accessor.byte_offset.unwrap_or_default().0;
-        let range = self.range(view, offset, accessor.count.0, component, numbers, at, "/bufferView")?;
-        Ok(Some(Elements {
-            normalized: accessor.normalized,
-            ..range
-        }))
+        self.range(view, offset, accessor.count.0, component, numbers, at, "/bufferView")
+            .map(Some)
     }
 
     /// The places and values of a sparse accessor that are others than in its buffer.
@@ -219,7 +344,10 @@ impl<'a> Reader<'a> {
         };
         let at = format_args!("/accessors/{}/sparse", index.0);
         if sparse.count.0 > accessor.count.0 {
-            let message = format!("{} elements of {} are to be others.", sparse.count.0, accessor.count.0);
+            let message = format!(
+                "The sparse accessor replaces {} elements, but has {}.",
+                sparse.count.0, accessor.count.0
+            );
             return Err(fault(
                 &codes::GLTF_ACCESSOR_OUT_OF_RANGE,
                 format!("{at}/count"),
@@ -253,7 +381,10 @@ impl<'a> Reader<'a> {
             .map(|[place]| place as usize)
             .collect();
         if let Some(&place) = places.iter().find(|&&place| place as u64 >= accessor.count.0) {
-            let message = format!("Element {place} is to be another, but there are {}.", accessor.count.0);
+            let message = format!(
+                "Sparse index {place} is out of range; the accessor has {} elements.",
+                accessor.count.0
+            );
             return Err(fault(
                 &codes::GLTF_ACCESSOR_OUT_OF_RANGE,
                 format!("{at}/indices"),
@@ -274,10 +405,6 @@ impl<'a> Reader<'a> {
             at,
             "/values/bufferView",
         )?;
-        let values = Elements {
-            normalized: accessor.normalized,
-            ..values
-        };
         Ok(Some((places, values)))
     }
 
@@ -324,7 +451,6 @@ impl<'a> Reader<'a> {
             stride: usize::try_from(stride).unwrap_or(usize::MAX),
             count: usize::try_from(count).unwrap_or(usize::MAX),
             component,
-            normalized: false,
         })
     }
 }
@@ -334,8 +460,7 @@ fn count_of(accessor: &Accessor) -> Result<usize, Fault> {
         .map_err(|_| fault(&codes::GLTF_TOO_LARGE, "", "An accessor has more elements than memory."))
 }
 
-fn decoded<const N: usize>(elements: &Elements<'_>) -> Vec<[f32; N]> {
-    let normalized = elements.normalized;
+fn decoded<const N: usize>(elements: &Elements<'_>, normalized: bool) -> Vec<[f32; N]> {
     let scaled = move |number: f32, greatest: f32| {
         if normalized {
             (number / greatest).max(-1.0)

@@ -1,5 +1,6 @@
 //! The bytes of buffers and of their views.
 
+use std::collections::HashMap;
 use std::fmt;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -17,6 +18,7 @@ pub type FindFile<'a> = &'a dyn Fn(&str) -> Option<Arc<[u8]>>;
 pub struct Buffers<'a> {
     root: &'a Root,
     buffers: Vec<Result<Bytes<'a>, Fault>>,
+    byte_count: u64,
 }
 
 #[derive(Debug)]
@@ -41,10 +43,13 @@ impl Deref for Bytes<'_> {
 impl<'a> Buffers<'a> {
     /// Finds the bytes of all buffers.
     pub fn new(root: &'a Root, container: &Container<'a>, find: FindFile<'_>) -> Self {
+        // Each file is asked for once, and its bytes count once, however many buffers name it.
+        let mut files: HashMap<String, Option<Arc<[u8]>>> = HashMap::new();
+        let mut find = |path: &str| files.entry(path.to_owned()).or_insert_with(|| find(path)).clone();
         let buffers = root.buffers().iter().enumerate().map(|(index, buffer)| {
             let pointer = format!("/buffers/{index}");
             let bytes = match (&buffer.uri, container.bin) {
-                (Some(uri), _) => at_uri(uri, &pointer, find)?,
+                (Some(uri), _) => at_uri(uri, &pointer, &mut find)?,
                 (None, Some(bin)) if index == 0 => Bytes::Chunk(bin),
                 (None, _) => {
                     let message = format!("Buffer {index} has no data: neither an address nor a binary chunk.");
@@ -62,16 +67,22 @@ impl<'a> Buffers<'a> {
             }
             Ok(bytes)
         });
+        let buffers: Vec<_> = buffers.collect();
+        let beside = files.values().flatten().map(|bytes| bytes.len() as u64);
+        let inside = buffers.iter().flatten().map(|bytes| match bytes {
+            Bytes::File(_) => 0,
+            bytes => bytes.len() as u64,
+        });
         Self {
             root,
-            buffers: buffers.collect(),
+            byte_count: beside.chain(inside).sum(),
+            buffers,
         }
     }
 
-    /// How many bytes the buffers have together.
+    /// How many bytes the buffers have together. A file that several of them name counts once.
     pub fn byte_count(&self) -> u64 {
-        let lengths = self.buffers.iter().flatten().map(|bytes| bytes.len() as u64);
-        lengths.sum()
+        self.byte_count
     }
 
     /// What is wrong with buffers that cannot be read.
@@ -141,7 +152,7 @@ impl<'a> Buffers<'a> {
     }
 }
 
-fn at_uri<'a>(uri: &str, pointer: &str, find: FindFile<'_>) -> Result<Bytes<'a>, Fault> {
+fn at_uri<'a>(uri: &str, pointer: &str, find: &mut impl FnMut(&str) -> Option<Arc<[u8]>>) -> Result<Bytes<'a>, Fault> {
     let pointer = || format!("{pointer}/uri");
     let index = pointer();
     let index = index.trim_start_matches("/buffers/").trim_end_matches("/uri");

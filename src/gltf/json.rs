@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use serde::de::{Deserialize, Deserializer, Error, Unexpected, Visitor};
+use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, Unexpected, Visitor};
 use serde_json::Value;
 
 /// A whole number of 0 or more: an index, a count or a length. JSON may write it as `2.0`.
@@ -70,10 +70,10 @@ objects! {
         textures: Option<Vec<Texture>>,
         images: Option<Vec<Image>>,
         samplers: Option<Vec<Sampler>>,
-        cameras: Option<Vec<Camera>>,
+        cameras: Option<Vec<IgnoredAny>>,
         extensions_used: Option<Vec<String>>,
         extensions_required: Option<Vec<String>>,
-        extensions: Option<BTreeMap<String, Value>>,
+        extras: Option<Value>,
     }
 
     /// What wrote the file, and for which version of glTF.
@@ -81,6 +81,8 @@ objects! {
         version: String,
         min_version: Option<String>,
         generator: Option<String>,
+        copyright: Option<String>,
+        extras: Option<Value>,
     }
 
     /// A scene.
@@ -101,7 +103,15 @@ objects! {
         rotation: Option<[f32; 4]>,
         scale: Option<[f32; 3]>,
         weights: Option<Vec<f32>>,
+        #[serde(default)]
+        extensions: NodeExtensions,
         extras: Option<Value>,
+    }
+
+    /// The extensions of a node that are counted.
+    NodeExtensions {
+        #[serde(rename = "KHR_lights_punctual")]
+        light: Option<IgnoredAny>,
     }
 
     /// A mesh.
@@ -109,6 +119,7 @@ objects! {
         name: Option<String>,
         primitives: Vec<Primitive>,
         weights: Option<Vec<f32>>,
+        extras: Option<Value>,
     }
 
     /// A part of a mesh with one material.
@@ -127,6 +138,7 @@ objects! {
         joints: Vec<Index>,
         inverse_bind_matrices: Option<Index>,
         skeleton: Option<Index>,
+        extras: Option<Value>,
     }
 
     /// An animation.
@@ -134,6 +146,7 @@ objects! {
         name: Option<String>,
         channels: Vec<Channel>,
         samplers: Vec<AnimationSampler>,
+        extras: Option<Value>,
     }
 
     /// What a sampler of keys moves.
@@ -227,6 +240,14 @@ objects! {
         unlit: Option<Value>,
         #[serde(rename = "KHR_materials_emissive_strength")]
         emissive_strength: Option<EmissiveStrength>,
+        #[serde(rename = "KHR_materials_transmission")]
+        transmission: Option<Transmission>,
+    }
+
+    /// KHR_materials_transmission.
+    Transmission {
+        transmission_factor: Option<f32>,
+        transmission_texture: Option<IgnoredAny>,
     }
 
     /// KHR_materials_emissive_strength.
@@ -303,29 +324,6 @@ objects! {
         wrap_s: Option<Index>,
         wrap_t: Option<Index>,
     }
-
-    /// A camera; it is checked and not used.
-    Camera {
-        #[serde(rename = "type")]
-        kind: Option<String>,
-        perspective: Option<Perspective>,
-        orthographic: Option<Orthographic>,
-    }
-
-    /// A camera's perspective.
-    Perspective {
-        yfov: Option<f64>,
-        znear: Option<f64>,
-        zfar: Option<f64>,
-    }
-
-    /// A camera without perspective.
-    Orthographic {
-        xmag: Option<f64>,
-        ymag: Option<f64>,
-        znear: Option<f64>,
-        zfar: Option<f64>,
-    }
 }
 
 /// What a channel moves.
@@ -380,12 +378,21 @@ lists! {
     textures: Texture,
     images: Image,
     samplers: Sampler,
-    cameras: Camera,
+    cameras: IgnoredAny,
 }
 
 impl Node {
     /// Its children.
     pub fn children(&self) -> impl Iterator<Item = u64> {
         self.children.iter().flatten().map(|child| child.0)
+    }
+}
+
+impl Texture {
+    /// The image with its picture: that of EXT_texture_webp where it has one.
+    pub fn image(&self) -> Option<Index> {
+        let webp = self.extensions.get("EXT_texture_webp");
+        let source = webp.and_then(|webp| webp.get("source")?.as_u64());
+        source.map(Index).or(self.source)
     }
 }

@@ -13,7 +13,8 @@ mod places;
 mod rules;
 mod uri;
 
-pub use accessor::Reader;
+pub(crate) use accessor::Fit;
+pub use accessor::{Effort, Reader, Wanted};
 pub(crate) use buffers::out_of_range;
 pub use buffers::{Buffers, FindFile};
 pub use container::{Container, begins_like_gltf, open};
@@ -25,5 +26,5 @@ pub use json::{
 };
 pub use parse::{check_asset, parse};
 pub use places::position_of;
-pub(crate) use rules::note_broken_rules;
+pub(crate) use rules::{is_attribute, note_broken_rules};
 pub use uri::{Uri, UriError};

@@ -4,7 +4,9 @@ use super::{Container, Fault, Root, fault};
 use crate::diagnostic::{Diagnostic, Position, codes};
 
 /// Extensions whose meaning is known.
-const KNOWN: [&str; 4] = [
+const KNOWN: [&str; 6] = [
+    "EXT_texture_webp",
+    "KHR_materials_transmission",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
     "KHR_materials_unlit",
@@ -34,8 +36,9 @@ pub fn parse(container: &Container<'_>) -> Result<Root, Fault> {
         };
         let words = words(&error);
         let value = ["invalid type: ", "invalid value: "].map(|start| words.strip_prefix(start));
-        let message = match value {
-            [Some(value), _] | [_, Some(value)] => format!("Found {value}."),
+        let message = match (value, words.strip_prefix("duplicate field ")) {
+            ([Some(value), _] | [_, Some(value)], _) => format!("Found {value}."),
+            (_, Some(key)) => format!("The key {key} stands twice."),
             _ => format!("The JSON lacks what glTF needs here: {words}."),
         };
         let diagnostic = codes::GLTF_WRONG_TYPE.says(message).pointing_at(pointer);
@@ -101,13 +104,19 @@ pub fn check_asset(root: &Root, diagnostics: &mut Vec<Diagnostic>) -> Result<(),
     Ok(())
 }
 
-/// What a person can do about an extension that many files need.
+/// What a person can do about an extension that many files need. gltf-transform is <https://gltf-transform.dev/cli>.
 fn remedy(name: &str) -> &'static str {
     match name {
-        "KHR_draco_mesh_compression" | "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
-            ": export it without compression"
+        "KHR_draco_mesh_compression" | "EXT_meshopt_compression" => {
+            ": export it without compression, or unpack it with `gltf-transform copy IN.glb OUT.glb`"
         }
-        "KHR_texture_basisu" | "EXT_texture_webp" | "EXT_texture_avif" => ": export its textures as PNG or JPEG",
+        "KHR_meshopt_compression" => ": export it without compression",
+        "KHR_texture_basisu" => {
+            ": export its textures as PNG or JPEG, or unpack them with `gltf-transform ktxdecompress IN.glb OUT.glb`"
+        }
+        "EXT_texture_avif" => {
+            ": export its textures as PNG or JPEG, or unpack them with `gltf-transform png IN.glb OUT.glb`"
+        }
         _ => "",
     }
 }

@@ -125,25 +125,3 @@ impl Scanner<'_> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn pointers_lead_to_lines_and_columns() {
-        let json = b"{ \"a\": [1, {\"b~/\\u0063\": \"x,]}\\\"\"},\n  [[], {}, -1.5e3]],\n\t\"d\" : true }";
-        let at = |pointer| position_of(json, pointer).map(|at| (at.line, at.column));
-        assert_eq!(at(""), Some((1, 1)));
-        assert_eq!(at("/a"), Some((1, 8)));
-        assert_eq!(at("/a/1/b~0~1c"), Some((1, 26)));
-        assert_eq!(at("/a/2/2"), Some((2, 12)));
-        assert_eq!(at("/d"), Some((3, 8)));
-        // What is not there is told where it would be.
-        assert_eq!(at("/a/9"), Some((1, 8)));
-        assert_eq!(at("/d/e"), Some((3, 8)));
-        for cut in 0..json.len() {
-            let _ = position_of(&json[..cut], "/d/x");
-        }
-    }
-}

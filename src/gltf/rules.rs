@@ -1,11 +1,12 @@
-//! Rules of glTF that a file can break and still be read. What is refused elsewhere is not looked at here.
+//! Rules of glTF that a file can break and still be read. What is refused elsewhere is not looked at here, nor what no picture shows:
+//! cameras, and lists of nothing.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::buffers::subject;
 use super::json::{Accessor, Index, Primitive, Root};
 use super::parse::escaped;
-use super::{Interpolation, Path, Uri};
+use super::{Fit, Interpolation, Path, Uri, Wanted};
 use crate::diagnostic::codes;
 use crate::diagnostic::collect::{Diagnostics, Place};
 
@@ -14,19 +15,24 @@ const UNSIGNED_INT: u64 = 5125;
 
 /// Notes which rules the document breaks.
 pub(crate) fn note_broken_rules(root: &Root, diagnostics: &mut Diagnostics) {
-    let mut rules = Rules { root, diagnostics };
-    rules.empty_lists();
+    let required = root.extensions_required.iter().flatten();
+    let mut rules = Rules {
+        root,
+        is_quantized: required.into_iter().any(|name| name == "KHR_mesh_quantization"),
+        diagnostics,
+    };
     rules.accessors();
     rules.buffer_views();
     rules.images_and_textures();
     rules.meshes();
     rules.nodes_and_skins();
     rules.animations();
-    rules.cameras();
 }
 
 struct Rules<'a> {
     root: &'a Root,
+    /// Whether the file requires KHR_mesh_quantization.
+    is_quantized: bool,
     diagnostics: &'a mut Diagnostics,
 }
 
@@ -64,38 +70,18 @@ impl<'a> Rules<'a> {
         found
     }
 
-    fn empty_lists(&mut self) {
-        let root = self.root;
-        macro_rules! empty {
-            ($($name:ident),*) => {
-                [$((stringify!($name), root.$name.as_ref().is_some_and(Vec::is_empty))),*]
-            };
-        }
-        let lists = empty!(
-            scenes, nodes, meshes, skins, animations, accessors, buffers, materials, textures, images, samplers,
-            cameras
-        );
-        let views = [("bufferViews", root.buffer_views.as_ref().is_some_and(Vec::is_empty))];
-        for (name, _) in lists.into_iter().chain(views).filter(|(_, is_empty)| *is_empty) {
-            self.broken(
-                format!("/{name}"),
-                "A list has nothing in it; it has to be left out then.",
-            );
-        }
-        for (node, of_file) in root.nodes().iter().enumerate() {
-            if of_file.children.as_ref().is_some_and(Vec::is_empty) {
-                let message = "A list has nothing in it; it has to be left out then.";
-                self.broken(format!("/nodes/{node}/children"), message);
+    /// Notes whole numbers that are read where floats belong, though they do not belong there either.
+    fn whole_numbers(&mut self, accessor: &Accessor, wanted: Wanted, pointer: &str) {
+        let rule = match wanted.fit(accessor) {
+            Fit::Quantized if !self.is_quantized => {
+                "Floats belong here, since the file does not require KHR_mesh_quantization; its whole numbers are taken as they are."
             }
-        }
-        for (name, value) in root.extensions.iter().flatten() {
-            if !value.is_object() {
-                self.broken(
-                    format!("/extensions/{}", escaped(name)),
-                    "An extension is no object; left out.",
-                );
+            Fit::NotNormalized => {
+                "The accessor does not say that its whole numbers are normalised; taken as if it did."
             }
-        }
+            Fit::Quantized | Fit::Belongs | Fit::No => return,
+        };
+        self.broken(pointer, rule);
     }
 
     fn accessors(&mut self) {
@@ -165,7 +151,10 @@ impl<'a> Rules<'a> {
             }
             if let Some(sparse) = &accessor.sparse {
                 if sparse.count.0 > accessor.count.0 || sparse.count.0 == 0 {
-                    let message = format!("{} elements of {} are to be others.", sparse.count.0, accessor.count.0);
+                    let message = format!(
+                        "The sparse accessor replaces {} elements, but has {}.",
+                        sparse.count.0, accessor.count.0
+                    );
                     self.broken(at("/sparse/count"), message);
                 }
                 let views = [
@@ -222,8 +211,7 @@ impl<'a> Rules<'a> {
             self.refers(root.buffer_views(), "buffer view", image.buffer_view, || {
                 at("/bufferView")
             });
-            let is_data = |uri: &&String| !uri.starts_with("data:");
-            if let Some(Err(error)) = image.uri.as_ref().filter(is_data).map(|uri| Uri::parse(uri)) {
+            if let Some(Err(error)) = image.uri.as_ref().map(|uri| Uri::parse(uri)) {
                 self.broken(at("/uri"), format!("A picture is not read: {error}."));
             }
         }
@@ -306,6 +294,9 @@ impl<'a> Rules<'a> {
                 else {
                     continue;
                 };
+                if let Some(wanted) = Wanted::of_attribute(key) {
+                    self.whole_numbers(of_file, wanted, &pointer);
+                }
                 if count.is_some_and(|count| count != of_file.count) {
                     let message = format!(
                         "{key} has {} elements for {} vertices.",
@@ -454,6 +445,10 @@ impl<'a> Rules<'a> {
                 else {
                     continue;
                 };
+                if let (Path::Rotation, Some(values)) = (path, entry(root.accessors(), sampler.output)) {
+                    let pointer = format!("/animations/{animation}/samplers/{}/output", channel.sampler.0);
+                    self.whole_numbers(values, Wanted::Rotations, &pointer);
+                }
                 let count = |accessor| Some(entry(root.accessors(), accessor)?.count.0);
                 let each = if sampler.interpolation == Interpolation::CubicSpline {
                     3
@@ -481,36 +476,6 @@ impl<'a> Rules<'a> {
             }
         }
     }
-
-    fn cameras(&mut self) {
-        for (index, camera) in self.root.cameras().iter().enumerate() {
-            let sides = [camera.perspective.is_some(), camera.orthographic.is_some()];
-            let is_known = match camera.kind.as_deref() {
-                Some("perspective") => sides == [true, false],
-                Some("orthographic") => sides == [false, true],
-                _ => false,
-            };
-            let is_sound = |(near, far): (Option<f64>, Option<f64>), least: f64| {
-                near.is_some_and(|near| near >= least && far.is_none_or(|far| far > near))
-            };
-            let perspective = camera.perspective.as_ref().is_none_or(|camera| {
-                let near = camera.znear.filter(|&near| near > 0.0 && near.is_finite());
-                camera.yfov.is_some_and(|angle| angle > 0.0) && is_sound((near, camera.zfar), 0.0)
-            });
-            let orthographic = camera.orthographic.as_ref().is_none_or(|camera| {
-                let sides = [camera.xmag, camera.ymag]
-                    .iter()
-                    .all(|side| side.is_some_and(|side| side != 0.0));
-                sides && camera.zfar.is_some() && is_sound((camera.znear, camera.zfar), 0.0)
-            });
-            if !(is_known && perspective && orthographic) {
-                self.broken(
-                    format!("/cameras/{index}"),
-                    "A camera is not as glTF has them; cameras are not used.",
-                );
-            }
-        }
-    }
 }
 
 fn component_size(component: u64) -> Option<u64> {
@@ -533,7 +498,8 @@ fn numbers(kind: &str) -> u64 {
     }
 }
 
-fn is_attribute(key: &str) -> bool {
+/// Whether glTF has an attribute of this name, or leaves it to programs.
+pub(crate) fn is_attribute(key: &str) -> bool {
     let is_number = |text: &str| {
         !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit()) && (text == "0" || !text.starts_with('0'))
     };

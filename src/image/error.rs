@@ -35,8 +35,11 @@ pub enum ImageErrorKind {
     #[error("the file is empty")]
     Empty,
     /// Neither the first bytes nor the name say what it is.
-    #[error("this is none of DDS, PNG, JPEG, TGA and BMP")]
+    #[error("this is none of DDS, PNG, JPEG, WebP, TGA and BMP")]
     Unrecognized,
+    /// A picture of high range.
+    #[error("Radiance (.hdr) and OpenEXR (.exr) cannot be read yet; a cube map as .dds can")]
+    HighRange,
     /// Named `.dds`, but it does not begin like one.
     #[error("a DDS file begins with \"DDS \", and this one with \"{}\"", .0.escape_ascii())]
     DdsSignature([u8; 4]),
@@ -160,7 +163,7 @@ pub enum ImageErrorKind {
     /// A JPEG that stops in the middle.
     #[error("the JPEG file has no end marker: its last part is missing")]
     JpegCut,
-    /// PNG, JPEG, TGA or BMP that its decoder refuses.
+    /// PNG, JPEG, WebP, TGA or BMP that its decoder refuses.
     #[error("the {kind} file could not be read: {reason}")]
     Undecodable {
         /// What the file is.
@@ -175,7 +178,7 @@ impl ImageErrorKind {
     pub fn code(&self) -> &'static Code {
         match self {
             Self::Empty => &codes::IMAGE_EMPTY,
-            Self::Unrecognized => &codes::IMAGE_UNRECOGNIZED,
+            Self::Unrecognized | Self::HighRange => &codes::IMAGE_UNRECOGNIZED,
             Self::DdsSignature(_) => &codes::DDS_SIGNATURE,
             Self::DdsHeaderCut { .. } => &codes::DDS_HEADER_CUT,
             Self::DdsHeaderField { .. } => &codes::DDS_HEADER_FIELD,
@@ -230,6 +233,8 @@ pub enum FileKind {
     Png,
     /// JPEG.
     Jpeg,
+    /// WebP.
+    WebP,
     /// Truevision.
     Tga,
     /// Windows bitmap.
@@ -249,6 +254,9 @@ impl FileKind {
         if let Some((_, kind)) = signed {
             return Some(*kind);
         }
+        if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") {
+            return Some(Self::WebP);
+        }
         let extension = name
             .rsplit_once('.')
             .map(|(_, extension)| extension.to_ascii_lowercase());
@@ -267,6 +275,7 @@ impl fmt::Display for FileKind {
             Self::Dds => "DDS",
             Self::Png => "PNG",
             Self::Jpeg => "JPEG",
+            Self::WebP => "WebP",
             Self::Tga => "TGA",
             Self::Bmp => "BMP",
         })

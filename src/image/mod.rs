@@ -4,7 +4,7 @@
 //! bytes -> Image -> with_mips -> data (for the GPU)
 //!     decode              \----> to_rgba8, to_rgba32f (where the GPU lacks the format)
 //! ```
-//! DDS files are read here, header and all; their compressed blocks by `bcdec_rs`; PNG, JPEG, TGA and BMP by `image`.
+//! DDS files are read here, header and all; their compressed blocks by `bcdec_rs`; PNG, JPEG, WebP, TGA and BMP by `image`.
 //! No allocation trusts a header: sizes are compared with the length of the file first.
 
 mod blocks;
@@ -42,7 +42,7 @@ pub use picture::{Image, ImageKind};
 /// assert_eq!(red.to_rgba8(0, 0).as_deref(), Some([255, 0, 0, 255].as_slice()));
 ///
 /// let error = image::decode(b"hello", "textures/notes.png").unwrap_err();
-/// assert_eq!(error.to_string(), "textures/notes.png: this is none of DDS, PNG, JPEG, TGA and BMP");
+/// assert_eq!(error.to_string(), "textures/notes.png: this is none of DDS, PNG, JPEG, WebP, TGA and BMP");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn decode(bytes: &[u8], name: &str) -> Result<Image, ImageError> {
@@ -67,10 +67,11 @@ pub fn check(bytes: &[u8], name: &str) -> Result<(), ImageError> {
 }
 
 fn kind_of(bytes: &[u8], name: &str) -> Result<FileKind, ImageErrorKind> {
-    FileKind::of(bytes, name).ok_or(if bytes.is_empty() {
-        ImageErrorKind::Empty
-    } else {
-        ImageErrorKind::Unrecognized
+    let is_high_range = bytes.starts_with(b"#?") || bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]);
+    FileKind::of(bytes, name).ok_or(match bytes {
+        [] => ImageErrorKind::Empty,
+        _ if is_high_range => ImageErrorKind::HighRange,
+        _ => ImageErrorKind::Unrecognized,
     })
 }
 

@@ -1,4 +1,4 @@
-//! PNG, JPEG, TGA and BMP.
+//! PNG, JPEG, WebP, TGA and BMP.
 
 use std::io::Cursor;
 
@@ -101,6 +101,7 @@ fn format_of(kind: FileKind) -> image::ImageFormat {
         FileKind::Dds => image::ImageFormat::Dds,
         FileKind::Png => image::ImageFormat::Png,
         FileKind::Jpeg => image::ImageFormat::Jpeg,
+        FileKind::WebP => image::ImageFormat::WebP,
         FileKind::Tga => image::ImageFormat::Tga,
         FileKind::Bmp => image::ImageFormat::Bmp,
     }

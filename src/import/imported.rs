@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::diagnostic::Diagnostic;
 use crate::format::{Dialect, Document, LineMap};
+use crate::gltf::Effort;
 use crate::model::Model;
 
 /// Why a file makes no model.
@@ -30,6 +31,8 @@ pub struct Imported {
     pub lines: LineMap,
     /// Pictures inside the file, and those beside it that were given, as its materials name them.
     pub pictures: Vec<Picture>,
+    /// What reading took, where the format keeps account of it.
+    pub effort: Effort,
 }
 
 /// The kinds of files that are read.

@@ -6,9 +6,11 @@
 mod error;
 mod gltf;
 mod imported;
+mod keys;
 pub mod m3d;
 mod normals;
 mod tangents;
+mod weights;
 
 pub use error::{ImportError, ImportErrorKind};
 pub use imported::{FileFormat, Imported, Picture, Refused};

@@ -59,6 +59,8 @@ pub struct Model {
     pub up_axis: UpAxis,
     /// Which way characters of the file's format face.
     pub front: Front,
+    /// Whose work it is, in the words of the file.
+    pub copyright: Option<String>,
 }
 
 impl Model {

@@ -30,6 +30,9 @@ pub struct Skeleton {
 }
 
 impl Skeleton {
+    /// Joints that the 16 bits of a vertex of glTF can name.
+    pub const MOST_NAMED: usize = 1 << 16;
+
     /// A skeleton of joints in parents-first order; `joint_from_bind` are the inverse bind matrices, `file_bones` the
     /// number that each joint has in the file (an order of `0..joint_count`).
     ///

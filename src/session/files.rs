@@ -67,7 +67,7 @@ impl File {
     }
 
     /// Why a file of [`FileKind::Unread`] is not shown.
-    pub(super) fn unread_words(&self) -> String {
+    pub(crate) fn unread_words(&self) -> String {
         format!("{} cannot be read yet; a cube map as .dds can.", self.base_name())
     }
 
@@ -105,7 +105,7 @@ pub enum FileKind {
 pub const FILE_KINDS: [(FileKind, &[&str]); 5] = [
     (FileKind::Model, &["m3d", "glb", "gltf"]),
     (FileKind::Archive, &["zip"]),
-    (FileKind::Picture, &["dds", "png", "jpg", "jpeg", "tga", "bmp"]),
+    (FileKind::Picture, &["dds", "png", "jpg", "jpeg", "webp", "tga", "bmp"]),
     (FileKind::Buffer, &["bin"]),
     (FileKind::Unread, &["hdr", "exr"]),
 ];

@@ -160,6 +160,7 @@ impl OpenModel {
             document,
             lines,
             pictures,
+            effort: _,
         } = imported;
         let compiled = CompiledClip::all(&model.clips);
         diagnostics.extend(check::model(&model, &compiled, &lines));
@@ -202,18 +203,23 @@ impl OpenModel {
             let groups = [codes::OF_MESH_AND_RIG, codes::OF_MOTION];
             groups.iter().any(|group| group.iter().any(|row| row.name == name))
         };
-        let warnings = self.reading_warnings(clips);
-        warnings
-            .filter(move |warning| !is_check(warning.code) && !is_loss(warning))
+        let is_change = move |finding: &Diagnostic| {
+            finding.severity == Severity::Warning && !is_check(finding.code) && !is_loss(finding)
+        };
+        self.of_reading(clips, is_change)
             .map(|Loss { code, message, .. }| Change { code, message })
     }
 
     /// What of the file was left out while it was read, as losses: no file that is written has it. `clips` as for [`OpenModel::mended`].
     pub fn left_out(&self, clips: Option<&[String]>) -> impl Iterator<Item = Loss> {
-        self.reading_warnings(clips).filter(is_loss)
+        self.of_reading(clips, is_loss)
     }
 
-    fn reading_warnings(&self, clips: Option<&[String]>) -> impl Iterator<Item = Loss> {
+    fn of_reading(
+        &self,
+        clips: Option<&[String]>,
+        is_wanted: impl Fn(&Diagnostic) -> bool,
+    ) -> impl Iterator<Item = Loss> {
         let is_written = move |subject: &&Subject| match (clips, subject) {
             (Some(names), Subject::Clip(clip)) => {
                 let clip = self.model.clips.get(*clip as usize);
@@ -221,9 +227,8 @@ impl OpenModel {
             }
             _ => true,
         };
-        let all = self.diagnostics.iter();
-        let warnings = all.filter(|diagnostic| diagnostic.severity == Severity::Warning);
-        warnings.filter_map(move |warning| {
+        let wanted = self.diagnostics.iter().filter(move |finding| is_wanted(finding));
+        wanted.filter_map(move |warning| {
             let known = warning.subjects.len();
             let written = warning.subjects.iter().filter(is_written).count();
             let loss = |count, message| Loss {
@@ -327,12 +332,21 @@ impl OpenModel {
 }
 
 /// Whether a part of the file is not in the model.
-fn is_loss(warning: &Loss) -> bool {
+fn is_loss(finding: &Diagnostic) -> bool {
     let losses = [
+        &codes::GLTF_EXTENSION_UNKNOWN,
         &codes::GLTF_PRIMITIVE_LEFT_OUT,
         &codes::GLTF_MORPH_ANIMATION_LEFT_OUT,
+        &codes::GLTF_MORPH_TARGETS_LEFT_OUT,
+        &codes::GLTF_OBJECTS_MERGED,
+        &codes::GLTF_NODES_LEFT_OUT,
+        &codes::GLTF_SCENE_LEFT_OUT,
+        &codes::GLTF_EXTRAS_LEFT_OUT,
+        &codes::GLTF_ATTRIBUTE_LEFT_OUT,
+        &codes::GLTF_TRANSMISSION,
+        &codes::GLTF_CHANNEL_LEFT_OUT,
         &codes::GLTF_IMAGE_NOT_READ,
         &codes::WEIGHTS_CUT,
     ];
-    losses.iter().any(|code| code.name == warning.code)
+    losses.iter().any(|code| code.name == finding.code)
 }

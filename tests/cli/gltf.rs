@@ -182,3 +182,67 @@ fn real_files_go_every_way_and_to_the_books_demo() {
         }
     }
 }
+
+/// What reading leaves out, by the codes of its fixtures.
+const LEFT_OUT: [&str; 11] = [
+    "gltf-attribute-left-out",
+    "gltf-channel-left-out",
+    "gltf-extension-unknown",
+    "gltf-extras-left-out",
+    "gltf-morph-animation-left-out",
+    "gltf-morph-targets-left-out",
+    "gltf-nodes-left-out",
+    "gltf-objects-merged",
+    "gltf-primitive-left-out",
+    "gltf-scene-left-out",
+    "gltf-transmission",
+];
+
+#[test]
+fn what_reading_leaves_out_is_a_loss_whatever_is_written() {
+    for code in LEFT_OUT {
+        let file = fixture(&format!("check/{code}.gltf"));
+        let [glb, m3d, twice] = ["glb", "m3d", "twice.glb"].map(|end| out(&format!("{code}.{end}")));
+        for output in [&glb, &m3d] {
+            let denied = run(["convert", &file, output, "--deny", "losses", "--json"]);
+            assert_eq!(denied.code, Some(1), "{code}");
+            assert!(!std::path::Path::new(output).exists(), "{code}");
+            let told: Value = serde_json::from_str(&denied.out).expect("is JSON");
+            let losses = told["losses"].as_array().expect("a list");
+            assert!(losses.iter().any(|loss| loss["code"] == code), "{code}: {losses:?}");
+            run(["convert", &file, output]).fine();
+        }
+        // What was written of it has nothing more to lose.
+        run(["convert", &glb, &twice, "--deny", "losses"]).fine();
+    }
+}
+
+#[test]
+fn a_line_of_copyright_goes_into_a_glb_and_is_told_for_the_books() {
+    let text = std::fs::read(fixture("check/gltf-extras-left-out.gltf")).expect("it is there");
+    let mut file: Value = serde_json::from_slice(&text).expect("is JSON");
+    file["asset"]["copyright"] = json!("(c) \"Me\"");
+    let [input, glb, again, m3d] = [
+        "copyright.gltf",
+        "copyright.glb",
+        "copyright.again.glb",
+        "copyright.m3d",
+    ]
+    .map(out);
+    std::fs::write(&input, file.to_string()).expect("can be written");
+    run(["convert", &input, &glb]).fine();
+    run(["convert", &glb, &again]).fine();
+    for written in [glb, again] {
+        let bytes = std::fs::read(written).expect("was written");
+        let length = u32::from_le_bytes([bytes[12], bytes[13], bytes[14], bytes[15]]) as usize;
+        let root: Value = serde_json::from_slice(&bytes[20..20 + length]).expect("is JSON");
+        assert_eq!(root["asset"]["copyright"], "(c) \"Me\"");
+    }
+    let told = run(["convert", &input, &m3d, "--json"]).json();
+    let losses = told["losses"].as_array().expect("a list");
+    let loss = losses
+        .iter()
+        .find(|loss| loss["code"] == "copyright")
+        .expect("it is told");
+    assert_eq!(loss["message"], "The line of copyright is left out: \"(c) \"Me\"\".");
+}

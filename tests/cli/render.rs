@@ -399,12 +399,22 @@ fn a_cube_map_is_the_sky_by_its_own_option_and_only_noted_among_textures() {
 
     save_texel(folder.join("flat.png"));
     let flat = folder.join("flat.png");
+    let radiance = folder.join("studio.hdr");
+    std::fs::write(&radiance, "#?RADIANCE\n").expect("writes");
+    let unread = "Radiance (.hdr) and OpenEXR (.exr) cannot be read yet; a cube map as .dds can";
+    let checked = run(["check", FIGURE, "--textures", folder.to_str().expect("UTF-8")]);
+    let line = format!(
+        "{}: warning[image-unrecognized]: studio.hdr cannot be read yet; a cube map as .dds can.\n",
+        radiance.display()
+    );
+    assert!(checked.err.contains(&line), "{checked:?}");
     for (wrong, words) in [
+        (radiance.to_str().expect("UTF-8"), unread),
         (
             flat.to_str().expect("UTF-8"),
             "flat.png is a flat picture; --sky takes a cube map",
         ),
-        (FIGURE, "this is none of DDS, PNG, JPEG, TGA and BMP"),
+        (FIGURE, "this is none of DDS, PNG, JPEG, WebP, TGA and BMP"),
         ("/no/such.dds", "/no/such.dds cannot be read"),
     ] {
         let refused = run(["render", FIGURE, "-o", "nothing.png", "--sky", wrong]);

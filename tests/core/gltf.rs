@@ -4,11 +4,14 @@ mod banner;
 mod clips;
 mod forms;
 mod hostile;
+mod limits;
 mod materials;
 mod meshes;
 mod real_files;
 mod session;
 mod skins;
+mod text;
+mod told;
 mod validator;
 
 use bindpose::anim::{CompiledClip, PoseBuffers, skin_positions};

@@ -2,6 +2,7 @@
 
 mod clips;
 mod codes;
+mod curve;
 mod errors;
 mod geometry;
 mod influences;

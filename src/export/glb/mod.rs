@@ -21,7 +21,7 @@ mod space;
 use serde_json::{Value, json};
 
 use super::{ExportError, Exported, MapImages};
-use crate::model::{Front, Green, JointNames, MapSlot, Model};
+use crate::model::{Front, Green, JointNames, MapSlot, Model, Skeleton};
 use binary::Binary;
 use space::Space;
 
@@ -35,7 +35,7 @@ const BINARY_CHUNK: u32 = 0x004e_4942;
 /// Writes a model as a `.glb` file, right-handed and y up, facing +z; lengths stay. `names` are names that a person gave to bones.
 ///
 /// # Errors
-/// When a picture cannot be written, or the file would have more than 4 GiB.
+/// When a picture cannot be written, there are more joints than a vertex can name, or the file would have more than 4 GiB.
 pub fn glb(model: &Model, names: &JointNames, maps: &MapImages<'_>) -> Result<Exported, ExportError> {
     glb_with(model, names, maps, EncodedMaps::default())
 }
@@ -70,7 +70,14 @@ pub fn glb_with(
         "asset": { "version": "2.0", "generator": concat!("Bindpose ", env!("CARGO_PKG_VERSION")) },
         "scene": 0,
     });
+    if let Some(copyright) = &model.copyright {
+        root["asset"]["copyright"] = json!(copyright);
+    }
     let bones = skeleton::bones(model, names, &space, &mut binary);
+    let joint_count = model.skeleton.joint_count() + usize::from(bones.unmoving.is_some());
+    if joint_count > Skeleton::MOST_NAMED {
+        return Err(ExportError::TooManyJoints(joint_count));
+    }
     let mut nodes = bones.nodes;
     let mut scene_nodes = bones.roots;
     let turned = turned_materials(model, maps);

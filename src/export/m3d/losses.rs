@@ -24,6 +24,12 @@ const MOST_VERTICES: usize = 1 << 16;
 /// What a file of this dialect does not hold of a model, or holds otherwise. `names` are names that a person gave to bones.
 pub fn m3d_losses(model: &Model, names: &JointNames, dialect: Dialect) -> Vec<Loss> {
     let mut losses = Losses::default();
+    let copyright = model.copyright.as_deref().unwrap_or_default();
+    losses.add(
+        "copyright",
+        usize::from(model.copyright.is_some()),
+        format!("The line of copyright is left out: \"{copyright}\"."),
+    );
     space(model, dialect, &mut losses);
     mesh(model, &mut losses);
     skeleton(model, names, &mut losses);

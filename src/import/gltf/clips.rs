@@ -6,18 +6,13 @@ use glam::{Quat, Vec3, Vec4};
 
 use super::skeleton::Rig;
 use crate::diagnostic::collect::{Diagnostics, Moments, Place, counted};
-use crate::diagnostic::{Code, Moment, Subject, codes};
-use crate::gltf::{Animation, Fault, Interpolation, Path, Reader, Root, fault, out_of_range};
+use crate::diagnostic::{Code, Subject, codes};
+use crate::gltf::{Animation, Fault, Interpolation, Path, Reader, Root, Wanted, fault, out_of_range};
+use crate::import::keys::{self, Mended};
 use crate::model::{
     Clip, Curve, CurveValue, Curves, LocalJoint, ModelError, Track, part_of_way, rotation_between, unique_names,
     unit_rotation, vector_between,
 };
-
-/// A rotation whose length is off by more than this was not meant to be rounded.
-const UNIT_TOLERANCE: f32 = 1e-3;
-
-/// Thirty years: a time beyond it is no time, and its next neighbour could not be told from it.
-const MAX_TIME_SECS: f32 = 1e9;
 
 /// More tracks than this do not come from a file of a character.
 const MAX_TRACKS: usize = 1_000_000;
@@ -49,7 +44,7 @@ pub(super) fn clips(
             reader,
             rig,
             diagnostics,
-            mended: Mended::default(),
+            noted: Noted::default(),
         };
         if let Some(tracks) = clip.read(animation)? {
             read.push((index, tracks));
@@ -81,14 +76,12 @@ struct Parts {
     scale: Option<Part<Vec3>>,
 }
 
-/// What is mended in the keys of a clip, counted over its channels.
+/// What is noted of a clip, counted over its channels.
 #[derive(Default)]
-struct Mended {
-    unsorted: Moments,
-    equal_times: Moments,
-    not_finite: Moments,
-    not_unit: Moments,
-    zero_rotation: Moments,
+struct Noted {
+    mended: Mended,
+    negative: Moments,
+    overflowing: usize,
     elsewhere: usize,
     morphs: usize,
 }
@@ -100,7 +93,7 @@ struct ClipReader<'a> {
     reader: &'a Reader<'a>,
     rig: &'a Rig,
     diagnostics: &'a mut Diagnostics,
-    mended: Mended,
+    noted: Noted,
 }
 
 impl ClipReader<'_> {
@@ -110,7 +103,7 @@ impl ClipReader<'_> {
         for (channel, of_file) in animation.channels.iter().enumerate() {
             let pointer = format!("/animations/{}/channels/{channel}", self.index);
             let Some(node) = of_file.target.node else {
-                self.mended.elsewhere += 1;
+                self.noted.elsewhere += 1;
                 continue;
             };
             let nodes = self.root.nodes().len();
@@ -120,33 +113,34 @@ impl ClipReader<'_> {
             let joint = match (of_file.target.path, self.rig.joint_of_node[index]) {
                 (Path::Translation | Path::Rotation | Path::Scale, Some(joint)) => joint,
                 (Path::Weights, _) => {
-                    self.mended.morphs += 1;
+                    self.noted.morphs += 1;
                     continue;
                 }
                 _ => {
-                    self.mended.elsewhere += 1;
+                    self.noted.elsewhere += 1;
                     continue;
                 }
             };
             let parts = parts.entry(joint).or_default();
             let sampler = of_file.sampler.0;
-            match of_file.target.path {
+            let overflows = match of_file.target.path {
                 Path::Translation => set(
                     &mut parts.translation,
-                    || self.keys(animation, sampler, &pointer, joint, false),
+                    || self.keys(animation, sampler, &pointer, joint, Wanted::Floats),
                     Vec3::from_array,
                 )?,
                 Path::Scale => set(
                     &mut parts.scale,
-                    || self.keys(animation, sampler, &pointer, joint, false),
+                    || self.keys(animation, sampler, &pointer, joint, Wanted::Floats),
                     Vec3::from_array,
                 )?,
                 _ => set(
                     &mut parts.rotation,
-                    || self.keys(animation, sampler, &pointer, joint, true),
+                    || self.keys(animation, sampler, &pointer, joint, Wanted::Rotations),
                     Vec4::from_array,
                 )?,
             };
+            self.noted.overflowing += usize::from(overflows);
         }
         self.note();
         if parts.values().all(Parts::is_empty) {
@@ -171,7 +165,7 @@ impl ClipReader<'_> {
         sampler: u64,
         pointer: &str,
         joint: u32,
-        are_rotations: bool,
+        wanted: Wanted,
     ) -> Result<Keys<N>, Fault> {
         let samplers = &animation.samplers;
         let Some((index, of_file)) = usize::try_from(sampler)
@@ -186,11 +180,9 @@ impl ClipReader<'_> {
             ));
         };
         let at = format!("/animations/{}/samplers/{index}", self.index);
-        let times = self
-            .reader
-            .floats::<1>(of_file.input, &format!("{at}/input"))?
-            .into_flattened();
-        let values: Vec<[f32; N]> = self.reader.floats(of_file.output, &format!("{at}/output"))?;
+        let reader = self.reader;
+        let times = reader.floats::<1>(of_file.input, Wanted::Floats, &format!("{at}/input"))?;
+        let values: Vec<[f32; N]> = reader.floats(of_file.output, wanted, &format!("{at}/output"))?;
         let each = if of_file.interpolation == Interpolation::CubicSpline {
             3
         } else {
@@ -202,22 +194,23 @@ impl ClipReader<'_> {
         };
         let mut rows = Vec::with_capacity(times.len());
         let bone = self.rig.skeleton.file_bones()[joint as usize];
-        for (&time_secs, group) in times.iter().zip(values.chunks_exact(each)) {
+        for (&[time_secs], group) in times.iter().zip(values.chunks_exact(each)) {
             let (mut value, slopes) = slopes(group);
             let is_sound = group.as_flattened().iter().all(|number| number.is_finite());
-            if !is_sound || time_secs.is_nan() || time_secs.abs() > MAX_TIME_SECS {
-                add(&mut self.mended.not_finite, bone, time_secs);
+            if !is_sound || !keys::is_time(time_secs) {
+                add(&mut self.noted.mended.not_finite, bone, time_secs);
                 continue;
             }
-            if are_rotations && each == 1 {
-                value = self.mended.rotation(bone, time_secs, value);
+            if time_secs < 0.0 {
+                add(&mut self.noted.negative, bone, time_secs);
+            }
+            if let (Wanted::Rotations, Some(stored)) = (wanted, value.first_chunk()) {
+                let count = |moments: &mut Moments| add(moments, bone, time_secs);
+                let rotation = self.noted.mended.rotation(Quat::from_array(*stored), count);
+                value.copy_from_slice(&rotation.to_array());
             }
             // Adding 0 makes −0 and 0 the same time for the sort as well.
-            rows.push((time_secs + 0.0, value, slopes));
-        }
-        if let Some(early) = rows.windows(2).find(|two| two[0].0 > two[1].0) {
-            add(&mut self.mended.unsorted, bone, early[1].0);
-            rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+            rows.push((time_secs + 0.0, (value, slopes)));
         }
         Ok(Keys {
             interpolation: if rows.len() == 1 {
@@ -225,77 +218,49 @@ impl ClipReader<'_> {
             } else {
                 of_file.interpolation
             },
-            rows: self.mended.apart(bone, rows),
+            rows: self
+                .noted
+                .mended
+                .in_order(rows, |moments, key| add(moments, bone, key.0)),
         })
     }
 
     fn note(&mut self) {
-        let Mended {
-            unsorted,
-            equal_times,
-            not_finite,
-            not_unit,
-            zero_rotation,
-            elsewhere,
-            morphs,
-        } = std::mem::take(&mut self.mended);
+        let noted = std::mem::take(&mut self.noted);
         let place = Place::pointer(format!("/animations/{}", self.index)).about(Subject::Clip(self.clip));
-        let mut note = |code: &Code, moments: &Moments, [one, many]: [&str; 2], what: &str, done: &str| {
-            if moments.count > 0 {
-                let (counted, first) = (counted(moments.count, one, many), moments.first_in_words());
-                let place = place.clone().at(moments.first());
-                self.diagnostics
-                    .add(code, place, format!("{counted} {what}{first}; {done}."));
-            }
+        let mut tell = |code: &Code, moments: &Moments, message| {
+            self.diagnostics.add(code, place.clone().at(moments.first()), message);
         };
-        let keys = ["key has", "keys have"];
-        note(
-            &codes::KEYS_NOT_FINITE,
-            &not_finite,
-            keys,
-            "a number that is not finite or a time beyond 10⁹ s",
-            "left out",
-        );
-        note(
-            &codes::KEYS_NOT_SORTED,
-            &unsorted,
-            ["sampler has", "samplers have"],
-            "keys that are not in the order of time",
-            "sorted",
-        );
-        note(
-            &codes::KEYS_AT_EQUAL_TIMES,
-            &equal_times,
-            keys,
-            "the time of the key before",
-            "the first and the last key of a time are kept as a jump",
-        );
-        note(
-            &codes::ROTATION_NOT_UNIT,
-            &not_unit,
-            keys,
-            "a rotation that is not of unit length",
-            "normalised",
-        );
-        note(
-            &codes::ROTATION_ZERO,
-            &zero_rotation,
-            keys,
-            "a rotation of length 0",
-            "taken as no rotation",
-        );
-        let mut note = |code: &Code, count: usize, what: &str| {
+        noted.mended.tell(["sampler has", "samplers have"], &mut tell);
+        if noted.negative.count > 0 {
+            let (who, what) = (["key has", "keys have"], "a time below 0, which glTF does not have");
+            let message = keys::in_words(&noted.negative, who, what, "kept where they are");
+            tell(&codes::GLTF_RULE_BROKEN, &noted.negative, message);
+        }
+        let mut note = |code: &Code, count: usize, [one, many]: [&str; 2], what: &str| {
             if count > 0 {
-                let move_what = counted(count, "channel moves", "channels move");
-                self.diagnostics
-                    .add(code, place.clone(), format!("{move_what} {what}; left out."));
+                let message = format!("{} {what}.", counted(count, one, many));
+                self.diagnostics.add(code, place.clone(), message);
             }
         };
-        note(&codes::GLTF_CHANNEL_LEFT_OUT, elsewhere, "something that is not shown");
+        let move_what = ["channel moves", "channels move"];
+        note(
+            &codes::GLTF_RULE_BROKEN,
+            noted.overflowing,
+            ["channel follows", "channels follow"],
+            "a spline whose numbers overflow between its keys; taken as straight",
+        );
+        note(
+            &codes::GLTF_CHANNEL_LEFT_OUT,
+            noted.elsewhere,
+            move_what,
+            "something that is not shown; left out",
+        );
         note(
             &codes::GLTF_MORPH_ANIMATION_LEFT_OUT,
-            morphs,
-            "the weights of morph targets",
+            noted.morphs,
+            move_what,
+            "shape keys (morph targets); left out",
         );
     }
 }
@@ -306,83 +271,39 @@ struct Keys<const N: usize> {
     rows: Vec<Row<N>>,
 }
 
-type Row<const N: usize> = (f32, [f32; N], [[f32; N]; 2]);
+type Row<const N: usize> = (f32, ([f32; N], [[f32; N]; 2]));
 
-/// Sets a part of a joint that has none yet.
+/// Sets a part of a joint that has none yet. Whether it is a spline that overflows between its keys, and was set straight.
 fn set<T: CurveValue, const N: usize>(
     part: &mut Option<Part<T>>,
     keys: impl FnOnce() -> Result<Keys<N>, Fault>,
     value: impl Fn([f32; N]) -> T,
-) -> Result<(), Fault> {
+) -> Result<bool, Fault> {
     if part.is_some() {
-        return Ok(());
+        return Ok(false);
     }
     let Keys { interpolation, rows } = keys()?;
     if rows.is_empty() {
-        return Ok(());
+        return Ok(false);
     }
-    let rows = rows.into_iter();
+    let straight = || rows.iter().map(|&(time_secs, (stored, _))| (time_secs, value(stored)));
+    let splines = rows
+        .iter()
+        .map(|&(time_secs, (stored, slopes))| (time_secs, value(stored), slopes.map(&value)));
+    // The keys were mended before: only a spline can still be none.
     let curve = match interpolation {
-        Interpolation::Linear | Interpolation::Unknown => {
-            *part = Some(Part::Straight(
-                rows.map(|(time_secs, stored, _)| (time_secs, value(stored))).collect(),
-            ));
-            return Ok(());
-        }
-        Interpolation::Step => Curve::step(rows.map(|(time_secs, stored, _)| (time_secs, value(stored)))),
-        Interpolation::CubicSpline => {
-            Curve::cubic(rows.map(|(time_secs, stored, slopes)| (time_secs, value(stored), slopes.map(&value))))
-        }
+        Interpolation::Linear | Interpolation::Unknown => None,
+        Interpolation::Step => Curve::step(straight()).ok(),
+        Interpolation::CubicSpline => Curve::cubic(splines).ok(),
     };
-    // The keys were mended before.
-    *part = Some(Part::Curved(curve.map_err(|rule| Box::new(rule.diagnostic()))?));
-    Ok(())
+    let overflows = interpolation == Interpolation::CubicSpline && curve.is_none();
+    *part = Some(curve.map_or_else(|| Part::Straight(straight().collect()), Part::Curved));
+    Ok(overflows)
 }
 
-/// Counts a key of a bone. Its time is known where it is one.
+/// Counts a key of a bone.
 fn add(moments: &mut Moments, bone: u32, time_secs: f32) {
-    let moment = Moment {
-        time_secs: Some(time_secs).filter(|time_secs| time_secs.abs() <= MAX_TIME_SECS),
-        bone: Some(bone),
-    };
-    moments.add(moment, || None);
-}
-
-impl Mended {
-    fn rotation<const N: usize>(&mut self, bone: u32, time_secs: f32, stored: [f32; N]) -> [f32; N] {
-        let length = stored.iter().map(|part| part * part).sum::<f32>().sqrt();
-        if (length - 1.0).abs() > UNIT_TOLERANCE {
-            if length > 1e-6 {
-                add(&mut self.not_unit, bone, time_secs);
-            } else {
-                add(&mut self.zero_rotation, bone, time_secs);
-                let mut none = [0.0; N];
-                none[N - 1] = 1.0;
-                return none;
-            }
-        }
-        stored
-    }
-
-    /// Of keys at one time the first ends the motion before it and the last begins the motion after it; those between are never
-    /// seen. The last is moved to the next time that a number can name.
-    fn apart<const N: usize>(&mut self, bone: u32, rows: Vec<Row<N>>) -> Vec<Row<N>> {
-        if rows.is_sorted_by(|a, b| a.0 < b.0) {
-            return rows;
-        }
-        let mut kept: Vec<Row<N>> = Vec::with_capacity(rows.len());
-        for group in rows.chunk_by(|a, b| a.0 == b.0) {
-            let (time_secs, value, slopes) = group[group.len() - 1];
-            (1..group.len()).for_each(|_| add(&mut self.equal_times, bone, time_secs));
-            if kept.last().is_none_or(|before| before.0 < time_secs) {
-                kept.push(group[0]);
-            }
-            if group.len() > 1 {
-                kept.push((time_secs.next_up(), value, slopes));
-            }
-        }
-        kept
-    }
+    keys::add(moments, bone, time_secs, || None);
 }
 
 impl<T: CurveValue> Part<T> {
@@ -423,13 +344,7 @@ impl Parts {
     }
 
     /// A track with a key at each time of a part. Straight parts stay straight, so the keys that this adds to them change nothing.
-    fn track(mut self, rest: LocalJoint) -> Result<Track, ModelError> {
-        // Before anything is read between them, so that the track's keys say the same of the times between.
-        if let Some(Part::Straight(keys)) = &mut self.rotation {
-            for (_, value) in keys {
-                *value = unit_rotation(Quat::from_vec4(*value)).unwrap_or(rest.rotation).into();
-            }
-        }
+    fn track(self, rest: LocalJoint) -> Result<Track, ModelError> {
         let times = [
             self.translation.as_ref().map(Part::times_secs),
             self.rotation.as_ref().map(Part::times_secs),

@@ -1,11 +1,11 @@
 //! Pictures inside the file, and the names by which materials find them and those beside it.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
-use std::sync::Arc;
 
 use crate::diagnostic::codes;
 use crate::diagnostic::collect::{Diagnostics, Place};
-use crate::gltf::{Buffers, FindFile, Root, Uri};
+use crate::gltf::{Buffers, Fault, FindFile, Reader, Root, Uri};
 use crate::import::Picture;
 use crate::model::unique_names;
 
@@ -18,47 +18,55 @@ pub(super) struct Images {
 }
 
 /// An image as the document has it.
-enum Found {
-    /// A path beside the file, and its bytes where they were asked for.
-    Beside(String, Option<Arc<[u8]>>),
-    /// Bytes in the file, of a kind with this extension. `same_as` is an earlier image with the same bytes.
+enum Found<'a> {
+    /// A path beside the file.
+    Beside(String),
+    /// Bytes in the file, of a kind with this extension.
     Inside {
-        bytes: Vec<u8>,
+        bytes: Cow<'a, [u8]>,
         extension: &'static str,
         stem: String,
     },
-    /// The same bytes as an earlier image.
+    /// The same bytes or the same path as an earlier image.
     Same(usize),
     None,
 }
 
 impl Images {
     /// Reads the images that textures use.
+    ///
+    /// # Errors
+    /// When they are far more together than the file holds.
     pub(super) fn read(
         root: &Root,
-        buffers: &Buffers<'_>,
+        reader: &Reader<'_>,
         find_file: FindFile<'_>,
         diagnostics: &mut Diagnostics,
-    ) -> Self {
+    ) -> Result<Self, Fault> {
         let mut is_used = vec![false; root.images().len()];
         for texture in root.textures() {
-            let source = texture.source.and_then(|source| usize::try_from(source.0).ok());
+            let source = texture.image().and_then(|source| usize::try_from(source.0).ok());
             if let Some(used) = source.and_then(|source| is_used.get_mut(source)) {
                 *used = true;
             }
         }
-        let mut views = HashMap::new();
-        let found: Vec<Found> = (0..root.images().len())
-            .map(|index| match find(root, buffers, index, &mut views, diagnostics) {
-                _ if !is_used[index] => Found::None,
-                Found::Beside(path, _) => Found::Beside(path.clone(), find_file(&path)),
-                found => found,
-            })
-            .collect();
+        let mut known = Known::default();
+        let mut found = Vec::with_capacity(is_used.len());
+        for (index, is_used) in is_used.into_iter().enumerate() {
+            let image = if is_used {
+                find(root, reader.buffers(), index, &mut known, diagnostics)
+            } else {
+                Found::None
+            };
+            if let Found::Inside { bytes, .. } = &image {
+                reader.keep(bytes.len() as u64, format_args!("/images/{index}"))?;
+            }
+            found.push(image);
+        }
         let wished = found.iter().map(|found| match found {
             Found::Inside { extension, stem, .. } => format!("{stem}.{extension}"),
             // They are found by their base names, which no picture inside the file should have.
-            Found::Beside(path, _) => path.rsplit('/').next().unwrap_or(path).to_owned(),
+            Found::Beside(path) => path.rsplit('/').next().unwrap_or(path).to_owned(),
             Found::Same(_) | Found::None => String::new(),
         });
         let stems: Vec<String> = wished.map(|name| stem(&name).to_lowercase()).collect();
@@ -68,43 +76,44 @@ impl Images {
             pictures: Vec::new(),
         };
         for ((found, wish), unique) in found.into_iter().zip(&stems).zip(unique) {
-            let name = match found {
-                Found::Beside(path, bytes) => {
-                    images.pictures.extend(bytes.map(|bytes| Picture {
-                        name: path.clone(),
-                        bytes,
-                    }));
-                    Some(path)
+            let (name, bytes) = match found {
+                Found::Beside(path) => {
+                    let bytes = find_file(&path);
+                    (Some(path), bytes)
                 }
-                Found::Same(other) => images.names.get(other).cloned().flatten(),
-                Found::None => None,
+                Found::Same(other) => (images.names.get(other).cloned().flatten(), None),
+                Found::None => (None, None),
                 Found::Inside { bytes, extension, stem } => {
                     // What makes it unique follows the name as it is spelt.
                     let number = unique.strip_prefix(wish.as_str()).unwrap_or_default();
-                    let name = format!("{stem}{number}.{extension}");
-                    images.pictures.push(Picture {
-                        name: name.clone(),
-                        bytes: bytes.into(),
-                    });
-                    Some(name)
+                    (Some(format!("{stem}{number}.{extension}")), Some(bytes.into()))
                 }
             };
+            let picture = name.clone().zip(bytes).map(|(name, bytes)| Picture { name, bytes });
+            images.pictures.extend(picture);
             images.names.push(name);
         }
-        images
+        Ok(images)
     }
 }
 
-fn find(
-    root: &Root,
-    buffers: &Buffers<'_>,
+/// The first image of each buffer view and of each path.
+#[derive(Default)]
+struct Known {
+    views: HashMap<u64, usize>,
+    paths: HashMap<String, usize>,
+}
+
+fn find<'a>(
+    root: &'a Root,
+    buffers: &'a Buffers<'_>,
     index: usize,
-    views: &mut HashMap<u64, usize>,
+    known: &mut Known,
     diagnostics: &mut Diagnostics,
-) -> Found {
+) -> Found<'a> {
     let image = &root.images()[index];
     let pointer = format!("/images/{index}");
-    let not_read = |diagnostics: &mut Diagnostics, key: &str, why: String| {
+    let not_read = |diagnostics: &mut Diagnostics, key: &str, why: &str| {
         let place = Place::pointer(format!("{pointer}{key}"));
         let message = format!("Image {index} is not read: {why}.");
         diagnostics.add(&codes::GLTF_IMAGE_NOT_READ, place, message);
@@ -113,34 +122,31 @@ fn find(
     // What a data URI says that it is.
     let mut kind = "image/png";
     let (bytes, key) = match (&image.uri, image.buffer_view) {
-        (None, None) => return not_read(diagnostics, "", "it has neither an address nor data".to_owned()),
+        (None, None) => return not_read(diagnostics, "", "it has neither an address nor data"),
         (Some(uri), _) => match Uri::parse(uri) {
-            Ok(Uri::Path(path)) => return Found::Beside(path, None),
+            Ok(Uri::Path(path)) => match *known.paths.entry(path.clone()).or_insert(index) {
+                first if first < index => return Found::Same(first),
+                _ => return Found::Beside(path),
+            },
             Ok(Uri::Data { media_type, bytes }) => {
                 kind = media_type;
-                (bytes, "/uri")
+                (Cow::Owned(bytes), "/uri")
             }
-            Err(error) => return not_read(diagnostics, "/uri", error.to_string()),
+            Err(error) => return not_read(diagnostics, "/uri", &error.to_string()),
         },
         (None, Some(view)) => {
-            if let Some(&other) = views.get(&view.0) {
-                return Found::Same(other);
+            let first = *known.views.entry(view.0).or_insert(index);
+            if first < index {
+                return Found::Same(first);
             }
-            views.insert(view.0, index);
             match buffers.view(view, format_args!("{pointer}/bufferView")) {
-                Ok((bytes, _)) => (bytes.to_vec(), "/bufferView"),
-                Err(fault) => {
-                    return not_read(
-                        diagnostics,
-                        "/bufferView",
-                        fault.message.trim_end_matches('.').to_owned(),
-                    );
-                }
+                Ok((bytes, _)) => (Cow::Borrowed(bytes), "/bufferView"),
+                Err(fault) => return not_read(diagnostics, "/bufferView", fault.message.trim_end_matches('.')),
             }
         }
     };
     let extension = extension_of(&bytes);
-    if extension.is_some() && !["image/png", "image/jpeg"].contains(&kind) {
+    if extension.is_some() && !["image/png", "image/jpeg", "image/webp"].contains(&kind) {
         let message = format!("\"{kind}\" is no kind of picture that glTF has; it is read by its bytes.");
         diagnostics.add(
             &codes::GLTF_RULE_BROKEN,
@@ -149,7 +155,7 @@ fn find(
         );
     }
     let Some(extension) = extension else {
-        return not_read(diagnostics, key, "it is neither PNG nor JPEG".to_owned());
+        return not_read(diagnostics, key, "it is none of PNG, JPEG and WebP");
     };
     let name = image.name.as_deref().unwrap_or_default().replace(['/', '\\'], "_");
     let stem = match stem(name.trim()) {
@@ -168,14 +174,16 @@ fn extension_of(bytes: &[u8]) -> Option<&'static str> {
         (b"BM", "bmp"),
     ];
     let kind = kinds.into_iter().find(|(magic, _)| bytes.starts_with(magic));
-    kind.map(|(_, extension)| extension)
+    let webp = (bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP")).then_some("webp");
+    kind.map(|(_, extension)| extension).or(webp)
 }
 
 /// A name without the extension of a picture.
 fn stem(name: &str) -> &str {
     match name.rsplit_once('.') {
         Some((stem, extension))
-            if ["png", "jpg", "jpeg", "dds", "bmp", "tga"].contains(&extension.to_ascii_lowercase().as_str()) =>
+            if ["png", "jpg", "jpeg", "webp", "dds", "bmp", "tga"]
+                .contains(&extension.to_ascii_lowercase().as_str()) =>
         {
             stem
         }

@@ -2,16 +2,14 @@
 
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Diagnostic, Subject, codes};
-use crate::gltf::{Fault, Primitive, Reader};
+use crate::gltf::{Fault, Primitive, Reader, Wanted};
+use crate::import::weights::{Mended, SUM_TOLERANCE};
 use crate::model::Influences;
 
-/// A sum of weights that is off by more than this was not meant to be rounded.
-const SUM_TOLERANCE: f64 = 1e-3;
-
-/// The weights of a primitive.
+/// The weights of a primitive on a skin.
 pub(super) struct Weighted<'a> {
-    pub(super) reader: &'a Reader<'a>,
-    pub(super) part: &'a Primitive,
+    /// What [`sets`] read of the primitive.
+    pub(super) sets: &'a [Set],
     /// The joint of each slot of the skin.
     pub(super) joints: &'a [u32],
     pub(super) first_vertex: u32,
@@ -21,34 +19,55 @@ pub(super) struct Weighted<'a> {
 /// What is noted of all vertices.
 #[derive(Default)]
 pub(super) struct Noted {
-    off_sum: Tally,
-    unweighted: Tally,
-    invalid: Tally,
+    mended: Mended,
     cut: Tally,
     /// The greatest part of a vertex's weights that was left out.
     most_lost: f64,
 }
 
 /// Joints and weights of all vertices, four of each.
-type Set = (Vec<[u32; 4]>, Vec<[f32; 4]>);
+pub(super) type Set = (Vec<[u32; 4]>, Vec<[f32; 4]>);
+
+/// `JOINTS_0` with `WEIGHTS_0`, `JOINTS_1` with `WEIGHTS_1` and so on, of `count` vertices.
+///
+/// # Errors
+/// When the numbers are of the wrong kind, or are not there.
+pub(super) fn sets(reader: &Reader<'_>, part: &Primitive, count: usize, pointer: &str) -> Result<Vec<Set>, Fault> {
+    let mut sets = Vec::new();
+    for number in 0.. {
+        let keys = [format!("JOINTS_{number}"), format!("WEIGHTS_{number}")];
+        let [joints, weights] = keys.each_ref().map(|key| part.attributes.get(key));
+        let (Some(&joints), Some(&weights)) = (joints, weights) else {
+            break;
+        };
+        let at = |key: &str| format!("{pointer}/attributes/{key}");
+        let joints = reader.whole::<4>(joints, &at(&keys[0]))?;
+        let weights = reader.floats::<4>(weights, Wanted::Fractions, &at(&keys[1]))?;
+        if joints.len() < count || weights.len() < count {
+            break;
+        }
+        sets.push((joints, weights));
+    }
+    Ok(sets)
+}
 
 impl Weighted<'_> {
     /// The influences of `count` vertices.
     ///
     /// # Errors
-    /// When the numbers are of the wrong kind, or a vertex gives weight to a joint that the skin does not have.
+    /// When a vertex gives weight to a joint that the skin does not have.
     pub(super) fn read(&self, count: usize, noted: &mut Noted) -> Result<Vec<Influences>, Fault> {
-        let sets = self.sets(count)?;
+        let sets = self.sets;
         let mut pairs = Vec::with_capacity(4 * sets.len());
         let mut all = Vec::with_capacity(count);
         for vertex in 0..count {
-            let influences = match &sets[..] {
+            let influences = match sets {
                 [set] => self.of_one_set(set, vertex),
                 _ => None,
             };
             all.push(match influences {
                 Some(influences) => influences,
-                None => self.influences(vertex, &sets, &mut pairs, noted)?,
+                None => self.influences(vertex, &mut pairs, noted)?,
             });
         }
         Ok(all)
@@ -78,37 +97,11 @@ impl Weighted<'_> {
         Some(influences)
     }
 
-    /// `JOINTS_0` with `WEIGHTS_0`, `JOINTS_1` with `WEIGHTS_1` and so on.
-    fn sets(&self, count: usize) -> Result<Vec<Set>, Fault> {
-        let mut sets = Vec::new();
-        for number in 0.. {
-            let keys = [format!("JOINTS_{number}"), format!("WEIGHTS_{number}")];
-            let [joints, weights] = keys.each_ref().map(|key| self.part.attributes.get(key));
-            let (Some(&joints), Some(&weights)) = (joints, weights) else {
-                break;
-            };
-            let at = |key: &str| format!("{}/attributes/{key}", self.pointer);
-            let joints = self.reader.whole::<4>(joints, &at(&keys[0]))?;
-            let weights = self.reader.floats::<4>(weights, &at(&keys[1]))?;
-            if joints.len() < count || weights.len() < count {
-                break;
-            }
-            sets.push((joints, weights));
-        }
-        Ok(sets)
-    }
-
-    fn influences(
-        &self,
-        vertex: usize,
-        sets: &[Set],
-        pairs: &mut Vec<(f32, u32)>,
-        noted: &mut Noted,
-    ) -> Result<Influences, Fault> {
+    fn influences(&self, vertex: usize, pairs: &mut Vec<(f32, u32)>, noted: &mut Noted) -> Result<Influences, Fault> {
         let number = self.first_vertex + vertex as u32;
         pairs.clear();
         let mut is_sound = true;
-        for (joints, weights) in sets {
+        for (joints, weights) in self.sets {
             for (&slot, &weight) in joints[vertex].iter().zip(&weights[vertex]) {
                 let is_weight = weight.is_finite() && weight >= 0.0;
                 is_sound &= is_weight;
@@ -118,15 +111,15 @@ impl Weighted<'_> {
             }
         }
         if !is_sound {
-            noted.invalid.add(number);
+            noted.mended.invalid.add(number);
         }
         let all: f64 = pairs.iter().map(|&(weight, _)| f64::from(weight)).sum();
         if pairs.is_empty() {
-            noted.unweighted.add(number);
+            noted.mended.unweighted.add(number);
             return Ok(Influences::default());
         }
         if (all - 1.0).abs() > SUM_TOLERANCE {
-            noted.off_sum.add(number);
+            noted.mended.off_sum.add(number);
         }
         if pairs.len() > 4 {
             // Stable, so that of equal weights the first ones are kept.
@@ -169,29 +162,15 @@ impl Weighted<'_> {
 
 impl Noted {
     pub(super) fn tell(&self, diagnostics: &mut Diagnostics) {
-        let mut note = |code, tally: &Tally, rule: &str| {
-            if tally.count > 0 {
-                let have = counted(tally.count, "vertex has", "vertices have");
-                diagnostics.add(
-                    code,
-                    Place::of_rows(tally, Subject::Vertex, &[]),
-                    format!("{have} {rule}"),
-                );
-            }
-        };
-        let rule = "a blend weight that is negative or not finite; taken as 0.";
-        note(&codes::WEIGHTS_INVALID, &self.invalid, rule);
-        let rule = format!("blend weights whose sum is off from 1 by more than {SUM_TOLERANCE}; normalised.");
-        note(&codes::WEIGHTS_NOT_NORMALIZED, &self.off_sum, &rule);
-        note(
-            &codes::WEIGHTS_ALL_ZERO,
-            &self.unweighted,
-            "no blend weight; not moved by any bone.",
-        );
-        let rule = format!(
-            "weights for more than four joints; the four greatest are kept, and at most {:.2} % of a vertex's weight is lost.",
-            self.most_lost * 100.0
-        );
-        note(&codes::WEIGHTS_CUT, &self.cut, &rule);
+        let place = |tally: &Tally| Place::of_rows(tally, Subject::Vertex, &[]);
+        self.mended.tell(diagnostics, place);
+        if self.cut.count > 0 {
+            let message = format!(
+                "{} weights for more than four joints; the four greatest are kept, and at most {:.2} % of a vertex's weight is lost.",
+                counted(self.cut.count, "vertex has", "vertices have"),
+                self.most_lost * 100.0
+            );
+            diagnostics.add(&codes::WEIGHTS_CUT, place(&self.cut), message);
+        }
     }
 }

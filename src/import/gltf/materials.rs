@@ -15,6 +15,9 @@ const NEAREST: [u64; 3] = [9728, 9984, 9986];
 const CLAMP_TO_EDGE: u64 = 33071;
 const MIRRORED_REPEAT: u64 = 33648;
 
+/// How much less is seen of a surface that lets all light through. Something stays, or nobody would see the glass.
+const LEAST_SEEN: f32 = 0.8;
+
 /// One material for each of the document's, and behind them the one of primitives without any.
 ///
 /// # Errors
@@ -76,6 +79,7 @@ impl MaterialReader<'_> {
         let [red, green, blue, opacity] = surface.base_color_factor.unwrap_or([1.0; 4]);
         let [red, green, blue, opacity] =
             [red, green, blue, opacity].map(|factor| self.within(&at("baseColorFactor"), factor, [0.0, 1.0]));
+        let transmission = self.transmission(of_file, &name);
         let reflectance = Reflectance::MetallicRoughness {
             metallic: self.within(
                 &at("metallicFactor"),
@@ -102,9 +106,12 @@ impl MaterialReader<'_> {
         Ok(Material {
             name,
             diffuse: [red, green, blue],
-            opacity,
+            opacity: opacity * (1.0 - LEAST_SEEN * transmission),
             reflectance,
-            alpha: self.alpha(of_file),
+            alpha: match self.alpha(of_file) {
+                AlphaMode::Opaque if transmission > 0.0 => AlphaMode::Blend,
+                alpha => alpha,
+            },
             double_sided: of_file.double_sided,
             unlit: of_file.extensions.unlit.is_some(),
             emissive: emissive.map(|light| if light.is_finite() { light } else { 0.0 }),
@@ -138,6 +145,31 @@ impl MaterialReader<'_> {
         }
     }
 
+    /// How much light goes through the surface, 0…1. It is blended, which shows what is behind it; where a map says where light goes
+    /// through, all of it stays opaque.
+    fn transmission(&mut self, of_file: &gltf::Material, name: &str) -> f32 {
+        let Some(transmission) = &of_file.extensions.transmission else {
+            return 0.0;
+        };
+        let key = "extensions/KHR_materials_transmission";
+        let factor = transmission.transmission_factor.unwrap_or_default();
+        let factor = self.within(&format!("{key}/transmissionFactor"), factor, [0.0, 1.0]);
+        if factor == 0.0 {
+            return 0.0;
+        }
+        let is_mapped = transmission.transmission_texture.is_some();
+        let drawn = if is_mapped {
+            "opaque, since a map says where"
+        } else {
+            "blended, which neither bends nor tints what is behind it"
+        };
+        let message = format!("Light goes through the material \"{name}\"; it is drawn {drawn}.");
+        let place = Place::pointer(format!("/materials/{}/{key}", self.index));
+        let place = place.about(Subject::Material(self.index as u32));
+        self.diagnostics.add(&codes::GLTF_TRANSMISSION, place, message);
+        if is_mapped { 0.0 } else { factor }
+    }
+
     /// A number brought between its bounds.
     fn within(&mut self, key: &str, number: f32, [least, most]: [f32; 2]) -> f32 {
         let inside = if number.is_nan() {
@@ -167,7 +199,7 @@ impl MaterialReader<'_> {
             let pointer = format!("/materials/{}/{key}/index", self.index);
             return Err(out_of_range(&pointer, "texture", info.index.0, textures.len()));
         };
-        let Some(source) = texture.source else {
+        let Some(source) = texture.image() else {
             let message = match texture.extensions.keys().next() {
                 Some(name) => format!("Texture {index} has its picture in the extension {name} alone; left out."),
                 None => format!("Texture {index} has no picture; left out."),

@@ -1,19 +1,26 @@
 //! From primitives to one mesh: the vertices of all meshes of the scene in the file's order, and a submesh for each primitive.
 //!
-//! Primitives of one mesh that share their attributes share their vertices. A mesh on several nodes is copied.
+//! Primitives of one mesh that share their attributes share their vertices. A mesh on several nodes is read once and copied.
+
+use std::collections::HashMap;
 
 use glam::{DAffine3, DMat3, Vec2, Vec3, Vec4};
 
-use super::influences::{self, Weighted};
+use super::influences::{self, Set, Weighted};
 use super::nodes::Nodes;
 use super::skeleton::{MeshUse, Rig};
 use super::vertices::Vertices;
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Subject, codes};
-use crate::gltf::{Fault, Index, Primitive, Reader, Root, fault, out_of_range};
+use crate::gltf::{Fault, Primitive, Reader, Root, fault, out_of_range};
 use crate::import::normals::{is_direction, mend_normals};
 use crate::import::tangents::mend_tangents;
 use crate::model::{Handedness, Influences, Mesh, Submesh, index_out_of_range};
+
+/// What is kept of a mesh on each node: all streams of a vertex, three indices, and a submesh with its name.
+const BYTES_PER_VERTEX: u64 = 104;
+const BYTES_PER_TRIANGLE: u64 = 12;
+const BYTES_PER_SUBMESH: u64 = 64;
 
 const TRIANGLES: u64 = 4;
 const TRIANGLE_STRIP: u64 = 5;
@@ -48,7 +55,32 @@ struct Noted {
     tex_coords: Tally,
     normals: Tally,
     tangents: Tally,
+    colors: Tally,
     weights: influences::Noted,
+}
+
+/// The vertices that primitives of a mesh share.
+struct Shared<'a> {
+    /// The first of these primitives, and where it is.
+    part: &'a Primitive,
+    pointer: String,
+    plain: Vertices,
+    /// The same with morph targets at the weights of the last node that had some.
+    morphed: Option<(&'a [f32], Vertices)>,
+    /// Joints and weights, where a skin asked for them.
+    sets: Option<Vec<Set>>,
+}
+
+/// A primitive of a mesh.
+struct Part<'a> {
+    of_file: &'a Primitive,
+    pointer: String,
+    mode: u64,
+    material: u32,
+    /// Which vertices it has among the mesh's.
+    shared: usize,
+    /// Its vertices in the order in which they make triangles.
+    corners: Vec<u32>,
 }
 
 /// The mesh of a scene.
@@ -62,8 +94,9 @@ pub(super) fn mesh(source: &Source<'_>, uses: &[MeshUse], diagnostics: &mut Diag
         noted: Noted::default(),
         diagnostics,
     };
-    for mesh in uses {
-        builder.add(mesh)?;
+    // They are in the order of their meshes.
+    for uses in uses.chunk_by(|a, b| a.mesh == b.mesh) {
+        builder.add(uses)?;
     }
     builder.finish()
 }
@@ -75,13 +108,43 @@ struct Builder<'a> {
     diagnostics: &'a mut Diagnostics,
 }
 
-impl Builder<'_> {
-    fn add(&mut self, mesh: &MeshUse) -> Result<(), Fault> {
-        let of_file = &self.source.root.meshes()[mesh.mesh];
-        // Primitives whose vertices are there, and where those begin.
-        let mut added: Vec<(&Primitive, u32)> = Vec::new();
-        for (index, part) in of_file.primitives.iter().enumerate() {
-            let pointer = format!("/meshes/{}/primitives/{index}", mesh.mesh);
+impl<'a> Builder<'a> {
+    /// Adds a mesh for each of its nodes.
+    fn add(&mut self, uses: &[MeshUse]) -> Result<(), Fault> {
+        let (mut shared, parts) = self.read(uses[0].mesh)?;
+        let of_vertices = shared
+            .iter()
+            .map(|shared| BYTES_PER_VERTEX * shared.plain.positions.len() as u64);
+        let of_triangles = parts
+            .iter()
+            .map(|part| BYTES_PER_SUBMESH + BYTES_PER_TRIANGLE * triangle_count(part) as u64);
+        let once = of_vertices.chain(of_triangles).fold(0, u64::saturating_add);
+        let at = format_args!("/meshes/{}", uses[0].mesh);
+        self.source.reader.keep(once.saturating_mul(uses.len() as u64), at)?;
+        for mesh in uses {
+            let mut starts = vec![None; shared.len()];
+            for part in &parts {
+                let start = match starts[part.shared] {
+                    Some(start) => start,
+                    None => {
+                        let start = self.mesh.vertex_count() as u32;
+                        self.add_vertices(mesh, &mut shared[part.shared])?;
+                        *starts[part.shared].insert(start)
+                    }
+                };
+                let is_mirrored = self.placement(mesh, part.of_file).matrix3.determinant() < 0.0;
+                self.add_triangles(part, start, is_mirrored)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The primitives of a mesh that have triangles, and their vertices.
+    fn read(&mut self, mesh: usize) -> Result<(Vec<Shared<'a>>, Vec<Part<'a>>), Fault> {
+        let (mut shared, mut parts) = (Vec::new(), Vec::new());
+        let mut with_attributes = HashMap::new();
+        for (index, part) in self.source.root.meshes()[mesh].primitives.iter().enumerate() {
+            let pointer = format!("/meshes/{mesh}/primitives/{index}");
             let mode = part.mode.map_or(TRIANGLES, |mode| mode.0);
             let what = match mode {
                 TRIANGLES..=TRIANGLE_FAN if part.attributes.contains_key("POSITION") => None,
@@ -91,26 +154,36 @@ impl Builder<'_> {
                 _ => Some("is of a mode that glTF does not have"),
             };
             if let Some(what) = what {
-                let message = format!("Primitive {index} of mesh {} {what}; left out.", mesh.mesh);
+                let message = format!("Primitive {index} of mesh {mesh} {what}; left out.");
                 self.diagnostics
                     .add(&codes::GLTF_PRIMITIVE_LEFT_OUT, Place::pointer(pointer), message);
                 continue;
             }
-            let shares =
-                |(other, _): &&(&Primitive, u32)| other.attributes == part.attributes && other.targets == part.targets;
-            let start = match added.iter().find(shares) {
-                Some(&(_, start)) => start,
-                None => {
-                    let start = self.mesh.vertex_count() as u32;
-                    self.add_vertices(mesh, part, &pointer)?;
-                    added.push((part, start));
-                    start
-                }
-            };
-            let is_mirrored = self.placement(mesh, part).matrix3.determinant() < 0.0;
-            self.add_triangles(part, mode, start, is_mirrored, &pointer)?;
+            let of_shared = *with_attributes
+                .entry((&part.attributes, &part.targets))
+                .or_insert(shared.len());
+            if of_shared == shared.len() {
+                let (reader, second) = (self.source.reader, self.source.second_tex_coords);
+                shared.push(Shared {
+                    part,
+                    pointer: pointer.clone(),
+                    plain: Vertices::read(reader, part, second, &pointer, self.diagnostics)?,
+                    morphed: None,
+                    sets: None,
+                });
+            }
+            let material = self.material(part, &pointer)?;
+            let corners = self.corners(part, mode, shared[of_shared].plain.positions.len(), &pointer)?;
+            parts.push(Part {
+                of_file: part,
+                pointer,
+                mode,
+                material,
+                shared: of_shared,
+                corners,
+            });
         }
-        Ok(())
+        Ok((shared, parts))
     }
 
     /// What brings the vertices of a primitive into bind space.
@@ -121,16 +194,19 @@ impl Builder<'_> {
         }
     }
 
-    fn add_vertices(&mut self, mesh: &MeshUse, part: &Primitive, pointer: &str) -> Result<(), Fault> {
+    fn add_vertices(&mut self, mesh: &MeshUse, shared: &mut Shared<'a>) -> Result<(), Fault> {
+        let influences = self.influences(mesh, shared)?;
+        let (part, pointer) = (shared.part, &*shared.pointer);
         let weights = self.morph_weights(mesh);
-        let vertices = Vertices::read(
-            self.source.reader,
-            part,
-            &weights,
-            self.source.second_tex_coords,
-            pointer,
-            self.diagnostics,
-        )?;
+        let has_morphs = weights.iter().take(part.targets.len()).any(|&weight| weight != 0.0);
+        let vertices = if has_morphs {
+            let known = shared.morphed.take().filter(|(of, _)| *of == weights);
+            let morph = || shared.plain.morphed(self.source.reader, part, weights, pointer);
+            let vertices = known.map_or_else(morph, |(_, vertices)| Ok(vertices))?;
+            &shared.morphed.insert((weights, vertices)).1
+        } else {
+            &shared.plain
+        };
         let count = vertices.positions.len();
         let start = self.mesh.vertex_count();
         if start + count > u32::MAX as usize {
@@ -140,9 +216,8 @@ impl Builder<'_> {
                 "There are more vertices than indices can name.",
             ));
         }
-        let influences = self.influences(mesh, part, count, pointer)?;
         let placement = self.placement(mesh, part);
-        self.place(&vertices, &placement);
+        self.place(vertices, &placement);
         let mesh = &mut self.mesh;
         if mesh.influences.is_empty() {
             // Most files have one primitive, and need no copy.
@@ -150,39 +225,42 @@ impl Builder<'_> {
         } else {
             mesh.influences.extend(influences);
         }
-        self.add_tex_coords(&vertices);
+        self.add_tex_coords(vertices);
         // A stream that only some primitives have is filled up for the others.
         let mesh = &mut self.mesh;
         if !vertices.colors.is_empty() {
             mesh.colors.resize(start, Vec4::ONE);
-            mesh.colors.extend(vertices.colors.into_iter().map(color));
+            for (vertex, stored) in (start as u32..).zip(&vertices.colors) {
+                let color = color(stored);
+                if color.to_array() != *stored {
+                    self.noted.colors.add(vertex);
+                }
+                mesh.colors.push(color);
+            }
         } else if !mesh.colors.is_empty() {
             mesh.colors.resize(start + count, Vec4::ONE);
         }
         Ok(())
     }
 
-    /// The weights that the morph targets of a primitive have outside of clips.
-    fn morph_weights(&self, mesh: &MeshUse) -> Vec<f32> {
+    /// The weights that the morph targets of a mesh have outside of clips.
+    fn morph_weights(&self, mesh: &MeshUse) -> &'a [f32] {
         let root = self.source.root;
         let of_node = root.nodes()[mesh.node as usize].weights.as_ref();
         let of_mesh = root.meshes()[mesh.mesh].weights.as_ref();
-        let weights = of_node.or(of_mesh).map_or(&[][..], Vec::as_slice);
-        weights.to_vec()
+        of_node.or(of_mesh).map_or(&[][..], Vec::as_slice)
     }
 
-    fn influences(
-        &mut self,
-        mesh: &MeshUse,
-        part: &Primitive,
-        count: usize,
-        pointer: &str,
-    ) -> Result<Vec<Influences>, Fault> {
+    fn influences(&mut self, mesh: &MeshUse, shared: &mut Shared<'a>) -> Result<Vec<Influences>, Fault> {
         let source = self.source;
+        let (part, pointer, count) = (shared.part, &*shared.pointer, shared.plain.positions.len());
         if let Some((joints, _)) = source.skin_of(mesh, part) {
+            let sets = match shared.sets.take() {
+                Some(sets) => sets,
+                None => influences::sets(source.reader, part, count, pointer)?,
+            };
             let weighted = Weighted {
-                reader: source.reader,
-                part,
+                sets: shared.sets.insert(sets),
                 joints,
                 first_vertex: self.mesh.vertex_count() as u32,
                 pointer,
@@ -274,35 +352,21 @@ impl Builder<'_> {
         }
     }
 
-    fn add_triangles(
-        &mut self,
-        part: &Primitive,
-        mode: u64,
-        start: u32,
-        is_mirrored: bool,
-        pointer: &str,
-    ) -> Result<(), Fault> {
+    fn material(&self, part: &Primitive, pointer: &str) -> Result<u32, Fault> {
+        let count = self.source.root.materials().len();
         let material = match part.material {
-            None => self.source.root.materials().len(),
-            Some(material) => usize::try_from(material.0)
-                .ok()
-                .filter(|&index| index < self.source.root.materials().len())
-                .ok_or_else(|| {
-                    let count = self.source.root.materials().len();
-                    out_of_range(&format!("{pointer}/material"), "material", material.0, count)
-                })?,
+            None => Some(count),
+            Some(material) => usize::try_from(material.0).ok().filter(|&index| index < count),
         };
-        let count = self.vertex_count(part, pointer)?;
-        let corners = self.corners(part, count, pointer)?;
-        let at = || Place::pointer(pointer);
-        if mode == TRIANGLES && !corners.len().is_multiple_of(3) {
-            let left = corners.len() % 3;
-            let message = format!(
-                "{} at the end make no triangle; left out.",
-                counted(left, "corner", "corners")
-            );
-            self.diagnostics.add(&codes::GLTF_RULE_BROKEN, at(), message);
-        }
+        let material = material.and_then(|material| u32::try_from(material).ok());
+        material.ok_or_else(|| {
+            let index = part.material.unwrap_or_default().0;
+            out_of_range(&format!("{pointer}/material"), "material", index, count)
+        })
+    }
+
+    fn add_triangles(&mut self, part: &Part<'_>, start: u32, is_mirrored: bool) -> Result<(), Fault> {
+        let corners = &part.corners;
         let triangle_start = self.mesh.triangle_count();
         // Fronts run against the clock in glTF, and with it in a model.
         let wound = |[a, b, c]: [u32; 3]| {
@@ -312,7 +376,7 @@ impl Builder<'_> {
         // What joins two strips has no area.
         let has_area = |&[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
         let indices = &mut self.mesh.indices;
-        match mode {
+        match part.mode {
             TRIANGLES => {
                 let (triangles, _) = corners.as_chunks();
                 indices.extend(triangles.iter().flat_map(|&triangle| wound(triangle)));
@@ -332,41 +396,45 @@ impl Builder<'_> {
         let triangle_count = self.mesh.triangle_count() - triangle_start;
         let number = |count: usize| {
             let message = "There are more triangles than numbers for them.";
-            u32::try_from(count).map_err(|_| fault(&codes::GLTF_TOO_LARGE, pointer, message))
+            u32::try_from(count).map_err(|_| fault(&codes::GLTF_TOO_LARGE, &*part.pointer, message))
         };
         self.mesh.submeshes.push(Submesh {
             triangle_start: number(triangle_start)?,
             triangle_count: number(triangle_count)?,
-            material: number(material)?,
+            material: part.material,
         });
         Ok(())
     }
 
-    fn vertex_count(&self, part: &Primitive, pointer: &str) -> Result<u64, Fault> {
-        let position = part.attributes.get("POSITION").copied().unwrap_or_default();
-        let accessor = self
-            .source
-            .reader
-            .accessor(position, &format!("{pointer}/attributes/POSITION"))?;
-        Ok(accessor.count.0)
-    }
-
     /// The vertices of a primitive in the order in which they make triangles.
-    fn corners(&mut self, part: &Primitive, vertex_count: u64, pointer: &str) -> Result<Vec<u32>, Fault> {
+    fn corners(&mut self, part: &Primitive, mode: u64, vertex_count: usize, pointer: &str) -> Result<Vec<u32>, Fault> {
         let reader = self.source.reader;
-        let Some(indices) = part.indices else {
-            reader.spend(vertex_count, pointer)?;
-            // As many vertices were read before.
-            return Ok((0..vertex_count as u32).collect());
+        let corners = match part.indices {
+            None => {
+                reader.spend(vertex_count as u64, pointer)?;
+                (0..vertex_count as u32).collect()
+            }
+            Some(indices) => {
+                let pointer = format!("{pointer}/indices");
+                let corners = reader.whole::<1>(indices, &pointer)?.into_flattened();
+                if let Some(place) = index_out_of_range(&corners, vertex_count) {
+                    let message = format!(
+                        "Index {place} names vertex {}, but there are {vertex_count}.",
+                        corners[place]
+                    );
+                    return Err(fault(&codes::VERTEX_OUT_OF_RANGE, pointer, message));
+                }
+                corners
+            }
         };
-        let pointer = format!("{pointer}/indices");
-        let corners = reader.whole::<1>(Index(indices.0), &pointer)?.into_flattened();
-        if let Some(place) = index_out_of_range(&corners, usize::try_from(vertex_count).unwrap_or(usize::MAX)) {
+        let left = corners.len() % 3;
+        if mode == TRIANGLES && left > 0 {
             let message = format!(
-                "Index {place} names vertex {}, but there are {vertex_count}.",
-                corners[place]
+                "{} at the end make no triangle; left out.",
+                counted(left, "corner", "corners")
             );
-            return Err(fault(&codes::VERTEX_OUT_OF_RANGE, pointer, message));
+            self.diagnostics
+                .add(&codes::GLTF_RULE_BROKEN, Place::pointer(pointer), message);
         }
         Ok(corners)
     }
@@ -398,6 +466,11 @@ impl Builder<'_> {
             &codes::VERTEX_NOT_FINITE,
             &self.noted.tex_coords,
             "a texture coordinate that is not finite; taken as 0.",
+        );
+        note(
+            &codes::GLTF_RULE_BROKEN,
+            &self.noted.colors,
+            "a colour with a number below 0, above 1 or not finite; clamped to 0…1.",
         );
         let rule = "a normal that is zero or not finite; computed from the triangles.";
         note(&codes::NORMALS_MISSING, &self.noted.normals, rule);
@@ -434,9 +507,17 @@ fn normal_matrix(bind_from_mesh: &DAffine3) -> DMat3 {
     )
 }
 
-fn color(stored: [f32; 4]) -> Vec4 {
-    let sound = stored.map(|number| if number.is_finite() { number.max(0.0) } else { 1.0 });
-    Vec4::from_array(sound)
+/// How many triangles a primitive has at most.
+fn triangle_count(part: &Part<'_>) -> usize {
+    match part.mode {
+        TRIANGLES => part.corners.len() / 3,
+        _ => part.corners.len().saturating_sub(2),
+    }
+}
+
+fn color(stored: &[f32; 4]) -> Vec4 {
+    let clamped = stored.map(|number| if number.is_nan() { 1.0 } else { number.clamp(0.0, 1.0) });
+    Vec4::from_array(clamped)
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ mod binding;
 mod clips;
 mod images;
 mod influences;
+mod left_out;
 mod materials;
 mod meshes;
 mod nodes;
@@ -21,7 +22,7 @@ use super::{FileFormat, Imported, Refused};
 use crate::diagnostic::collect::{Diagnostics, Place};
 use crate::diagnostic::{Diagnostic, Severity, codes};
 use crate::format::LineMap;
-use crate::gltf::{self, Buffers, Container, Fault, FindFile, Reader, Root, Uri};
+use crate::gltf::{self, Buffers, Container, Effort, Fault, FindFile, Reader, Root, Uri};
 use crate::model::{Front, Handedness, Model, UpAxis};
 
 pub(super) use crate::gltf::begins_like_gltf as begins_like_model;
@@ -89,7 +90,7 @@ fn read(bytes: &[u8], find: FindFile<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         gltf::note_broken_rules(&root, &mut noted);
     }
     diagnostics.extend(noted.into_vec());
-    let (model, images) = read.map_err(|fault| match buffers.first_missing() {
+    let (model, images, effort) = read.map_err(|fault| match buffers.first_missing() {
         Some(missing) if fault.code == missing.code => missing,
         _ => fault,
     })?;
@@ -109,6 +110,7 @@ fn read(bytes: &[u8], find: FindFile<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         document: None,
         lines: LineMap::default(),
         pictures: images.pictures,
+        effort,
     })
 }
 
@@ -118,10 +120,10 @@ fn model(
     container: &Container<'_>,
     find: FindFile<'_>,
     diagnostics: &mut Diagnostics,
-) -> Result<(Model, Images), Fault> {
+) -> Result<(Model, Images, Effort), Fault> {
     let reader = Reader::new(root, buffers, container.json.len() as u64);
     let nodes = Nodes::read(root, diagnostics)?;
-    let images = Images::read(root, buffers, find, diagnostics);
+    let images = Images::read(root, &reader, find, diagnostics)?;
     let mut materials = materials::materials(root, &images, diagnostics)?;
     let uses = skeleton::meshes_in_scene(root, &nodes, diagnostics)?;
     let rig = skeleton::rig(root, &reader, &nodes, &uses, diagnostics)?;
@@ -143,6 +145,7 @@ fn model(
         materials.pop();
     }
     let clips = clips::clips(root, &reader, &rig, diagnostics)?;
+    left_out::note(root, &nodes, &uses, &rig, source.second_tex_coords, diagnostics);
     if mesh.positions.is_empty() && rig.skeleton.joint_count() == 0 {
         let message = codes::GLTF_EMPTY.sentence.to_owned();
         diagnostics.add(&codes::GLTF_EMPTY, Place::default(), message);
@@ -155,7 +158,8 @@ fn model(
         handedness: Handedness::Right,
         up_axis: UpAxis::Y,
         front: Front::Positive,
+        copyright: root.asset.as_ref().and_then(|asset| asset.copyright.clone()),
     };
     let model = model.checked().map_err(|rule| Box::new(rule.diagnostic()))?;
-    Ok((model, images))
+    Ok((model, images, reader.effort()))
 }

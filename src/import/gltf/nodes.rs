@@ -53,9 +53,27 @@ impl Nodes {
         })
     }
 
-    /// A node and all above it, from the node up.
-    pub(super) fn and_above(&self, node: u32) -> impl Iterator<Item = u32> {
-        std::iter::successors(Some(node), |&node| self.parents[node as usize])
+    /// Marks all that is below a marked node.
+    pub(super) fn mark_below(&self, marked: &mut [bool]) {
+        mark_below(&self.parents, &self.order, marked);
+    }
+
+    /// Marks all that is above a marked node.
+    pub(super) fn mark_above(&self, marked: &mut [bool]) {
+        for &node in self.order.iter().rev() {
+            if let (true, Some(parent)) = (marked[node as usize], self.parents[node as usize]) {
+                marked[parent as usize] = true;
+            }
+        }
+    }
+}
+
+/// `order` has parents before their children.
+fn mark_below(parents: &[Option<u32>], order: &[u32], marked: &mut [bool]) {
+    for &node in order {
+        if let Some(parent) = parents[node as usize] {
+            marked[node as usize] |= marked[parent as usize];
+        }
     }
 }
 
@@ -191,10 +209,6 @@ fn in_scene(
             diagnostics.add(&codes::GLTF_RULE_BROKEN, Place::pointer(pointer), message);
         }
     }
-    for &node in order {
-        if let Some(parent) = parents[node as usize] {
-            in_scene[node as usize] |= in_scene[parent as usize];
-        }
-    }
+    mark_below(parents, order, &mut in_scene);
     Ok(in_scene)
 }

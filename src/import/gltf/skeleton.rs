@@ -5,7 +5,7 @@
 //! then goes into the vertices; otherwise a joint on the node stands in for it.
 
 use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::collections::{BTreeSet, BinaryHeap};
 
 use glam::{DAffine3, DMat4, DVec4, Mat4};
 
@@ -14,7 +14,7 @@ use super::nodes::Nodes;
 use crate::diagnostic::Code;
 use crate::diagnostic::codes;
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
-use crate::gltf::{Fault, Path, Reader, Root, fault, out_of_range};
+use crate::gltf::{Fault, Path, Reader, Root, Wanted, fault, out_of_range};
 use crate::model::Skeleton;
 
 /// A mesh on a node of the scene.
@@ -142,19 +142,17 @@ fn moved_nodes(root: &Root) -> Vec<bool> {
 fn joint_nodes(root: &Root, nodes: &Nodes, uses: &[MeshUse]) -> Result<Vec<bool>, Fault> {
     let mut is_joint = vec![false; nodes.parents.len()];
     let moved = moved_nodes(root);
-    let skin_of_use = |mesh: &MeshUse| mesh.skin;
-    let moves = |mesh: &MeshUse| nodes.and_above(mesh.node).any(|node| moved[node as usize]);
-    let is_rigged = uses.is_empty() || uses.iter().any(|mesh| mesh.skin.is_some() || moves(mesh));
-    if !is_rigged {
+    let mut in_motion = moved.clone();
+    nodes.mark_below(&mut in_motion);
+    let moves = |mesh: &MeshUse| mesh.skin.is_some() || in_motion[mesh.node as usize];
+    if !uses.is_empty() && !uses.iter().any(moves) {
         return Ok(is_joint);
     }
-    let mut skins: Vec<usize> = if uses.is_empty() {
+    let skins = if uses.is_empty() {
         (0..root.skins().len()).collect()
     } else {
-        uses.iter().filter_map(skin_of_use).collect()
+        skins_of(uses)
     };
-    skins.sort_unstable();
-    skins.dedup();
     for skin in skins {
         for (slot, node) in root.skins()[skin].joints.iter().enumerate() {
             let joint = usize::try_from(node.0).ok().and_then(|node| is_joint.get_mut(node));
@@ -177,14 +175,13 @@ fn joint_nodes(root: &Root, nodes: &Nodes, uses: &[MeshUse]) -> Result<Vec<bool>
             *joint |= moved;
         }
     }
-    for &node in nodes.order.iter().rev() {
-        if is_joint[node as usize]
-            && let Some(parent) = nodes.parents[node as usize]
-        {
-            is_joint[parent as usize] = true;
-        }
-    }
+    nodes.mark_above(&mut is_joint);
     Ok(is_joint)
+}
+
+/// The skins that are used, each once.
+fn skins_of(uses: &[MeshUse]) -> BTreeSet<usize> {
+    uses.iter().filter_map(|mesh| mesh.skin).collect()
 }
 
 /// Whether parts of a mesh follow its node instead of a skin.
@@ -258,6 +255,7 @@ pub(super) fn rig(
     let is_joint = joint_nodes(root, nodes, uses)?;
     let bones = bone_numbers(root, &is_joint);
     let order = joints_in_order(nodes, &bones);
+    check_count(order.len(), "/nodes")?;
     let mut joint_of_node = vec![None; nodes.parents.len()];
     for (joint, &node) in (0u32..).zip(&order) {
         joint_of_node[node as usize] = Some(joint);
@@ -293,6 +291,7 @@ pub(super) fn rig(
             on_nodes[mesh.node as usize] = Some(binding.bind_on(joint));
         }
     }
+    check_count(binding.parents.len(), "/skins")?;
     note(root, nodes, uses, diagnostics);
     let extra = binding.parents[order.len()..].iter().flatten();
     let node_of = order.iter().chain(extra.map(|&joint| &order[joint as usize]));
@@ -311,8 +310,18 @@ pub(super) fn rig(
     })
 }
 
+/// Refuses more joints than a vertex can name.
+fn check_count(joints: usize, pointer: &str) -> Result<(), Fault> {
+    if joints <= Skeleton::MOST_NAMED {
+        return Ok(());
+    }
+    let most = Skeleton::MOST_NAMED;
+    let message = format!("The skeleton has {joints} joints; vertices of glTF can name {most} at most.");
+    Err(fault(&codes::GLTF_TOO_LARGE, pointer, message))
+}
+
 fn note(root: &Root, nodes: &Nodes, uses: &[MeshUse], diagnostics: &mut Diagnostics) {
-    for skin in uses.iter().filter_map(|mesh| mesh.skin) {
+    for skin in skins_of(uses) {
         let mut joints = root.skins()[skin].joints.iter();
         if let Some(outside) = joints.find(|node| !nodes.in_scene[node.0 as usize]) {
             let message = format!(
@@ -340,7 +349,7 @@ fn inverse_bind_matrices(
     let Some(accessor) = of_file.inverse_bind_matrices else {
         return Ok(vec![DAffine3::IDENTITY; of_file.joints.len()]);
     };
-    let rows = reader.floats::<16>(accessor, &pointer)?;
+    let rows = reader.floats::<16>(accessor, Wanted::Floats, &pointer)?;
     if rows.len() < of_file.joints.len() {
         let message = format!(
             "Skin {skin} has {} joints, but {} inverse bind matrices.",

@@ -1,13 +1,13 @@
-//! The attributes of the vertices of a primitive, as the file has them; morph targets are added at the weights that they have outside of clips.
+//! The attributes of the vertices of a primitive, as the file has them; its morph targets are added at the weights that they have outside of clips.
 
 use glam::Vec3;
 
 use crate::diagnostic::codes;
 use crate::diagnostic::collect::{Diagnostics, Place};
-use crate::gltf::{Fault, Primitive, Reader};
+use crate::gltf::{Fault, Primitive, Reader, Wanted};
 
 /// Attributes of the vertices of a primitive. Those that are absent are empty; all others have one length.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Vertices {
     pub(super) positions: Vec<[f32; 3]>,
     pub(super) normals: Vec<[f32; 3]>,
@@ -18,15 +18,14 @@ pub(super) struct Vertices {
 }
 
 impl Vertices {
-    /// The vertices of a primitive, which is at `pointer`, with its morph targets at these weights. Second texture coordinates are left out
-    /// where no map takes them.
+    /// The vertices of a primitive, which is at `pointer`, without its morph targets. Second texture coordinates are left out where no map
+    /// takes them.
     ///
     /// # Errors
     /// When an attribute names what is not there, or numbers of the wrong kind.
     pub(super) fn read(
         reader: &Reader<'_>,
         part: &Primitive,
-        morph_weights: &[f32],
         takes_second_tex_coords: bool,
         pointer: &str,
         diagnostics: &mut Diagnostics,
@@ -34,7 +33,7 @@ impl Vertices {
         let attributes = Attributes { reader, part, pointer };
         let positions: Vec<[f32; 3]> = attributes.read("POSITION")?;
         let count = positions.len();
-        let mut vertices = Self {
+        let vertices = Self {
             positions,
             normals: fitting(attributes.read("NORMAL")?, count),
             tangents: fitting(attributes.read("TANGENT")?, count),
@@ -50,9 +49,24 @@ impl Vertices {
             let message = "The primitive has no normals; smooth ones were computed from its triangles.";
             diagnostics.add(&codes::GLTF_NORMALS_ABSENT, Place::pointer(pointer), message.to_owned());
         }
-        for (target, &weight) in morph_weights.iter().enumerate() {
-            if weight != 0.0 && weight.is_finite() && target < part.targets.len() {
-                vertices.morph(&attributes, target, weight)?;
+        Ok(vertices)
+    }
+
+    /// The same with the morph targets of the primitive at these weights.
+    ///
+    /// # Errors
+    /// As [`Vertices::read`].
+    pub(super) fn morphed(
+        &self,
+        reader: &Reader<'_>,
+        part: &Primitive,
+        weights: &[f32],
+        pointer: &str,
+    ) -> Result<Self, Fault> {
+        let mut vertices = self.clone();
+        for (target, &weight) in weights.iter().take(part.targets.len()).enumerate() {
+            if weight != 0.0 && weight.is_finite() {
+                vertices.morph(&Attributes { reader, part, pointer }, target, weight)?;
             }
         }
         Ok(vertices)
@@ -65,7 +79,8 @@ impl Vertices {
                 return Ok(Vec::new());
             };
             let pointer = format!("{}/targets/{target}/{key}", attributes.pointer);
-            let steps: Vec<[f32; 3]> = attributes.reader.floats(accessor, &pointer)?;
+            let wanted = Wanted::of_attribute(key).unwrap_or(Wanted::Floats);
+            let steps: Vec<[f32; 3]> = attributes.reader.floats(accessor, wanted, &pointer)?;
             Ok(steps.into_iter().map(|step| Vec3::from_array(step) * weight).collect())
         };
         for (position, step) in self.positions.iter_mut().zip(steps("POSITION")?) {
@@ -100,7 +115,8 @@ impl Attributes<'_> {
         let Some(&accessor) = self.part.attributes.get(key) else {
             return Ok(Vec::new());
         };
-        self.reader.floats(accessor, &self.pointer_to(key))
+        let wanted = Wanted::of_attribute(key).unwrap_or(Wanted::Floats);
+        self.reader.floats(accessor, wanted, &self.pointer_to(key))
     }
 
     /// The colours, opaque where they have no alpha.

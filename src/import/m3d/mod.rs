@@ -33,6 +33,7 @@ pub(super) fn import(bytes: &[u8]) -> Result<Imported, Box<Refused>> {
         document: Some(parsed.document),
         lines: parsed.lines,
         pictures: Vec::new(),
+        effort: crate::gltf::Effort::default(),
     })
 }
 
@@ -70,6 +71,7 @@ pub fn from_document(document: &Document, lines: &LineMap) -> Result<(Model, Vec
         handedness,
         up_axis,
         front: Front::Negative,
+        copyright: None,
     };
     Ok((model.checked()?, diagnostics.into_vec()))
 }

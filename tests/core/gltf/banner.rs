@@ -193,5 +193,5 @@ fn it_is_read_with_its_joints_clips_and_picture() {
         (22, 20)
     );
     assert_eq!(imported.pictures.len(), 1);
-    assert_eq!(codes_of(&imported), ["gltf-normals-absent"]);
+    assert_eq!(codes_of(&imported), ["gltf-normals-absent", "gltf-objects-merged"]);
 }

@@ -149,12 +149,12 @@ fn pictures_inside_the_file_have_names_of_their_own() {
         |file| json!({ "TEXCOORD_0": file.floats(&[[0.0; 2]; 3]) }),
     );
     let view = file.view(PNG, None);
-    let strange = file.view(b"RIFF....WEBP", None);
+    let strange = file.view(b"a picture of another kind", None);
     file.json["images"] = json!([
         { "name": "skin.png", "bufferView": view, "mimeType": "image/png" },
         { "name": "Skin", "uri": uri },
         { "bufferView": view, "mimeType": "image/png" },
-        { "bufferView": strange, "mimeType": "image/webp" },
+        { "bufferView": strange, "mimeType": "image/avif" },
         { "uri": uri },
     ]);
     let imported = read(&file);
@@ -189,4 +189,29 @@ fn pictures_inside_the_file_have_names_of_their_own() {
         .find(|finding| finding.code == "gltf-image-not-read")
         .expect("it is told");
     assert_eq!(not_read.pointer.as_deref(), Some("/images/3/bufferView"));
+}
+
+#[test]
+fn a_webp_picture_is_taken_before_the_one_for_other_programs() {
+    const WEBP: &[u8] = b"RIFF\x04\0\0\0WEBP";
+    let webp = json!({ "EXT_texture_webp": { "source": 1 } });
+    let materials = [0, 1].map(|index| json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": index } } }));
+    let mut file = triangle(
+        &json!({ "materials": materials, "meshes": [{ "primitives": [{ "material": 0 }, { "material": 1 }] }],
+            "extensionsUsed": ["EXT_texture_webp"], "extensionsRequired": ["EXT_texture_webp"],
+            "textures": [{ "source": 0, "extensions": webp }, { "extensions": webp }] }),
+        |file| json!({ "TEXCOORD_0": file.floats(&[[0.0; 2]; 3]), "NORMAL": file.floats(&[[0.0, 0.0, 1.0]; 3]) }),
+    );
+    let view = file.view(WEBP, None);
+    file.json["images"] =
+        json!([{ "uri": "skin.png" }, { "name": "skin", "bufferView": view, "mimeType": "image/webp" }]);
+    let imported = read(&file);
+    for material in &imported.model.materials {
+        assert_eq!(material.map_name(MapSlot::Diffuse), Some("skin.webp"));
+    }
+    let [picture] = &imported.pictures[..] else {
+        panic!("{:?}", imported.pictures)
+    };
+    assert_eq!((picture.name.as_str(), &*picture.bytes), ("skin.webp", WEBP));
+    assert_eq!(codes_of(&imported), Vec::<&str>::new());
 }

@@ -24,7 +24,17 @@ fn files_that_are_no_pictures_are_named() {
         (
             b"hello",
             "t/a.txt",
-            "image-unrecognized: t/a.txt: this is none of DDS, PNG, JPEG, TGA and BMP",
+            "image-unrecognized: t/a.txt: this is none of DDS, PNG, JPEG, WebP, TGA and BMP",
+        ),
+        (
+            b"#?RADIANCE\n",
+            "studio.hdr",
+            "image-unrecognized: studio.hdr: Radiance (.hdr) and OpenEXR (.exr) cannot be read yet; a cube map as .dds can",
+        ),
+        (
+            b"\x76\x2f\x31\x01\x02",
+            "studio.dat",
+            "image-unrecognized: studio.dat: Radiance (.hdr) and OpenEXR (.exr) cannot be read yet; a cube map as .dds can",
         ),
         (
             b"ABCD\n",
