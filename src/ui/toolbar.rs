@@ -444,7 +444,7 @@ fn file_line(ui: &mut Ui, file: &File, is_open: bool, commands: &mut Vec<Command
         if cross.clicked() || deletes {
             commands.push(FileCommand::Close(file.path.clone()).into());
         }
-        if line.clicked() {
+        if line.clicked() || cross.clicked() {
             ui.close();
         }
     });
