@@ -52,7 +52,7 @@ fn assert_as_in_the_books(file: &str) {
             ])
             .json();
             let keys: Vec<&String> = found.as_object().expect("an object").keys().collect();
-            assert_eq!(keys, ["clip", "palette", "positions", "time_secs"]);
+            assert_eq!(keys, ["clip", "palette", "positions", "schemaVersion", "time_secs"]);
             assert_eq!(found["clip"], clip.name.as_str());
             assert_eq!(found["time_secs"].as_f64().map(|secs| secs as f32), Some(time_secs));
 
