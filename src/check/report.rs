@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::fmt;
 
-use super::book::Verdict;
+use super::book::{Limit, Verdict, converted_in_words};
 use crate::diagnostic::{Code, Diagnostic, Severity, codes};
 use crate::format::{Excerpt, LineIndex, is_printable};
 
@@ -18,6 +18,8 @@ pub struct CheckedFile<'a> {
     pub diagnostics: &'a [Diagnostic],
     /// What books' programs make of it.
     pub verdicts: &'a [Verdict],
+    /// Of a file of another format than theirs, what it would exceed there even converted; `None` where nobody asked.
+    pub converted: Option<&'a [Limit]>,
 }
 
 /// A part of a line that may have a colour.
@@ -45,8 +47,9 @@ pub fn text(file: &CheckedFile<'_>, with_help: bool, paint: Paint<'_>) -> String
         bytes,
         diagnostics,
         verdicts,
+        converted,
     } = *file;
-    if diagnostics.is_empty() && verdicts.is_empty() {
+    if diagnostics.is_empty() && verdicts.is_empty() && converted.is_none() {
         return String::new();
     }
     let lines = LineIndex::new(bytes);
@@ -66,6 +69,12 @@ pub fn text(file: &CheckedFile<'_>, with_help: bool, paint: Paint<'_>) -> String
         .iter()
         .map(|of_book| verdict(path, of_book, &lines, with_help, paint));
     text.extend(of_books);
+    if let Some(limits) = converted {
+        let severity = [Severity::Warning, Severity::Note][usize::from(limits.is_empty())];
+        let place = paint(Ink::Place, &OneLine(path).to_string());
+        let word = paint(Ink::Severity(severity), "Book demos");
+        text += &format!("{place}: {word}: {}\n", OneLine(&converted_in_words(limits)));
+    }
     text + &permanent(file, paint)
 }
 

@@ -2,17 +2,18 @@
 
 use std::collections::HashMap;
 
-use serde::Serialize;
+use serde_json::{Value, json};
 
 use super::book::Verdict;
 use super::report::CheckedFile;
-use crate::diagnostic::{Diagnostic, Position, Severity, Subject, codes};
+use crate::diagnostic::{Code, Diagnostic, Position, Severity, Subject, codes};
 use crate::format::LineIndex;
 
 /// The results of one file. They need nothing of its bytes any more.
 #[derive(Clone, Debug)]
 pub struct Results {
-    all: Vec<Result>,
+    /// Code and result of each.
+    all: Vec<(&'static str, Value)>,
 }
 
 impl Results {
@@ -20,209 +21,101 @@ impl Results {
     pub fn of(file: &CheckedFile<'_>) -> Self {
         let lines = LineIndex::new(file.bytes);
         let uri = uri(file.path);
-        let of_books: Vec<_> = file.verdicts.iter().flat_map(Verdict::diagnostics).collect();
-        let all = file.diagnostics.iter().chain(&of_books);
-        let result = |diagnostic: &Diagnostic| Result {
-            rule_id: diagnostic.code,
-            rule_index: 0,
-            level: level(diagnostic.severity),
-            message: Text {
-                text: diagnostic.message.clone(),
-            },
-            locations: vec![Location {
-                physical_location: PhysicalLocation {
-                    artifact_location: ArtifactLocation { uri: uri.clone() },
-                    region: diagnostic.position.map(|at| region(&lines, at, diagnostic.length)),
-                },
-                logical_locations: diagnostic.subject.map(logical_location).into_iter().collect(),
-            }],
-            related_locations: diagnostic
-                .places
-                .iter()
-                .skip(1)
-                .map(|&at| Location {
-                    physical_location: PhysicalLocation {
-                        artifact_location: ArtifactLocation { uri: uri.clone() },
-                        region: Some(region(&lines, at, 0)),
-                    },
-                    logical_locations: Vec::new(),
-                })
-                .collect(),
-            occurrence_count: diagnostic.count,
+        let converted = file.converted.unwrap_or_default().iter();
+        let converted = converted.filter_map(|limit| limit.diagnostic("Converted for the book"));
+        let of_books = file.verdicts.iter().flat_map(Verdict::diagnostics);
+        let of_books: Vec<_> = of_books.chain(converted).collect();
+        let place = |region: Value| json!({ "artifactLocation": { "uri": uri }, "region": region });
+        let result = |diagnostic: &Diagnostic| {
+            // What is about no line stands at the first one: code hosts show nothing without a place.
+            let region_of_it = diagnostic.position.map(|at| region(&lines, at, diagnostic.length));
+            let region_of_it = region_of_it.unwrap_or_else(|| json!({ "startLine": 1 }));
+            let mut location = json!({ "physicalLocation": place(region_of_it) });
+            if let Some((kind, index)) = diagnostic.subject.map(Subject::kind_and_index) {
+                location["logicalLocations"] = json!([{ "name": format!("{kind} {index}"), "kind": kind }]);
+            }
+            let mut result = json!({
+                "ruleId": diagnostic.code,
+                "level": diagnostic.severity.as_str(),
+                "message": { "text": diagnostic.message },
+                "locations": [location],
+                "occurrenceCount": diagnostic.count,
+            });
+            let others = diagnostic.places.iter().skip(1);
+            let others = others.map(|&at| json!({ "physicalLocation": place(region(&lines, at, 0)) }));
+            let others: Vec<Value> = others.collect();
+            if !others.is_empty() {
+                result["relatedLocations"] = others.into();
+            }
+            (diagnostic.code, result)
         };
         Self {
-            all: all.map(result).collect(),
+            all: file.diagnostics.iter().chain(&of_books).map(result).collect(),
         }
     }
 }
 
-/// The document of some files. Its rules are the codes that occur.
-pub fn log(files: impl IntoIterator<Item = Results>) -> Log {
+/// The document of some files. Its rules are the codes that occur. `unread` are files that could not be read: path and reason of each.
+pub fn log(files: impl IntoIterator<Item = Results>, unread: &[(String, String)]) -> Value {
     let mut rules = Vec::new();
     let mut places = HashMap::new();
-    let mut results: Vec<Result> = files.into_iter().flat_map(|file| file.all).collect();
-    for result in &mut results {
-        result.rule_index = *places.entry(result.rule_id).or_insert_with(|| {
-            rules.push(rule(result.rule_id));
+    let numbered = files.into_iter().flat_map(|file| file.all).map(|(code, mut result)| {
+        let index = *places.entry(code).or_insert_with(|| {
+            rules.push(rule(code));
             rules.len() - 1
         });
-    }
-    Log {
-        schema: "https://json.schemastore.org/sarif-2.1.0.json",
-        version: "2.1.0",
-        runs: [Run {
-            tool: Tool {
-                driver: Driver {
-                    name: "bindpose",
-                    semantic_version: env!("CARGO_PKG_VERSION"),
-                    rules,
-                },
-            },
-            column_kind: "utf16CodeUnits",
-            results,
-        }],
-    }
-}
-
-/// What serde writes as a SARIF document.
-#[derive(Debug, Serialize)]
-pub struct Log {
-    #[serde(rename = "$schema")]
-    schema: &'static str,
-    version: &'static str,
-    runs: [Run; 1],
-}
-
-#[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Run {
-    tool: Tool,
-    column_kind: &'static str,
-    results: Vec<Result>,
-}
-
-#[derive(Debug, Serialize)]
-struct Tool {
-    driver: Driver,
-}
-
-#[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Driver {
-    name: &'static str,
-    semantic_version: &'static str,
-    rules: Vec<Rule>,
-}
-
-#[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Rule {
-    id: &'static str,
-    short_description: Text,
-    help: Text,
-    default_configuration: Configuration,
-}
-
-#[derive(Debug, Serialize)]
-struct Configuration {
-    level: &'static str,
-}
-
-#[derive(Clone, Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Result {
-    rule_id: &'static str,
-    rule_index: usize,
-    level: &'static str,
-    message: Text,
-    locations: Vec<Location>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    related_locations: Vec<Location>,
-    occurrence_count: u32,
-}
-
-#[derive(Clone, Debug, Serialize)]
-struct Text {
-    text: String,
-}
-
-#[derive(Clone, Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Location {
-    physical_location: PhysicalLocation,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    logical_locations: Vec<LogicalLocation>,
-}
-
-#[derive(Clone, Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
-struct PhysicalLocation {
-    artifact_location: ArtifactLocation,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    region: Option<Region>,
-}
-
-#[derive(Clone, Debug, Serialize)]
-struct ArtifactLocation {
-    uri: String,
-}
-
-#[derive(Clone, Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Region {
-    start_line: u32,
-    start_column: u32,
-    end_column: u32,
-}
-
-#[derive(Clone, Debug, Serialize)]
-struct LogicalLocation {
-    name: String,
-    kind: &'static str,
-}
-
-fn rule(code: &'static str) -> Rule {
-    let row = codes::named(code);
-    let text = |text: Option<String>| Text {
-        text: text.unwrap_or_else(|| code.to_owned()),
+        result["ruleIndex"] = index.into();
+        result
+    });
+    let results: Vec<Value> = numbered.collect();
+    let notification = |(path, reason): &(String, String)| {
+        json!({
+            "level": "error",
+            "message": { "text": reason },
+            "locations": [{ "physicalLocation": { "artifactLocation": { "uri": uri(path) } } }],
+        })
     };
-    Rule {
-        id: code,
-        short_description: text(row.map(|row| row.sentence.to_owned())),
-        help: text(row.map(|row| {
+    json!({
+        "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
+        "version": "2.1.0",
+        "runs": [{
+            "tool": { "driver": { "name": "bindpose", "semanticVersion": env!("CARGO_PKG_VERSION"), "rules": rules } },
+            "invocations": [{
+                "executionSuccessful": unread.is_empty(),
+                "toolExecutionNotifications": unread.iter().map(notification).collect::<Vec<_>>(),
+            }],
+            "columnKind": "utf16CodeUnits",
+            "results": results,
+        }],
+    })
+}
+
+fn rule(code: &'static str) -> Value {
+    let row = codes::named(code);
+    let text = |words: &dyn Fn(&Code) -> String| json!({ "text": row.map_or_else(|| code.to_owned(), words) });
+    json!({
+        "id": code,
+        "shortDescription": text(&|row| row.sentence.to_owned()),
+        "fullDescription": text(&|row| format!("{} {}", row.sentence, row.explanation)),
+        "help": text(&|row| {
             let parts = [Some(row.help()), row.permanent().map(str::to_owned)];
             parts.into_iter().flatten().collect::<Vec<_>>().join(" ")
-        })),
-        default_configuration: Configuration {
-            level: level(row.map_or(Severity::Note, |row| row.severity)),
-        },
-    }
-}
-
-fn level(severity: Severity) -> &'static str {
-    // SARIF's three levels have the same words.
-    severity.as_str()
-}
-
-fn logical_location(subject: Subject) -> LogicalLocation {
-    let (kind, index) = subject.kind_and_index();
-    LogicalLocation {
-        name: format!("{kind} {index}"),
-        kind,
-    }
+        }),
+        "defaultConfiguration": { "level": row.map_or(Severity::Note, |row| row.severity).as_str() },
+    })
 }
 
 /// A place and what is marked from it on, within its line.
-fn region(lines: &LineIndex<'_>, at: Position, length: u32) -> Region {
+fn region(lines: &LineIndex<'_>, at: Position, length: u32) -> Value {
     let line = lines.line(at.line);
     let start = (at.column.saturating_sub(1) as usize).min(line.len());
     let end = start.saturating_add(length as usize).min(line.len());
     let start_column = utf16_units(&line[..start]) + 1;
-    Region {
-        start_line: at.line,
-        start_column,
-        end_column: start_column + utf16_units(&line[start..end]),
-    }
+    json!({
+        "startLine": at.line,
+        "startColumn": start_column,
+        "endColumn": start_column + utf16_units(&line[start..end]),
+    })
 }
 
 /// How many UTF-16 code units text has; bytes that are no UTF-8 count as the character that stands for them.
@@ -262,14 +155,10 @@ mod tests {
         let lines = LineIndex::new(bytes);
         // Four bytes and two units, two bytes and one unit, two and one, a blank.
         let at = Position { line: 2, column: 10 };
-        let Region {
-            start_line,
-            start_column,
-            end_column,
-        } = region(&lines, at, 1);
-        assert_eq!((start_line, start_column, end_column), (2, 6, 7));
+        let expected = json!({ "startLine": 2, "startColumn": 6, "endColumn": 7 });
+        assert_eq!(region(&lines, at, 1), expected);
         let beyond = region(&lines, Position { line: 9, column: 9 }, 5);
-        assert_eq!((beyond.start_column, beyond.end_column), (1, 1));
+        assert_eq!((&beyond["startColumn"], &beyond["endColumn"]), (&json!(1), &json!(1)));
     }
 
     #[test]

@@ -5,9 +5,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use clap::ValueEnum;
 use serde::Serialize;
 
+use super::codes::{self, SCHEMA_VERSION};
 use super::failure::{Failure, Outcome};
 use super::input::{self, one_of};
 use super::paths;
@@ -19,7 +19,7 @@ use crate::export::Loss;
 use crate::format::Dialect;
 use crate::import::FileFormat;
 use crate::model::{Front, Handedness, JointNames, Model, UpAxis};
-use crate::session::{self, ExportFormat, ExportJob, File, Maps, OpenModel, ToExport, WrittenModel};
+use crate::session::{self, ExportFormat, ExportJob, ExportPlan, File, Maps, OpenModel, ToExport, WrittenModel};
 
 /// Write a model as another file, changed as asked.
 ///
@@ -80,7 +80,7 @@ pub(super) struct Arguments {
     /// bone from 0 s on; names of one word, and a clip Take1. Maps are written as DDS with mips into --textures-out.
     #[arg(long)]
     for_book: bool,
-    /// Look for maps in this folder and in those in it; may be given more than once.
+    /// Look for maps in this folder and in those in it, links to folders included; may be given more than once.
     #[arg(long, value_name = "DIR")]
     textures: Vec<PathBuf>,
     /// Write the maps that were found into this folder, and name them so in the .m3d.
@@ -89,24 +89,28 @@ pub(super) struct Arguments {
     /// the books.
     #[arg(long, value_name = "DIR")]
     textures_out: Option<PathBuf>,
-    /// What makes the exit code 1, with nothing written.
-    #[arg(long, value_name = "WHAT")]
-    deny: Option<Deny>,
+    /// What makes the exit code 1, with nothing written: losses, or codes of changes and losses, with commas between.
+    #[arg(long, value_name = "WHAT", value_delimiter = ',', value_parser = denied)]
+    deny: Vec<&'static str>,
+    /// Codes that --deny does not count, with commas between; for example joint-names,double-sided.
+    #[arg(long, value_name = "CODES", value_delimiter = ',', value_parser = codes::known, requires = "deny")]
+    allow: Vec<&'static str>,
+    /// Write over files that are marked as read-only too.
+    #[arg(long)]
+    force: bool,
     /// Print JSON; see below for its keys.
     #[arg(long)]
     json: bool,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Deny {
-    /// Anything that OUT cannot hold.
-    Losses,
-}
+/// What --deny calls all losses.
+const LOSSES: &str = "losses";
 
 const OUTPUT: &str = "\
 Edits are made in this order: clips, fix, range, close-loop, reduce, scale, up and hand, rename.
 
 JSON: an object
+  schemaVersion   1; it grows when a key changes its meaning or goes
   input, output   the paths as given
   format          \"m3d\" or \"glb\"
   dialect         \"d3d11\" or \"d3d12\"; null for .glb
@@ -118,12 +122,14 @@ IN is never overwritten. OUT is written beside its place and then put there, so 
 
 Exit codes:
   0  OUT was written
-  1  IN has errors or is too large for --for-book; or --deny losses, and there are some: nothing was written
+  1  IN has errors or is too large for --for-book; or there is what --deny names: nothing was written
   2  wrong use, or a file cannot be read or written";
 
 /// The result.
 #[derive(Debug, Serialize)]
 struct Converted<'a> {
+    #[serde(rename = "schemaVersion")]
+    schema_version: u32,
     input: String,
     output: String,
     format: &'static str,
@@ -149,6 +155,7 @@ struct Lost<'a> {
 pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
     check_use(arguments)?;
     refuse_own_input(&arguments.output, [arguments.input.as_path()])?;
+    paths::check_writable(&arguments.output, arguments.force)?;
     let open = read(&arguments.input)?;
     let format = arguments.format(open.format);
     let is_glb = format == ExportFormat::Glb;
@@ -195,14 +202,16 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
             refuse_own_input(&folder.join(name), sources.iter().map(PathBuf::as_path))?;
         }
     }
-    let is_denied = arguments.deny == Some(Deny::Losses) && !plan.losses.is_empty();
+    let denied = arguments.denied(&plan);
+    let is_denied = !denied.is_empty();
     if !is_denied {
         if let Some(folder) = &arguments.textures_out {
-            write_maps(folder, &map_files)?;
+            write_maps(folder, &map_files, arguments.force)?;
         }
-        write_whole(&arguments.output, &bytes)?;
+        paths::write(&arguments.output, &bytes, arguments.force)?;
     }
     let converted = Converted {
+        schema_version: SCHEMA_VERSION,
         input: arguments.input.display().to_string(),
         output: arguments.output.display().to_string(),
         format: format.extension(),
@@ -219,7 +228,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     }
     if is_denied {
         out.flush()?;
-        writeln!(err, "error: nothing was written, since something would be lost")?;
+        writeln!(err, "error: nothing was written; denied: {}", denied.join(", "))?;
         return Ok(Outcome::FileHasErrors);
     }
     Ok(Outcome::Fine)
@@ -228,6 +237,21 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
 impl Arguments {
     fn writes_glb(&self) -> bool {
         has_extension(&self.output, "glb")
+    }
+
+    /// The codes in a plan that are denied and not allowed, each once.
+    fn denied(&self, plan: &ExportPlan) -> Vec<&'static str> {
+        let changes = plan.changes.iter().map(|change| (change.code, false));
+        let losses = plan.losses.iter().map(|loss| (loss.code, true));
+        let is_denied = |code, is_loss| self.deny.contains(&code) || (is_loss && self.deny.contains(&LOSSES));
+        let mut codes: Vec<_> = changes
+            .chain(losses)
+            .filter(|&(code, is_loss)| is_denied(code, is_loss) && !self.allow.contains(&code))
+            .map(|(code, _)| code)
+            .collect();
+        codes.sort_unstable();
+        codes.dedup();
+        codes
     }
 
     fn format(&self, of_input: FileFormat) -> ExportFormat {
@@ -335,29 +359,17 @@ fn refuse_own_input<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path
     Ok(())
 }
 
-fn write_maps(folder: &Path, files: &[(String, Arc<[u8]>)]) -> Result<(), Failure> {
+fn write_maps(folder: &Path, files: &[(String, Arc<[u8]>)], force: bool) -> Result<(), Failure> {
+    files
+        .iter()
+        .try_for_each(|(name, _)| paths::check_writable(&folder.join(name), force))?;
     fs::create_dir_all(folder).map_err(|reason| Failure::Unwritable {
         path: folder.to_owned(),
         reason,
     })?;
     files
         .iter()
-        .try_for_each(|(name, bytes)| write_whole(&folder.join(name), bytes))
-}
-
-/// Writes beside the place and renames, so that a file is whole or not there.
-fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let beside = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
-    let written = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, path));
-    written.map_err(|reason| {
-        // It may not even have been made.
-        let _ = fs::remove_file(&beside);
-        Failure::Unwritable {
-            path: path.to_owned(),
-            reason,
-        }
-    })
+        .try_for_each(|(name, bytes)| paths::write(&folder.join(name), bytes, force))
 }
 
 impl<'a> From<&'a Change> for Told<'a> {
@@ -411,6 +423,10 @@ fn number(text: &str) -> Result<f32, String> {
     }
 }
 
+fn denied(text: &str) -> Result<&'static str, String> {
+    codes::known_or(text, &[LOSSES])
+}
+
 fn renamed(text: &str) -> Result<(String, String), String> {
     let names = text
         .split_once('=')
@@ -422,7 +438,8 @@ fn renamed(text: &str) -> Result<(String, String), String> {
 fn named_bone(text: &str) -> Result<(u32, String), String> {
     let parts = text
         .split_once('=')
-        .and_then(|(bone, name)| Some((bone.parse().ok()?, name)));
+        .and_then(|(bone, name)| Some((bone.parse().ok()?, name)))
+        .filter(|(_, name)| !name.trim().is_empty());
     let (bone, name) = parts.ok_or("it is N=NAME, with the number of the bone in the file")?;
     Ok((bone, name.to_owned()))
 }

@@ -50,12 +50,11 @@ pub(super) enum Failure {
         asked: String,
         known: Vec<String>,
     },
-    #[error("there is no code \"{asked}\"; the nearest is \"{nearest}\"")]
-    UnknownCode { asked: String, nearest: &'static str },
     /// A pose whose numbers overflow.
     #[error(
-        "{}: at {time_secs} s of \"{clip}\" {what} {number} is taken beyond what numbers hold",
-        named(path)
+        "{}: at {time_secs} s of \"{}\" {what} {number} is taken beyond what numbers hold",
+        named(path),
+        OneLine(clip)
     )]
     Overflows {
         path: PathBuf,
@@ -87,10 +86,12 @@ pub(super) enum Failure {
     Picture(#[from] PictureError),
     #[error("{0}")]
     Encode(#[from] EncodeError),
-    #[error("{}: {error}", named(path))]
+    #[error("{}: {}", named(path), OneLine(&error.to_string()))]
     Edit { path: PathBuf, error: EditError },
     #[error("{0}")]
     Export(#[from] ExportError),
+    #[error("{} is marked as read-only; --force writes over it", named(path))]
+    ReadOnly { path: PathBuf },
     /// A file that was read would be overwritten.
     #[error("{} is read; name another file to write", named(path))]
     OwnInput { path: PathBuf },
@@ -121,6 +122,14 @@ impl Failure {
         }
     }
 
+    /// The file that could not be read, if that is the failure.
+    pub(super) fn unread(&self) -> Option<&Path> {
+        match self {
+            Self::Unreadable { path, .. } => Some(path),
+            _ => None,
+        }
+    }
+
     /// Writes it to `err`, and returns how bad it is.
     pub(super) fn report(&self, err: &mut dyn Write) -> Outcome {
         // When standard error is closed too, only the exit code can tell.
@@ -130,7 +139,10 @@ impl Failure {
                 Outcome::FileHasErrors
             }
             _ => {
-                let _ = writeln!(err, "error: {}", Plain(&self.to_string()));
+                // Those of GPUs have several lines; names of files are on one line already.
+                let text = self.to_string();
+                let lines: Vec<String> = text.lines().map(|line| Plain(line).to_string()).collect();
+                let _ = writeln!(err, "error: {}", lines.join("\n"));
                 match self {
                     Self::Overflows { .. }
                     | Self::Edit {
@@ -154,7 +166,7 @@ fn listed(clips: &[String]) -> String {
     if clips.is_empty() {
         return "it has none".into();
     }
-    let quoted: Vec<String> = clips.iter().map(|name| format!("\"{name}\"")).collect();
+    let quoted: Vec<String> = clips.iter().map(|name| format!("\"{}\"", OneLine(name))).collect();
     format!("it has {}", quoted.join(", "))
 }
 

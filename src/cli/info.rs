@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use super::codes::SCHEMA_VERSION;
 use super::diagnostic::worded_place;
 use super::failure::Failure;
 use super::input;
@@ -20,7 +21,7 @@ use crate::session::{Maps, OpenModel};
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = JSON)]
 pub(super) struct Arguments {
-    /// Model to read.
+    /// Model to read, or - for standard input.
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Print JSON; see below for its keys.
@@ -33,6 +34,7 @@ pub(super) struct Arguments {
 
 const JSON: &str = "\
 JSON: an object
+  schemaVersion     1; it grows when a key changes its meaning or goes
   file              the path as given
   dialect           \"d3d12\", \"d3d11\" or \"imm\"; \"glb\" or \"gltf\"
   handedness        \"left\" or \"right\", found from the triangles
@@ -79,6 +81,8 @@ what is skipped in the folders is told on standard error.";
 /// The result.
 #[derive(Debug, Serialize)]
 struct Info<'a> {
+    #[serde(rename = "schemaVersion")]
+    schema_version: u32,
     file: String,
     #[serde(flatten)]
     model: summary::Model<'a>,
@@ -125,6 +129,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
 impl<'a> Info<'a> {
     fn new(file: String, open: &'a OpenModel, maps: &'a [NamedMap<'a>]) -> Self {
         Self {
+            schema_version: SCHEMA_VERSION,
             file,
             model: open.into(),
             maps: maps.iter().map(Map::from).collect(),
@@ -195,7 +200,7 @@ fn write_bounds(out: &mut dyn Write, info: &Info<'_>) -> io::Result<()> {
         return Ok(());
     };
     writeln!(out, "\nBounds {:>18} {:>12} {:>12}", "x", "y", "z")?;
-    let mut row = |name: &str, [x, y, z]: [f32; 3]| writeln!(out, "  {name:<10}{x:>13.4}{y:>13.4}{z:>13.4}");
+    let mut row = |name: &str, [x, y, z]: [f32; 3]| writeln!(out, "  {name:<10}{x:>13.4} {y:>12.4} {z:>12.4}");
     row("bind min", bind.min)?;
     row("bind max", bind.max)?;
     match info.animated_bounds {

@@ -6,18 +6,15 @@ use std::sync::Arc;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::failure::Failure;
+use super::paths;
 use crate::import;
 use crate::model::Model;
 use crate::session::{self, File, OpenModel};
 
-/// A file's bytes. It is read as a model whatever its name is, so that a picture is refused with a message about its
-/// content.
+/// A file's bytes, or those of standard input. It is read as a model whatever its name is, so that a picture is refused with a message
+/// about its content.
 pub(super) fn read(path: &Path) -> Result<File, Failure> {
-    let bytes = std::fs::read(path).map_err(|reason| Failure::Unreadable {
-        path: path.to_owned(),
-        reason,
-    })?;
-    Ok(File::new("model.m3d", bytes))
+    Ok(File::new("model.m3d", paths::read(path)?))
 }
 
 /// The same with the files beside it that it names, as far as they are there.
@@ -32,7 +29,7 @@ pub(super) fn read_all(path: &Path) -> Result<Vec<File>, Failure> {
 /// The bytes of a file that a model names by a relative path. Only regular files are opened: opening a pipe would wait for a writer.
 pub(super) fn beside(model: &Path, name: &str) -> Option<Arc<[u8]>> {
     let path = model.parent()?.join(name);
-    path.is_file().then(|| std::fs::read(path).ok())?.map(Into::into)
+    path.is_file().then(|| paths::read_file(&path).ok())?.map(Into::into)
 }
 
 /// A model that can be shown.

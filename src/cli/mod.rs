@@ -5,6 +5,7 @@
 
 mod appearance;
 mod check;
+mod codes;
 mod convert;
 mod diagnostic;
 mod failure;

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use glam::{Mat4, Vec3};
 use serde::Serialize;
 
+use super::codes::SCHEMA_VERSION;
 use super::failure::Failure;
 use super::input;
 use super::text::Plain;
@@ -19,7 +20,7 @@ use crate::model::{Model, Skeleton};
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = JSON)]
 pub(super) struct Arguments {
-    /// Model to read.
+    /// Model to read, or - for standard input.
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Clip by its name; may be left out when there is only one.
@@ -40,6 +41,7 @@ pub(super) struct Arguments {
 
 const JSON: &str = "\
 JSON: an object
+  schemaVersion  1; it grows when a key changes its meaning or goes
   clip        name of the clip; null for a model without clips, which is shown at rest: as it was bound, or as its
               glTF file has it
   time_secs   the time as asked for
@@ -53,6 +55,8 @@ exit code 1.";
 /// The result.
 #[derive(Debug, Serialize)]
 struct Posed<'a> {
+    #[serde(rename = "schemaVersion")]
+    schema_version: u32,
     clip: Option<&'a str>,
     time_secs: f32,
     palette: Vec<[f32; 16]>,
@@ -89,6 +93,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Fail
         return Err(overflows("vertex", vertex));
     }
     let posed = Posed {
+        schema_version: SCHEMA_VERSION,
         clip,
         time_secs,
         palette,

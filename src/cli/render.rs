@@ -30,15 +30,18 @@ use crate::session::{
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = OUTPUT)]
 pub(super) struct Arguments {
-    /// Model to read.
+    /// Model to read, or - for standard input.
     #[arg(value_name = "FILE")]
     file: PathBuf,
-    /// Picture to write; with --frames, --fps or --turntable the folder for the pictures.
+    /// Picture to write, a .png; with --frames, --fps or --turntable the folder for the pictures.
     ///
     /// A folder that is not there is made. Of one that is there, files of the same names are replaced and the others stay, also
     /// pictures of an earlier, longer series.
     #[arg(short, long, value_name = "PATH")]
     output: PathBuf,
+    /// Write over files that are marked as read-only too.
+    #[arg(long)]
+    force: bool,
     /// Clip by its name [default: the first].
     #[arg(long, value_name = "NAME")]
     clip: Option<String>,
@@ -118,6 +121,7 @@ fn size(text: &str) -> Result<[u32; 2], String> {
 
 pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
     arguments.series.check(&arguments.output)?;
+    paths::check_writable(&arguments.output, arguments.force)?;
     let (mut session, lacks_maps) = open(arguments, err)?;
     let shots = arguments.series.shots(&mut session, &arguments.file)?;
     let mut sheet = match arguments.series.sheet() {
@@ -146,8 +150,11 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
         let pixels = painter.draw(&mut series, index)?;
         match (&mut sheet, folder) {
             (Some(sheet), _) => sheet.place(index, &pixels, series.caption(index)),
-            (None, Some(folder)) => write_picture(&folder.join(format!("frame-{index:04}.png")), &pixels, size)?,
-            (None, None) => write_picture(&arguments.output, &pixels, size)?,
+            (None, folder) => {
+                let in_folder = folder.map(|folder| folder.join(format!("frame-{index:04}.png")));
+                let path = in_folder.as_ref().unwrap_or(&arguments.output);
+                paths::write(path, &encode_png(&pixels, size[0], size[1])?, arguments.force)?;
+            }
         }
         progress.inc(1);
         Ok(())
@@ -155,7 +162,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     progress.finish_and_clear();
     drawn?;
     if let Some(sheet) = sheet {
-        paths::write(&arguments.output, &sheet.into_png()?)?;
+        paths::write(&arguments.output, &sheet.into_png()?, arguments.force)?;
     }
 
     let line = format!("{said}, drawn by {} ({backend})", gpu.info.name);
@@ -165,10 +172,6 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     } else {
         Outcome::Fine
     })
-}
-
-fn write_picture(path: &Path, pixels: &[u8], [width, height]: [u32; 2]) -> Result<(), Failure> {
-    paths::write(path, &encode_png(pixels, width, height)?)
 }
 
 /// What is written, in a line: `walk.png: 1280x720, Walk at 0.3 s`.
@@ -259,10 +262,7 @@ fn add_textures(arguments: &Arguments, session: &mut Session, err: &mut dyn Writ
 
 /// Makes a cube map the sky. Its first bytes tell what it is, whatever its name.
 fn add_sky(path: &Path, session: &mut Session) -> Result<(), Failure> {
-    let bytes = std::fs::read(path).map_err(|reason| Failure::Unreadable {
-        path: path.to_owned(),
-        reason,
-    })?;
+    let bytes = paths::read(path)?;
     match image::decode(&bytes, &path.to_string_lossy()).map(|image| image.kind()) {
         Ok(ImageKind::Cube) => {
             session.apply(FileCommand::Add(vec![File::new("sky.dds", bytes)]));

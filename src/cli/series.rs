@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::failure::Failure;
 use super::input::{self, sides};
+use super::paths;
 use crate::anim::{GHOST_STEP_FRAMES, GhostPlan, MOST_GHOSTS};
 use crate::scene::{Frames, MOST_SHOTS, Shot};
 use crate::session::{LookCommand, PlayCommand, Session};
@@ -72,6 +73,12 @@ impl SeriesArguments {
         if self.fills_folder() && is_png && !output.is_dir() {
             return Err(Failure::WrongUse(format!(
                 "several pictures need a folder, and -o {} names a picture; --sheet puts them on one",
+                output.display()
+            )));
+        }
+        if !self.fills_folder() && !is_png && !paths::is_special(output) {
+            return Err(Failure::WrongUse(format!(
+                "-o {} is no name of a picture: PNG is written, so it ends in .png",
                 output.display()
             )));
         }

@@ -4,14 +4,14 @@ use std::fmt;
 
 use crate::format::is_printable;
 
-/// Text from a file without the characters that control the terminal. Line ends stay.
+/// Text from a file on one line, without the characters that control the terminal.
 pub(super) struct Plain<'a>(pub(super) &'a str);
 
 impl fmt::Display for Plain<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         use fmt::Write as _;
         self.0.chars().try_for_each(|character| {
-            f.write_char(if is_printable(character) || character == '\n' {
+            f.write_char(if is_printable(character) {
                 character
             } else {
                 char::REPLACEMENT_CHARACTER
@@ -75,7 +75,7 @@ mod tests {
     fn text_from_a_file_cannot_steer_the_terminal() {
         assert_eq!(
             Plain("a\u{1b}[31mb\u{202e}c\nd").to_string(),
-            "a\u{fffd}[31mb\u{fffd}c\nd"
+            "a\u{fffd}[31mb\u{fffd}c\u{fffd}d"
         );
     }
 }

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::diagnostic::write_diagnostic;
 use super::failure::Failure;
+use super::paths::{self, not_a_file};
 use crate::diagnostic::{Code, Diagnostic, Severity, codes};
 use crate::image;
 use crate::model::{MapSlot, Material};
@@ -113,7 +114,7 @@ impl Textures {
                 textures.unnamed.push(path.clone());
                 continue;
             }
-            match fs::read(path) {
+            match paths::read_file(path) {
                 Ok(bytes) if image::cube_side(&bytes).is_some() => textures.add_unopened(path, is_cube()),
                 Ok(bytes) => {
                     let file = File::new(&name, bytes);
@@ -254,11 +255,6 @@ fn begins_like_cube(path: &Path) -> io::Result<bool> {
     let mut header = fs::File::open(path)?.take(image::CUBE_HEADER_LEN as u64);
     header.read_to_end(&mut bytes)?;
     Ok(image::cube_side(&bytes).is_some())
-}
-
-/// That something has the name of a map, but cannot be read as a file.
-pub(super) fn not_a_file() -> Diagnostic {
-    warning(&codes::NOT_A_FILE, codes::NOT_A_FILE.sentence.to_owned())
 }
 
 /// That a cube map has the name of a map.

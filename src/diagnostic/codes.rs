@@ -337,7 +337,7 @@ table! {
             "The bone stands at the origin of the bind pose.",
             "Give no bone of the bind pose a scale of 0.";
         MANY_VERTICES = "many-vertices", Note,
-            "There are more vertices than the books' 16-bit indices name.",
+            "There are more vertices than the books' 16-bit indices can number.",
             "The books' demos need 32-bit indices to show it.",
             "All of them are drawn.",
             "Reduce or split the mesh, or use 32-bit indices in the demo.";
@@ -347,10 +347,10 @@ table! {
             "The coordinate is taken as 0.",
             "Find the division by zero or the unset value in the exporter.";
         HANDEDNESS_UNCLEAR = "handedness-unclear", Note,
-            "Triangles wind both ways; the majority decides.",
-            "Parts of the model may be inside out, or the whole may be mirrored.",
+            "Some triangles face the other way than the rest; the majority decides.",
+            "Their front faces look inwards (flipped normals). Parts of the model may be inside out, or the whole may be mirrored.",
             "The majority decides.",
-            "Turn the triangles that wind the other way, or mend mirrored parts of the scene by applying their scale.";
+            "Recalculate the normals to point outside, and apply negative scales, before the export.";
         NORMALS_MISSING = "normals-missing", Warning,
             "A vertex has a normal that is zero or not finite; computed from the triangles.",
             "Edges that should be sharp may look round there.",
@@ -370,7 +370,7 @@ table! {
             "A vertex of a skinned model has no blend weight; not moved by any bone.",
             "It stays where the bind pose has it while the rest moves.",
             "The vertex is moved by no bone.",
-            "Give every vertex a bone: the one that its part of the mesh hangs on.", ForBook;
+            "Give every vertex a bone: the one that its part of the mesh hangs on (a vertex group).", ForBook;
         BONE_INDEX_ABOVE_BYTE = "bone-index-above-byte", Note,
             "An influence names a bone above 255, which the books' loaders cannot hold.",
             "They keep bone indices in bytes.",
@@ -477,7 +477,7 @@ table! {
             "Export it without compression, and with textures in PNG or JPEG.";
         GLTF_EXTENSION_UNKNOWN = "gltf-extension-unknown", Note,
             "The file uses an extension that is not read; the model is shown without.",
-            "The file says itself that it can be shown so.",
+            "For example clear coat or transmission of a material. The file says itself that it can be shown so.",
             "The extension is left out.",
             "Nothing needs to be mended.";
         GLTF_INDEX_OUT_OF_RANGE = "gltf-index-out-of-range", Error,
@@ -506,8 +506,8 @@ table! {
             "The file is not opened.",
             "Write the type and the component type that the specification has for the attribute.";
         GLTF_NODES_TANGLED = "gltf-nodes-tangled", Error,
-            "Nodes are no trees: one is its own ancestor, or the child of two.",
-            "Every node has one parent at most.",
+            "Objects are parented in a circle, or one has two parents.",
+            "Every node of glTF (object, bone or empty) has one parent at most.",
             "The file is not opened.",
             "Name each node as the child of one other at most, and of none below it.";
         GLTF_TOO_LARGE = "gltf-too-large", Error,
@@ -516,9 +516,9 @@ table! {
             "The file is not opened.",
             "Look whether a count is wrong, or one accessor is named by a great many others.";
         GLTF_RULE_BROKEN = "gltf-rule-broken", Warning,
-            "The file breaks a rule of glTF, and was read by its sense.",
+            "The file breaks a rule of glTF, and was read as it is probably meant.",
             "Other programs may refuse it.",
-            "It is read by its sense; what makes none is left out.",
+            "It is read as it is probably meant; what makes no sense is left out.",
             "Look at the place with the Khronos validator, which names the rule.", OnReading;
         GLTF_EMPTY = "gltf-empty", Warning,
             "The scene has neither meshes nor joints.",
@@ -536,15 +536,15 @@ table! {
             "The mean of the triangles around each vertex is taken.",
             "Export normals.", OnReading;
         GLTF_MORPH_ANIMATION_LEFT_OUT = "gltf-morph-animation-left-out", Warning,
-            "A clip moves the weights of morph targets; left out.",
-            "Morph targets are shown with the weights that the file gives them outside of clips.",
+            "A clip moves shape keys (morph targets, blend shapes); they stay still.",
+            "Shape keys are shown with the values that the file gives them outside of clips.",
             "The rest of the clip is played.",
-            "Bake what moves a face into joints, where it has to be seen here.";
+            "Move what has to be seen here, such as a face, by bones.";
         GLTF_MORPH_TARGETS_LEFT_OUT = "gltf-morph-targets-left-out", Note,
             "A mesh has shape keys (morph targets), which stand still.",
             "They are shown with the weights that the file gives them outside of clips. A model here is moved by bones alone.",
             "They are neither played nor written.",
-            "Bake what moves a face into joints, where it has to be seen here.";
+            "Move what has to be seen here, such as a face, by bones.";
         GLTF_OBJECTS_MERGED = "gltf-objects-merged", Note,
             "Several objects become one mesh.",
             "A model here has one mesh, whose parts have materials and no names of their own.",
@@ -577,24 +577,24 @@ table! {
             "Give the material an alpha of its own and the mode BLEND, where it has to look so everywhere.";
         GLTF_CHANNEL_LEFT_OUT = "gltf-channel-left-out", Note,
             "A clip moves something that is not shown; left out.",
-            "Cameras, lights and nodes without meshes are not shown.",
+            "Cameras, lights and empties are not shown.",
             "The rest of the clip is played.",
             "Nothing needs to be mended.";
         GLTF_MATRIX_SHEARED = "gltf-matrix-sheared", Warning,
-            "A node's matrix shears or flattens space, which a joint cannot.",
-            "Joints have a translation, a rotation and a scale. What hangs on the node may look displaced.",
-            "The shear is left out where the node is a joint; a mesh that nothing moves keeps it.",
-            "Apply scales before exporting, so that nothing is turned below a node of uneven scale.";
+            "An object or a bone is sheared or flattened, which a bone cannot say.",
+            "Bones have a location, a rotation and a scale. What hangs on it may look displaced.",
+            "The shear is left out where it is a bone; a mesh that nothing moves keeps it.",
+            "Apply scales before exporting, so that nothing is turned below an object of uneven scale.";
         GLTF_IMAGE_NOT_READ = "gltf-image-not-read", Warning,
-            "A picture is of a kind that is not read, or its address is none; the material is shown without it.",
+            "A picture is of a kind that is not read, or its address is wrong; the material is shown without it.",
             "PNG, JPEG and WebP are read.",
             "The material is shown without it.",
             "Export textures as PNG or JPEG.";
         WEIGHTS_CUT = "weights-cut", Warning,
-            "A vertex is moved by more than four joints; the four with the greatest weights are kept.",
+            "A vertex is moved by more than four bones; the four with the greatest weights are kept.",
             "Their weights are scaled to sum to 1. The message says how much was lost at most.",
             "The four greatest weights are kept and scaled to sum to 1.",
-            "Limit the weights of a vertex to four in the modelling program, and look at the result there.", OnReading;
+            "Limit the weights of a vertex to four in the modelling program (Weights › Limit Total), and look at the result there.", OnReading;
     }
 
     /// What the checks of a mesh and its rig give ([`check::model`](crate::check::model)).
@@ -603,7 +603,7 @@ table! {
             "A triangle has no area: corners coincide or lie in a line.",
             "It is not seen and can be left out.",
             "It is drawn, and not seen.",
-            "Remove degenerate triangles before the export.", WithFix;
+            "Remove degenerate faces before the export (Clean Up › Degenerate Dissolve).", WithFix;
         TRIANGLES_REPEATED = "triangles-repeated", Note,
             "A triangle has the same three vertices as another one before.",
             "One hides the other, or flickers with it. Where it is meant as the back, it needs vertices with normals of its own.",
@@ -611,16 +611,16 @@ table! {
             "Remove duplicate faces before the export.";
         VERTICES_UNUSED = "vertices-unused", Note,
             "A vertex is a corner of no triangle.",
-            "It is not seen, but counts for the model's size and is moved with the others. It can be left out.",
+            "It is loose: not seen, but it counts for the model's size and is moved with the others. It can be left out.",
             "It is kept.",
             "Write only vertices that a triangle names, and number the indices anew.", WithFix;
         EDGES_CROWDED = "edges-crowded", Note,
             "An edge belongs to more than two triangles.",
-            "Perhaps a surface lies inside another one. They share normals at that edge, which fit no more than one of them.",
+            "Perhaps a surface lies inside another one (non-manifold geometry). They share normals at that edge, which fit no more than one of them.",
             "All of them are drawn.",
             "Remove inner faces and duplicate surfaces in the modelling program.";
         TEX_COORDS_EQUAL = "tex-coords-equal", Warning,
-            "All texture coordinates of a subset are equal, so its maps show one point.",
+            "All texture coordinates (UVs) of a subset are equal, so its maps show one point.",
             "Perhaps the file was exported without them. One point is enough only where the map is a palette of colours.",
             "The maps are drawn as the file says.",
             "Unwrap the mesh, and export its texture coordinates.";
@@ -674,7 +674,7 @@ table! {
             "Write the labels and values of a row as the book's exporter does, with one word for each name.", ForBook;
         BOOK_CLIP_NAME = "book-clip-name", Note,
             "There is no clip of the name that the books' demos ask for.",
-            "They look for it in their first frame, and crash.",
+            "The demos play one clip, look for it in their first frame, and crash where it is not.",
             "Any clip can be played.",
             "Name the clip to be shown `Take1`, or change `ClipName` in the demo.", ForBook;
         BOOK_ROOTS = "book-roots", Note,
@@ -683,8 +683,8 @@ table! {
             "Any bone may be a root.",
             "Add a bone 0 that is the parent of all others.", ForBook;
         BOOK_FOURTH_WEIGHT = "book-fourth-weight", Note,
-            "A fourth blend weight is not what is left to 1.",
-            "The books' shaders do not read it: they take what the first three leave.",
+            "The four weights of a vertex do not sum to 1, and the books take the fourth for what the others leave.",
+            "Their shaders do not read the fourth weight: they take 1 less the first three.",
             "The fourth weight is used and all are normalised.",
             "Divide the four weights by their sum.", OnReading;
         BOOK_ALPHA_CLIP = "book-alpha-clip", Note,
@@ -704,14 +704,25 @@ table! {
             "Scale the scene so that the character is about 72 units high, or change the demo's scale.", ForBook;
         BOOK_TANGENT_SIGN = "book-tangent-sign", Note,
             "The D3D12 book's loader leaves the sign of tangents unread.",
-            "Its shader takes the bitangent of an unmirrored texture, turned round by the demo's mirror.",
+            "Its demo mirrors the model, so that bumps of normal maps are right where the sign is −1 and look like dents where it is 1.",
             "The sign is used.",
             "Write −1 for all tangents where nothing is mirrored, or read the fourth number in the loader.";
         BOOK_MAP_FORMAT = "book-map-format", Note,
-            "A map is of a format that the book's demo does not read.",
-            "The D3D12 book reads DDS alone.",
+            "A map is of a format that the book's demo does not read, or there is none.",
+            "The D3D12 book reads DDS alone, and opens two maps for each material, also where `None` stands.",
             "PNG, JPEG, WebP, TGA and BMP are read too.",
-            "Save maps as `.dds`, and name those in the materials.";
+            "Save maps as `.dds`, and name those in the materials; where there is none, the demo's own `white1x1.dds` and `default_nmap.dds`.";
+        BOOK_MANY_MATERIALS = "book-many-materials", Note,
+            "There are more materials than the D3D12 book's demo has room for.",
+            "It opens two textures for each, and its shader has an array of 48 for them and six of its own. Of more than 24 materials it writes \
+             behind its 64 views.",
+            "All materials are drawn.",
+            "Join materials that look alike, or raise the sizes of `gTextureMaps` and of the demo's heap of views.";
+        BOOK_MATERIAL_NAME = "book-material-name", Note,
+            "A material has a name that the D3D12 book's demo uses itself.",
+            "It keeps materials by name, and its own are called `sky`, `bricks0`, `tile0` and `mirror0`.",
+            "The material is drawn as any other.",
+            "Give the material another name.", ForBook;
     }
 
     /// What [`Skeleton::new`](crate::model::Skeleton::new), [`Track::new`](crate::model::Track::new) and
@@ -950,9 +961,9 @@ table! {
             "Remove the link, or let it lead to a file.";
         NOT_A_FILE = "not-a-file", Warning,
             "This is no regular file; skipped.",
-            "A pipe or a device has the name of a map.",
+            "A pipe or a device has the name of a model or a map. Opening it could wait for ever.",
             "It is skipped.",
-            "Put a picture in its place.";
+            "Put a file in its place. A pipe that is named itself, not its folder, is read.";
         FOLDER_UNREADABLE = "folder-unreadable", Warning,
             "The folder cannot be read; skipped.",
             "The message has the system's reason.",

@@ -1,6 +1,6 @@
 //! Collects the diagnostics of one stage, so that many alike become one.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::{Code, Diagnostic, Moment, Position, Subject};
 
@@ -262,4 +262,30 @@ impl Moments {
 /// `1 vertex`, `2 vertices`.
 pub(crate) fn counted(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
+}
+
+/// The first few of some names, each once: `"Skin"`, `"Skin", "Hair", "Coat" and 3 more`.
+pub(crate) fn named<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    let mut met = HashSet::new();
+    let names = names.into_iter().filter(|name| met.insert(*name));
+    few(&names.map(quoted).collect::<Vec<_>>())
+}
+
+/// The first few of some words.
+pub(crate) fn few(words: &[String]) -> String {
+    const MOST: usize = 3;
+    let first = &words[..words.len().min(MOST)];
+    match words.len() - first.len() {
+        0 => first.join(", "),
+        more => format!("{} and {more} more", first.join(", ")),
+    }
+}
+
+/// A name between quotation marks. A very long one is cut.
+pub(crate) fn quoted(name: &str) -> String {
+    const MOST_LETTERS: usize = 40;
+    match name.char_indices().nth(MOST_LETTERS) {
+        Some((end, _)) => format!("\"{}…\"", &name[..end]),
+        None => format!("\"{name}\""),
+    }
 }

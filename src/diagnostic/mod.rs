@@ -5,6 +5,7 @@
 
 pub mod codes;
 pub(crate) mod collect;
+pub mod limits;
 pub mod of_export;
 
 use std::fmt;

@@ -49,7 +49,7 @@ pub const ALL: &[ExportCode] = &[
     change(
         "loop-closed",
         "The end of a clip is eased into its first pose.",
-        "Leave out `--close-loop` to keep its end.",
+        "Leave out `--close-loop` to keep its end as it is.",
     ),
     change(
         "keys-reduced",
@@ -69,7 +69,7 @@ pub const ALL: &[ExportCode] = &[
     ),
     change(
         "winding-changed",
-        "Triangles wind the other way round, so that their fronts stay fronts.",
+        "The corners of triangles go round the other way, so that their front faces stay in front.",
         "Nothing: it follows the hand.",
     ),
     change(
@@ -127,12 +127,12 @@ pub const ALL: &[ExportCode] = &[
     loss(
         "maps-missing",
         "Maps without a picture are left out of a `.glb`.",
-        "Give their folder with `--textures`, or drop them on the page.",
+        "Give the folder of the pictures with `--textures`, or drop them on the page.",
     ),
     loss(
         "texture-shear",
-        "Texture coordinates are sheared, which glTF's transform cannot say.",
-        "Write the shear into the texture coordinates.",
+        "The transform of a map shears its texture coordinates (UVs), which that of glTF cannot.",
+        "Apply the shear to the UV map in the modelling program.",
     ),
     loss(
         "subsets-empty",
@@ -142,7 +142,7 @@ pub const ALL: &[ExportCode] = &[
     loss(
         "vertices-unweighted",
         "Vertices that no bone moves hang on a joint that is added and stands still.",
-        "Weigh them in the modelling program.",
+        "Give them weights in the modelling program (a vertex group of a bone).",
     ),
     loss(
         "negative-times",
@@ -166,7 +166,7 @@ pub const ALL: &[ExportCode] = &[
     ),
     loss(
         "front",
-        "The model faces away from where characters of the format do.",
+        "The model faces the other way than characters of the format do.",
         "Let convert turn it, as it does by default.",
     ),
     loss(
@@ -176,8 +176,8 @@ pub const ALL: &[ExportCode] = &[
     ),
     loss(
         "second-tex-coords",
-        "The format has one set of texture coordinates.",
-        "Bake what uses the second into maps of the first.",
+        "The format has one UV map (one set of texture coordinates).",
+        "Bake the pictures that use the second UV map into ones for the first.",
     ),
     loss(
         "joint-names",
@@ -186,23 +186,23 @@ pub const ALL: &[ExportCode] = &[
     ),
     loss(
         "rest-pose",
-        "Bones rest elsewhere than in the bind pose, which the format cannot say.",
+        "Bones rest elsewhere than in the bind pose (the edit mode's pose), which the format cannot say.",
         "Give them keys in each clip.",
     ),
     loss(
         "step-keys",
-        "Held values become two keys each.",
+        "Keys that hold their value (constant interpolation) become two keys each.",
         "Nothing: they look the same but for a moment before each jump.",
     ),
     loss(
         "cubic-keys",
-        "Splines become straight pieces; the message says how far they are off.",
+        "Splines (Bézier interpolation) become straight pieces; the message says how far they are off.",
         "Nothing, or sample the curves in the modelling program.",
     ),
     loss(
         "materials-shared",
-        "Subsets that share a material get a copy each.",
-        "Join the subsets of one material.",
+        "Subsets that share a material get a copy each, since the format has one material for each subset.",
+        "Join the objects that share a material.",
     ),
     loss(
         "materials-unused",
@@ -221,22 +221,22 @@ pub const ALL: &[ExportCode] = &[
     ),
     loss(
         "metallic-roughness",
-        "The format has no metalness: Fresnel0 and diffuse follow from it.",
-        "Edit Fresnel0 and roughness on the page where it looks otherwise.",
+        "The format has no metalness: a metal gets a darker colour and reflects (Fresnel0) in its own.",
+        "Look at it in the book's light; edit diffuse, Fresnel0 and roughness on the page where it looks too dark.",
     ),
     loss(
         "metallic-roughness-map",
-        "The format has no map of roughness and metalness.",
+        "The format has no map of roughness and metalness (metallic-roughness, ORM).",
         "Put 1 − roughness into the alpha of the normal map, which the D3D12 book reads as gloss.",
     ),
     loss(
         "occlusion-map",
-        "The format has no occlusion map.",
+        "The format has no map of ambient occlusion (AO).",
         "Multiply it into the diffuse map.",
     ),
     loss(
         "emissive-map",
-        "The format has no emissive map.",
+        "The format has no map of emission (glow).",
         "Add it to the diffuse map.",
     ),
     loss(
@@ -251,28 +251,32 @@ pub const ALL: &[ExportCode] = &[
     ),
     loss(
         "alpha-blend",
-        "The format blends nothing; the material is drawn opaque.",
-        "Use a mask for leaves and hair.",
+        "The format has no transparency by blending; the material is drawn opaque.",
+        "Cut leaves and hair out by alpha instead (Alpha Clip, a mask).",
     ),
     loss(
         "alpha-cutoff",
-        "The books cut at one alpha for all.",
+        "The books cut holes at one alpha for all.",
         "Scale the alpha of the map.",
     ),
     loss(
         "opacity",
-        "The format has no alpha beside a colour.",
+        "The format has no opacity (alpha) beside a colour.",
         "Put it into the alpha of the diffuse map.",
     ),
     loss(
         "double-sided",
-        "The format cannot say which sides are drawn.",
-        "Double the triangles of what is to be seen from both sides.",
+        "The format cannot say whether back faces are drawn (two-sided, Backface Culling): the books draw those of what is cut out by alpha alone.",
+        "Nothing where the backs are never seen, as of a closed body. Else duplicate the faces and flip the copies.",
     ),
-    loss("unlit", "The format lights everything.", "Nothing: it is lit."),
+    loss(
+        "unlit",
+        "The format has no materials without light (unlit, shadeless).",
+        "Nothing: it is lit.",
+    ),
     loss(
         "emissive",
-        "The format has no light of a material's own.",
+        "The format has no emission, light that a material gives by itself.",
         "Use a brighter diffuse colour.",
     ),
     loss(
@@ -282,7 +286,7 @@ pub const ALL: &[ExportCode] = &[
     ),
     loss(
         "map-sampling",
-        "The books' maps repeat as they are, with the one set of texture coordinates.",
-        "Bake transforms into the texture coordinates.",
+        "The books' maps repeat, by the first UV map as it is; the message names the map and what it has of another kind.",
+        "Bake a picture of a second UV map into the first; apply a mapping's offset, turn and scale to the UV map.",
     ),
 ];

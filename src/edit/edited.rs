@@ -1,5 +1,6 @@
 //! What comes out of edits.
 
+pub(super) use crate::diagnostic::collect::counted;
 use crate::model::{Clip, JointNames, Model, Track};
 
 /// Something that came out otherwise than it was.
@@ -34,9 +35,4 @@ pub struct Edited {
 /// The clip with other tracks.
 pub(super) fn with_tracks(clip: &Clip, tracks: Vec<Track>) -> Clip {
     Clip::new(clip.name.clone(), tracks)
-}
-
-/// `1 key`, `2 keys`.
-pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { many })
 }

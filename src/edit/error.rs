@@ -76,8 +76,8 @@ pub enum EditError {
         /// How many there may be.
         most: usize,
     },
-    /// More vertices than the books' indices name.
-    #[error("The model has {vertices} vertices; the books' demo names {most} at most.")]
+    /// More vertices than the books' indices can number.
+    #[error("The model has {vertices} vertices; the books' demo can number {most}.")]
     TooManyVertices {
         /// How many.
         vertices: usize,

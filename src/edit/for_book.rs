@@ -8,32 +8,28 @@ use super::edited::{Change, Edited, counted, with_tracks};
 use super::error::EditError;
 use super::space;
 use crate::anim::{CompiledClip, PoseBuffers, skin_positions};
-use crate::check::book::{DEMO_CLIP, DEMO_SCALE, MOST_BONES, MOST_VERTICES, SEEN_HEIGHTS};
+use crate::check::book::{DEMO_CLIP, DEMO_MATERIALS, DEMO_SCALE, MOST_BONES, MOST_VERTICES, SEEN_HEIGHTS};
 use crate::diagnostic::codes;
 use crate::model::{Aabb, Clip, Influences, JointIndex, JointNames, LocalJoint, Model, ModelError, Skeleton, Track};
 
 /// The height of the books' soldier.
 const SOLDIER_HEIGHT: f32 = 72.0;
 
-/// Refuses what no edit makes small enough.
-pub(super) fn check_size(model: &Model) -> Result<(), EditError> {
+/// What no edit makes small enough for the books' demo: [`EditError::TooManyVertices`] and [`EditError::TooManyBones`], where they hold.
+pub fn too_large_for_book(model: &Model) -> impl Iterator<Item = EditError> {
     let vertices = model.mesh.vertex_count();
-    if vertices > MOST_VERTICES {
-        return Err(EditError::TooManyVertices {
-            vertices,
-            most: MOST_VERTICES,
-        });
-    }
+    let of_vertices = (vertices > MOST_VERTICES).then_some(EditError::TooManyVertices {
+        vertices,
+        most: MOST_VERTICES,
+    });
     let added = needs_root(model);
     let bones = model.skeleton.joint_count() + usize::from(added);
-    if bones > MOST_BONES {
-        return Err(EditError::TooManyBones {
-            bones,
-            added,
-            most: MOST_BONES,
-        });
-    }
-    Ok(())
+    let of_bones = (bones > MOST_BONES).then_some(EditError::TooManyBones {
+        bones,
+        added,
+        most: MOST_BONES,
+    });
+    of_vertices.into_iter().chain(of_bones)
 }
 
 /// The factor that makes a model as high as the books' soldier, where it is too small or too large to be seen. Its y is up. The height is
@@ -206,7 +202,7 @@ fn give_keys(edited: &mut Edited) -> Result<(), ModelError> {
                 codes::TRACK_EMPTY.name,
                 format!(
                     "{} a key at rest in \"{}\".",
-                    counted(resting, "bone has", "bones have"),
+                    counted(resting, "bone gets", "bones get"),
                     clip.name
                 ),
             ));
@@ -239,7 +235,10 @@ fn name_clips(edited: &mut Edited) {
 
 fn name_materials(edited: &mut Edited) {
     let materials = &mut edited.model.materials;
-    let names = words(materials.iter().map(|material| material.name.as_str()));
+    // One of the demo's own names would take the place of its material.
+    let free = |name: &str| format!("{name}{}", if DEMO_MATERIALS.contains(&name) { "_2" } else { "" });
+    let free: Vec<String> = materials.iter().map(|material| free(&material.name)).collect();
+    let names = words(free.iter().map(String::as_str));
     for (material, name) in materials.iter_mut().zip(names) {
         if material.name != name {
             let message = format!("Material \"{}\" is named \"{name}\".", material.name);

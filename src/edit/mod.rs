@@ -16,6 +16,7 @@ mod space;
 
 pub use edited::{Change, Edited};
 pub use error::EditError;
+pub use for_book::too_large_for_book;
 
 use reduce::Reducing;
 
@@ -173,7 +174,7 @@ impl EditJob {
             close_loop::close_loops(edited, secs)?;
         }
         if edits.for_book {
-            for_book::check_size(&edited.model)?;
+            too_large_for_book(&edited.model).next().map_or(Ok(()), Err)?;
         }
         Ok(())
     }

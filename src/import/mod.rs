@@ -24,6 +24,11 @@ pub fn begins_like_model(bytes: &[u8]) -> bool {
     m3d::begins_like_model(bytes) || gltf::begins_like_model(bytes)
 }
 
+/// Whether a file begins as glTF does, in either form.
+pub fn begins_like_gltf(bytes: &[u8]) -> bool {
+    gltf::begins_like_model(bytes)
+}
+
 /// Reads a model that needs no other file.
 ///
 /// # Errors

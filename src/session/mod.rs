@@ -87,6 +87,7 @@ pub use submeshes::Submeshes;
 pub use textures::{
     Checklist, FoundMap, MapNames, MapSource, MaterialMaps, find_map, find_maps, map_diagnostics, named_maps,
 };
+pub use verdicts::limits_once_converted;
 pub use view_state::{AppearanceState, CameraState, PlaybackState, SelectionState, ViewState};
 
 use actor::Actor;

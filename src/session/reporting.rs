@@ -1,7 +1,7 @@
 //! What the books' programs make of the open file, and the report of all that was found in it.
 
 use super::Session;
-use crate::check::book::Verdict;
+use crate::check::book::{Limit, Verdict};
 use crate::check::report::{self, CheckedFile};
 use crate::check::sarif;
 use crate::diagnostic::Diagnostic;
@@ -14,6 +14,11 @@ impl Session {
             .map_or(&[], |open| self.content.verdicts.of(open, self.maps()))
     }
 
+    /// Of an open file of another format than the books', what it exceeds in their demos even converted for them; `None` for others.
+    pub fn limits_once_converted(&self) -> Option<&[Limit]> {
+        self.content.verdicts.converted(self.open_model()?)
+    }
+
     /// All that was found in the open file, as `bindpose check --book all` prints it, and what the table of codes says of it; empty without a model.
     pub fn report(&self) -> String {
         let found = self.found();
@@ -22,10 +27,10 @@ impl Session {
     }
 
     /// The same as a SARIF document; `None` without a model.
-    pub fn sarif(&self) -> Option<sarif::Log> {
+    pub fn sarif(&self) -> Option<serde_json::Value> {
         let found = self.found();
         let results = sarif::Results::of(&self.checked_file(&found)?);
-        Some(sarif::log([results]))
+        Some(sarif::log([results], &[]))
     }
 
     fn found(&self) -> Vec<Diagnostic> {
@@ -39,6 +44,7 @@ impl Session {
             bytes: &open.file.bytes,
             diagnostics,
             verdicts: self.verdicts(),
+            converted: self.limits_once_converted(),
         })
     }
 }

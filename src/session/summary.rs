@@ -128,6 +128,16 @@ pub struct Place {
 pub struct Books<'a> {
     pub d3d11: Option<Verdict<'a>>,
     pub d3d12: Option<Verdict<'a>>,
+    pub converted: Option<Converted<'a>>,
+}
+
+/// Whether a file of another format fits the books' demos once it is converted for them.
+#[derive(Debug, Serialize)]
+pub struct Converted<'a> {
+    /// Whether it does.
+    pub fits: bool,
+    /// What it exceeds.
+    pub limits: Vec<Limit<'a>>,
 }
 
 /// What a book's program makes of a file.
@@ -159,22 +169,31 @@ pub struct Limit<'a> {
 }
 
 impl<'a> Books<'a> {
-    /// Those of some verdicts.
-    pub fn of(verdicts: &'a [book::Verdict]) -> Self {
+    /// Those of some verdicts, or of what a file of another format exceeds once it is converted.
+    pub fn of(verdicts: &'a [book::Verdict], converted: Option<&'a [book::Limit]>) -> Self {
         let of = |book| verdicts.iter().find(|verdict| verdict.book == book).map(Verdict::from);
         Self {
             d3d11: of(Book::D3d11),
             d3d12: of(Book::D3d12),
+            converted: converted.map(|limits| Converted {
+                fits: limits.is_empty(),
+                limits: limits.iter().map(Limit::from).collect(),
+            }),
+        }
+    }
+}
+
+impl<'a> From<&'a book::Limit> for Limit<'a> {
+    fn from(limit: &'a book::Limit) -> Self {
+        Self {
+            code: limit.code,
+            message: &limit.message,
         }
     }
 }
 
 impl<'a> From<&'a book::Verdict> for Verdict<'a> {
     fn from(verdict: &'a book::Verdict) -> Self {
-        let limits = verdict.limits.iter().map(|limit| Limit {
-            code: limit.code,
-            message: &limit.message,
-        });
         Self {
             reads: verdict.reads(),
             line: verdict.position().map(|at| at.line),
@@ -182,7 +201,7 @@ impl<'a> From<&'a book::Verdict> for Verdict<'a> {
             why: verdict.trouble.as_ref().map(|trouble| trouble.why.as_str()),
             shows: &verdict.shows,
             ends: verdict.ends,
-            limits: limits.collect(),
+            limits: verdict.limits.iter().map(Limit::from).collect(),
         }
     }
 }

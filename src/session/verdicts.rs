@@ -4,19 +4,25 @@ use std::sync::OnceLock;
 
 use super::maps::Maps;
 use super::open_model::OpenModel;
-use crate::check::book::{self, Book, Known, Verdict};
+use crate::check::book::{self, Book, Known, Limit, MOST_MATERIALS, Verdict};
+use crate::diagnostic::codes;
+use crate::edit::{EditError, too_large_for_book};
 use crate::format;
+use crate::model::Model;
 
 /// The verdict of each book. [`LoadJob`](super::LoadJob) works them out in a step of its own, since each program reads the file anew.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Verdicts(OnceLock<Vec<Verdict>>);
+pub(super) struct Verdicts {
+    of_books: OnceLock<Vec<Verdict>>,
+    converted: OnceLock<Vec<Limit>>,
+}
 
 impl Verdicts {
-    /// Those of the open model with its maps, in the order of [`Book::ALL`]. They are worked out at the first call.
+    /// Those of the open model with its maps, in the order of [`Book::ALL`]; none for other formats than the books'. They are worked out
+    /// at the first call.
     pub(super) fn of(&self, open: &OpenModel, maps: &Maps) -> &[Verdict] {
-        self.0.get_or_init(|| {
+        self.of_books.get_or_init(|| {
             if open.format.is_gltf() {
-                // The books' programs know no other format than theirs.
                 return Vec::new();
             }
             let bytes = &open.file.bytes;
@@ -38,8 +44,38 @@ impl Verdicts {
         })
     }
 
+    /// What the open model exceeds even converted for the books; `None` for their own format.
+    pub(super) fn converted(&self, open: &OpenModel) -> Option<&[Limit]> {
+        let limits = || limits_once_converted(&open.model, &Book::ALL);
+        open.format.is_gltf().then(|| &**self.converted.get_or_init(limits))
+    }
+
     /// The maps are others.
     pub(super) fn forget(&mut self) {
         *self = Self::default();
     }
+}
+
+/// What a model of another format exceeds in the demos of these books even when it is converted for them: what the export for the book
+/// refuses, and more materials than the demo has room for. Each submesh becomes a material there.
+pub fn limits_once_converted(model: &Model, books: &[Book]) -> Vec<Limit> {
+    let of_edits = too_large_for_book(model).map(|error| {
+        let code = match error {
+            EditError::TooManyBones { .. } => &codes::MANY_BONES,
+            _ => &codes::MANY_VERTICES,
+        };
+        (code, error.to_string())
+    });
+    let count = model.mesh.submeshes.len();
+    let message = format!(
+        "It has {count} materials, counting each for each part that it is on; the demo reaches the maps of {MOST_MATERIALS}."
+    );
+    let is_many = books.contains(&Book::D3d12) && count > MOST_MATERIALS;
+    let of_materials = is_many.then_some((&codes::BOOK_MANY_MATERIALS, message));
+    let all = of_edits.chain(of_materials);
+    all.map(|(code, message)| Limit {
+        code: code.name,
+        message,
+    })
+    .collect()
 }

@@ -199,7 +199,9 @@ impl<'a> State<'a> {
             frames_rendered,
             theme,
             notices: session.diagnostics().map(Finding::from).collect(),
-            book: session.open_model().map(|_| Books::of(session.verdicts())),
+            book: session
+                .open_model()
+                .map(|_| Books::of(session.verdicts(), session.limits_once_converted())),
             error: session.error().map(FileError::from),
         }
     }

@@ -3,7 +3,7 @@
 use bindpose::session::{File, FileCommand, Session};
 use serde_json::{Value, json};
 
-use crate::program::{bindpose, fixture, fixtures, run, scratch, shared};
+use crate::program::{bindpose, fixture, fixtures, run, run_command, run_with_input, scratch, shared};
 
 #[test]
 fn a_finding_is_a_line_and_its_excerpt() {
@@ -53,8 +53,8 @@ fn json_has_an_object_for_each_file() {
     let run = run(["check", "--json", &good, &bad]);
     assert_eq!(run.code, Some(1));
     let expected = json!([
-        {"file": good, "findings": [], "book": null},
-        {"file": bad, "findings": [{
+        {"schemaVersion": 1, "file": good, "findings": [], "book": null, "error": null},
+        {"schemaVersion": 1, "file": bad, "findings": [{
             "severity": "error",
             "code": "not-in-range",
             "message": "A blend index must be a whole number from 0 to 1, but \"2\" was found.",
@@ -72,7 +72,7 @@ fn json_has_an_object_for_each_file() {
             "help": "An index must name a row that is there; a count must not be negative. Count from 0, and write counts and \
                      indices of the same list as whole numbers.",
             "permanent": null,
-        }], "book": null},
+        }], "book": null, "error": null},
     ]);
     assert_eq!(run.json(), expected);
 }
@@ -369,7 +369,8 @@ fn json_tells_what_each_book_makes_of_a_file() {
         {"code": "book-size",
          "message": "The demo scales by 0.05: the model is 2.00 high in its file and 0.100 there, beside a soldier of 3.6."},
     ]);
-    let expected = json!([{"file": file, "findings": [], "book": {
+    let expected = json!([{"schemaVersion": 1, "file": file, "findings": [], "error": null, "book": {
+        "converted": null,
         "d3d11": {
             "reads": false,
             "line": 9,
@@ -452,6 +453,93 @@ fn the_report_of_a_session_is_that_of_the_command_line() {
     }
 }
 
+/// A mesh of so many vertices on each of so many nodes, one of them unused, as glTF.
+fn gltf_with(vertices: usize, joints: usize) -> String {
+    let mut bytes = Vec::new();
+    for vertex in 0..vertices {
+        let place = [[0.0_f32, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]][vertex % 3];
+        bytes.extend(place.iter().flat_map(|number| number.to_le_bytes()));
+    }
+    let weights_at = bytes.len();
+    bytes.extend(
+        (0..vertices)
+            .flat_map(|_| [1.0_f32, 0.0, 0.0, 0.0].map(f32::to_le_bytes))
+            .flatten(),
+    );
+    let joints_at = bytes.len();
+    bytes.extend((0..vertices).flat_map(|_| [0_u8; 4]));
+    let view = |from: usize, to: usize| json!({"buffer": 0, "byteOffset": from, "byteLength": to - from});
+    let accessor = |view: usize, kind: &str, component: u32| json!({"bufferView": view, "componentType": component, "count": vertices, "type": kind});
+    let file = scratch(&format!("many_{vertices}_{joints}.gltf"));
+    let data = file.with_extension("bin");
+    std::fs::write(&data, &bytes).expect("can be written");
+    let name = data.file_name().and_then(|name| name.to_str()).expect("UTF-8");
+    let mut nodes = vec![
+        json!({"mesh": 0, "skin": 0}),
+        json!({"children": (2..=joints).collect::<Vec<_>>()}),
+    ];
+    nodes.extend((2..=joints).map(|_| json!({})));
+    let text = json!({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}], "nodes": nodes,
+        "skins": [{"joints": (1..=joints).collect::<Vec<_>>()}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "WEIGHTS_0": 1, "JOINTS_0": 2}}]}],
+        "buffers": [{"uri": name, "byteLength": bytes.len()}],
+        "bufferViews": [view(0, weights_at), view(weights_at, joints_at), view(joints_at, bytes.len())],
+        "accessors": [accessor(0, "VEC3", 5126), accessor(1, "VEC4", 5126), accessor(2, "VEC4", 5121)],
+    });
+    std::fs::write(&file, text.to_string()).expect("can be written");
+    file.to_str().expect("UTF-8").to_owned()
+}
+
+#[test]
+fn of_gltf_it_is_said_whether_it_fits_once_it_is_converted() {
+    let fits = fixture("gltf/banner.glb");
+    let told = run(["check", "--book", "all", "--deny", "book", &fits]);
+    assert_eq!(told.code, Some(0), "{told:?}");
+    let line = format!("{fits}: Book demos: converted for the book: fits\n");
+    assert_eq!(told.out.matches("Book demos").count(), 1);
+    assert!(
+        told.out.contains(&line) && !told.out.contains("It skips"),
+        "{}",
+        told.out
+    );
+
+    let large = gltf_with(65_538, 120);
+    let arguments = ["check", "--book", "d3d12", &large];
+    let told = run(arguments);
+    assert_eq!(told.code, Some(0), "{told:?}");
+    for words in [
+        "does not fit. The model has 65538 vertices; ",
+        "The model has 120 bones; ",
+    ] {
+        assert!(told.out.contains(words), "{words} is not in {}", told.out);
+    }
+    assert_eq!(run([&arguments[..], &["--deny", "book"]].concat()).code, Some(1));
+    let allowed = [
+        &arguments[..],
+        &["--deny", "book", "--allow", "many-bones,many-vertices"],
+    ]
+    .concat();
+    assert_eq!(run(allowed).code, Some(0));
+    let found = run([&arguments[..], &["--json"]].concat()).json();
+    let converted = &found[0]["book"]["converted"];
+    assert_eq!(
+        (&converted["fits"], &found[0]["book"]["d3d12"]),
+        (&json!(false), &Value::Null)
+    );
+    assert_eq!(converted["limits"].as_array().map(Vec::len), Some(2), "{found}");
+    // The export says the same.
+    let out = scratch("too_large.m3d");
+    let refused = run(["convert", &large, out.to_str().expect("UTF-8"), "--for-book"]);
+    assert_eq!(refused.code, Some(1), "{refused:?}");
+    let log = run([&arguments[..], &["--format", "sarif"]].concat()).json();
+    let results = log["runs"][0]["results"].as_array().expect("a list");
+    assert!(results.iter().any(|result| result["ruleId"] == "many-bones"), "{log}");
+    // A damaged one has its error and nothing of books.
+    let damaged = run(["check", "--book", "all", &fixture("check/glb-damaged.glb")]);
+    assert!(damaged.code == Some(1) && !damaged.out.contains("demo"), "{damaged:?}");
+}
+
 #[test]
 fn what_is_denied_decides_the_exit_code() {
     let noted = fixture("good/subset_typos.m3d");
@@ -460,6 +548,27 @@ fn what_is_denied_decides_the_exit_code() {
         (vec!["--deny", "warnings", &noted], 0),
         (vec!["--deny", "warnings", &warning], 1),
         (vec![&*warning], 0),
+        (vec!["--deny", "subset-label", &noted], 1),
+        (vec!["--deny", "subset-label", "--allow", "subset-label", &noted], 0),
+        (vec!["--deny", "comment", &noted], 0),
+        (vec!["--deny", "warnings", "--allow", "pose-overflows", &warning], 0),
+        (vec!["--deny", "warnings", "--allow", "comment", &warning], 1),
+        (vec!["--deny", "book-size", &noted], 0),
+        (
+            vec![
+                "--deny",
+                "book-clip-name",
+                "--book",
+                "d3d12",
+                &fixture("good/bones_child_first.m3d"),
+            ],
+            1,
+        ),
+        // Errors cannot be allowed.
+        (
+            vec!["--deny", "warnings", "--allow", "empty-file", &fixture("bad/empty.m3d")],
+            1,
+        ),
         // Without --book there is nothing of a book to deny.
         (vec!["--deny", "book", &noted], 0),
         (vec!["--deny", "book", "--book", "d3d12", &noted], 1),
@@ -515,17 +624,69 @@ fn a_folder_is_every_model_below_it_in_order_with_counts_at_the_end() {
 #[test]
 fn standard_input_is_a_file_called_by_a_dash() {
     let bytes = std::fs::read(fixture("bad/blend_index_out_of_range.m3d")).expect("can be read");
-    let mut child = bindpose()
-        .args(["check", "-"])
-        .stdin(std::process::Stdio::piped())
-        .stdout(std::process::Stdio::piped())
-        .spawn()
-        .expect("the binary was built for this test");
-    std::io::Write::write_all(&mut child.stdin.take().expect("piped"), &bytes).expect("is read");
-    let output = child.wait_with_output().expect("it ends");
-    let out = String::from_utf8(output.stdout).expect("prints UTF-8");
-    assert_eq!(output.status.code(), Some(1));
-    assert!(out.starts_with("-:34:17: error[not-in-range]: "), "{out}");
+    let told = run_with_input(bindpose().args(["check", "-"]), &bytes);
+    assert_eq!(told.code, Some(1));
+    assert!(told.out.starts_with("-:34:17: error[not-in-range]: "), "{}", told.out);
+}
+
+#[test]
+fn a_folder_without_a_model_says_so_and_is_no_success_where_warnings_are_denied() {
+    let folder = scratch("no_models");
+    std::fs::create_dir_all(&folder).expect("can be made");
+    let folder = folder.to_str().expect("UTF-8");
+    let told = run(["check", folder]);
+    assert_eq!(
+        (told.code, told.out.as_str()),
+        (Some(0), "0 files: 0 errors, 0 warnings, 0 notes\n")
+    );
+    assert_eq!(run(["check", folder, "--deny", "warnings"]).code, Some(1));
+    assert_eq!(run(["check", folder, "--deny", "warnings", "--json"]).code, Some(1));
+}
+
+#[test]
+fn an_unknown_code_is_refused_with_the_nearest() {
+    let file = fixture("good/d3d12_skinned.m3d");
+    for (option, asked, nearest) in [
+        ("--deny", "warning", "warnings"),
+        ("--deny", "weights-kut", "weights-cut"),
+        ("--allow", "book-sise", "book-size"),
+    ] {
+        let deny: &[&str] = if option == "--allow" { &["--deny", "book"] } else { &[] };
+        let told = run([&["check", &file], deny, &[option, asked]].concat());
+        assert_eq!((told.code, told.out.as_str()), (Some(2), ""), "{told:?}");
+        let words = format!("there is no code \"{asked}\"; the nearest is \"{nearest}\"");
+        assert!(told.err.contains(&words), "{}", told.err);
+    }
+}
+
+#[test]
+fn what_could_not_be_read_is_in_the_outputs_for_programs() {
+    let good = fixture("good/d3d12_skinned.m3d");
+    let arguments = ["check", "no/such model.m3d", &good];
+    let told = run([&arguments[..], &["--json"]].concat());
+    assert_eq!(told.code, Some(2));
+    let found: Value = serde_json::from_str(&told.out).expect("is JSON");
+    let error = "no/such model.m3d cannot be read: No such file or directory (os error 2)";
+    let unread = json!({"schemaVersion": 1, "file": "no/such model.m3d", "findings": [], "book": null, "error": error});
+    assert_eq!((&found[0], &found[1]["error"]), (&unread, &Value::Null));
+
+    let told = run([&arguments[..], &["--format", "sarif"]].concat());
+    assert_eq!(told.code, Some(2));
+    let log: Value = serde_json::from_str(&told.out).expect("is JSON");
+    assert_is_sarif(&log);
+    let invocation = &log["runs"][0]["invocations"][0];
+    assert_eq!(invocation["executionSuccessful"], false);
+    let notification = &invocation["toolExecutionNotifications"][0];
+    assert_eq!(
+        (&notification["level"], &notification["message"]["text"]),
+        (&json!("error"), &json!(error))
+    );
+    let uri = notification.pointer("/locations/0/physicalLocation/artifactLocation/uri");
+    assert_eq!(uri, Some(&json!("no/such%20model.m3d")));
+    let fine = run(["check", "--format", "sarif", &good]).json();
+    let invocation = &fine["runs"][0]["invocations"][0];
+    assert_eq!(invocation["executionSuccessful"], true);
+    assert_eq!(invocation["toolExecutionNotifications"], json!([]));
 }
 
 #[test]
@@ -598,6 +759,44 @@ fn a_map_that_three_materials_name_is_missing_once() {
 }
 
 #[test]
+fn variables_of_the_environment_say_whether_there_are_colours() {
+    let file = fixture("bad/empty.m3d");
+    for (variables, is_colored) in [
+        (&[("CLICOLOR_FORCE", "1")][..], true),
+        (&[("CLICOLOR_FORCE", "0")], false),
+        (&[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")], false),
+        (&[], false),
+    ] {
+        let mut command = bindpose();
+        command
+            .args(["check", &file])
+            .env_remove("NO_COLOR")
+            .env_remove("CLICOLOR_FORCE");
+        let told = run_command(command.envs(variables.iter().copied()));
+        assert_eq!(told.out.contains('\u{1b}'), is_colored, "{variables:?}: {told:?}");
+    }
+}
+
+/// In a terminal of `script`, which the base system of Linux has.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_without_colours_gets_none() {
+    let command = format!(
+        "'{}' check '{}'",
+        env!("CARGO_BIN_EXE_bindpose"),
+        fixture("bad/empty.m3d")
+    );
+    for (terminal, is_colored) in [("xterm", true), ("dumb", false)] {
+        let mut script = std::process::Command::new("script");
+        script.args(["-qec", &command, "/dev/null"]).env("TERM", terminal);
+        script.env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE");
+        let told = run_command(&mut script);
+        assert!(told.out.contains("empty-file"), "{told:?}");
+        assert_eq!(told.out.contains('\u{1b}'), is_colored, "{terminal}: {told:?}");
+    }
+}
+
+#[test]
 fn colours_are_for_terminals_and_for_those_who_ask() {
     let file = fixture("bad/empty.m3d");
     let plain = run(["check", &file]).out;
@@ -626,32 +825,20 @@ fn sarif_is_valid_and_has_rules_and_utf16_columns() {
         .chain(files.iter().map(String::as_str)));
     assert_eq!(run.code, Some(1));
     let log: Value = serde_json::from_str(&run.out).expect("is JSON");
-    let mut schema: Value = serde_json::from_str(&sarif_schema()).expect("is JSON");
-    // The standard's pattern for languages has a bracket too many, which is no regular expression.
-    for part in ["run", "toolComponent"] {
-        let language = schema["definitions"][part]["properties"]["language"].as_object_mut();
-        language.expect("is there").remove("pattern");
-    }
-    let validator = jsonschema::validator_for(&schema).expect("is a schema");
-    let errors: Vec<String> = validator
-        .iter_errors(&log)
-        .map(|error| format!("{}: {error}", error.instance_path()))
-        .collect();
-    assert!(errors.is_empty(), "{errors:?}");
-    // The validator can fail.
-    let mut broken = log.clone();
-    broken["runs"][0]["results"][0]["level"] = json!("bad");
-    assert!(!validator.is_valid(&broken));
-
+    assert_is_sarif(&log);
     let results = log["runs"][0]["results"].as_array().expect("a list");
     let rules = log["runs"][0]["tool"]["driver"]["rules"].as_array().expect("a list");
     for result in results {
         let rule = &rules[result["ruleIndex"].as_u64().expect("an index") as usize];
         assert_eq!(rule["id"], result["ruleId"]);
-        assert!(
-            rule["help"]["text"].as_str().is_some_and(|text| text.len() > 10),
-            "{rule}"
-        );
+        for part in ["help", "fullDescription"] {
+            assert!(
+                rule[part]["text"].as_str().is_some_and(|text| text.len() > 10),
+                "{rule}"
+            );
+        }
+        let region = result.pointer("/locations/0/physicalLocation/region/startLine");
+        assert!(region.is_some_and(Value::is_u64), "{result}");
     }
     let first = &results[0];
     assert_eq!(
@@ -661,6 +848,32 @@ fn sarif_is_valid_and_has_rules_and_utf16_columns() {
     let region = &first["locations"][0]["physicalLocation"]["region"];
     assert_eq!(region, &json!({"startLine": 34, "startColumn": 17, "endColumn": 18}));
     assert!(results.iter().any(|result| result["ruleId"] == "book-stops"));
+    let whole_file = results
+        .iter()
+        .find(|result| result["ruleId"] == "book-handedness")
+        .expect("is there");
+    let region = whole_file.pointer("/locations/0/physicalLocation/region");
+    assert_eq!(region, Some(&json!({"startLine": 1})));
+}
+
+/// By the standard's own schema.
+fn assert_is_sarif(log: &Value) {
+    let mut schema: Value = serde_json::from_str(&sarif_schema()).expect("is JSON");
+    // The standard's pattern for languages has a bracket too many, which is no regular expression.
+    for part in ["run", "toolComponent"] {
+        let language = schema["definitions"][part]["properties"]["language"].as_object_mut();
+        language.expect("is there").remove("pattern");
+    }
+    let validator = jsonschema::validator_for(&schema).expect("is a schema");
+    let errors: Vec<String> = validator
+        .iter_errors(log)
+        .map(|error| format!("{}: {error}", error.instance_path()))
+        .collect();
+    assert!(errors.is_empty(), "{errors:?}");
+    // The validator can fail.
+    let mut broken = log.clone();
+    broken["runs"][0]["columnKind"] = json!("bad");
+    assert!(!validator.is_valid(&broken));
 }
 
 /// The schema of SARIF 2.1.0 in the sources of the crate `serde-sarif`, which this crate's tests depend on.

@@ -53,7 +53,7 @@ const ELSEWHERE: [(&str, &str, &[&str]); 9] = [
         ],
     ),
     (
-        "A file that gives it has 65,536 vertices.",
+        "A file that gives it has 65,537 vertices.",
         "tests/core/model/codes.rs",
         &["many-vertices"],
     ),

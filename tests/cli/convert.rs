@@ -112,7 +112,16 @@ fn json_has_its_keys_and_no_others() {
     keys.sort_unstable();
     assert_eq!(
         keys,
-        ["bytes", "changes", "dialect", "format", "input", "losses", "output"]
+        [
+            "bytes",
+            "changes",
+            "dialect",
+            "format",
+            "input",
+            "losses",
+            "output",
+            "schemaVersion"
+        ]
     );
     assert_eq!(
         (&told["input"], &told["output"]),
@@ -313,16 +322,187 @@ fn losses_that_are_denied_write_nothing() {
     let output = out("deny", "figure.glb");
     let denied = run(["convert", FIGURE, &output, "--deny", "losses", "--json"]);
     assert_eq!(denied.code, Some(1));
-    assert_eq!(
-        denied.err,
-        "error: nothing was written, since something would be lost\n"
-    );
+    assert_eq!(denied.err, "error: nothing was written; denied: maps-missing\n");
     assert_eq!(denied.json()["bytes"], 0);
     let folder = Path::new(&output).parent().expect("a folder");
     assert_eq!(std::fs::read_dir(folder).expect("is there").count(), 0);
     let output = out("deny", "figure.m3d");
     let fine = run(["convert", FIGURE, &output, "--deny", "losses"]);
     assert_eq!(fine.code, Some(0), "{fine:?}");
+}
+
+/// Each character of Blender loses the names of its bones, so what is denied is chosen by code.
+#[test]
+fn what_is_denied_is_named_by_codes_and_what_is_allowed_too() {
+    let banner = fixture("gltf/banner.glb");
+    let losses = codes(&convert(&banner, &out("codes", "all.m3d"), &[])["losses"]).join(",");
+    assert!(losses.contains("joint-names") && losses.contains(','), "{losses}");
+    let others = losses.replace("joint-names,", "");
+    for (number, (options, code)) in [
+        (vec!["--deny", "losses"], 1),
+        (vec!["--deny", "losses", "--allow", &losses], 0),
+        (vec!["--deny", "losses", "--allow", &others], 1),
+        (vec!["--deny", "joint-names,opacity"], 1),
+        (vec!["--deny", "joint-names", "--allow", "joint-names"], 0),
+        (vec!["--deny", "opacity"], 0),
+        // Changes have codes too.
+        (vec!["--deny", "scaled", "--scale", "2"], 1),
+        (vec!["--deny", "losses,scaled", "--allow", &losses, "--scale", "2"], 1),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let output = out("codes", &format!("{number}.m3d"));
+        let told = run([&["convert", &banner, &output], &options[..]].concat());
+        assert_eq!(told.code, Some(code), "{options:?}: {told:?}");
+        assert_eq!(Path::new(&output).exists(), code == 0, "{options:?}");
+        assert_eq!(
+            told.err.starts_with("error: nothing was written; denied: "),
+            code == 1,
+            "{told:?}"
+        );
+    }
+}
+
+#[test]
+fn losses_name_materials_and_say_what_one_sees() {
+    let file = fixture("gltf/leaf-and-glass.gltf");
+    let told = convert(&file, &out("words", "leaf.m3d"), &[]);
+    let losses = told["losses"].as_array().expect("a list");
+    let message = |code: &str| {
+        let loss = losses.iter().find(|loss| loss["code"] == code);
+        loss.unwrap_or_else(|| panic!("{code} is not in {told}"))["message"]
+            .as_str()
+            .expect("a message")
+    };
+    assert_eq!(
+        message("alpha-blend"),
+        "1 material is transparent by blending and drawn opaque: \"Glass\"."
+    );
+    assert!(
+        message("metallic-roughness").starts_with("1 material is metal, ")
+            && message("metallic-roughness").contains("\"Leaf\"")
+    );
+    for code in [
+        "double-sided",
+        "metallic-roughness",
+        "map-sampling",
+        "gltf-morph-animation-left-out",
+    ] {
+        let explained = run(["check", "--explain", code]).fine();
+        let searched: &[&str] = match code {
+            "double-sided" => &["two-sided", "Backface Culling", "back faces"],
+            "metallic-roughness" => &["metal", "darker"],
+            "map-sampling" => &["UV"],
+            _ => &["shape keys", "morph targets"],
+        };
+        for words in searched {
+            assert!(explained.contains(words), "{words} is not in {explained}");
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_read_only_output_is_refused_unless_it_is_forced() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let output = out("read_only", "figure.m3d");
+    std::fs::write(&output, "kept").expect("can be written");
+    std::fs::set_permissions(&output, std::fs::Permissions::from_mode(0o444)).expect("is ours");
+    let refused = run(["convert", FIGURE, &output]);
+    assert_eq!((refused.code, refused.out.as_str()), (Some(2), ""));
+    let expected = format!("error: {output} is marked as read-only; --force writes over it\n");
+    assert_eq!(refused.err, expected);
+    assert_eq!(std::fs::read(&output).expect("is there"), b"kept");
+    run(["convert", FIGURE, &output, "--force"]).fine();
+    assert!(std::fs::metadata(&output).expect("is there").len() > 1000);
+    // So are the maps beside it.
+    let sample = Path::new(FIGURE).parent().expect("a folder").to_str().expect("UTF-8");
+    let maps = scratch("convert_read_only_maps");
+    let arguments = [
+        "convert",
+        FIGURE,
+        &output,
+        "--textures",
+        sample,
+        "--textures-out",
+        maps.to_str().expect("UTF-8"),
+    ];
+    run(arguments).fine();
+    let map = std::fs::read_dir(&maps)
+        .expect("was made")
+        .next()
+        .expect("a map")
+        .expect("can be listed")
+        .path();
+    std::fs::set_permissions(&map, std::fs::Permissions::from_mode(0o444)).expect("is ours");
+    let refused = run(arguments);
+    assert!(
+        refused.code == Some(2) && refused.err.contains("is marked as read-only"),
+        "{refused:?}"
+    );
+}
+
+/// A model so large that writing it takes a while.
+#[cfg(unix)]
+fn large_model() -> PathBuf {
+    let text = std::fs::read_to_string(fixture("good/d3d11_static.m3d")).expect("is text");
+    let (before, rest) = text.split_once("Position:").expect("has vertices");
+    let (vertices, after) = rest.split_at(rest.find("***").expect("goes on"));
+    let first = format!("Position:{vertices}");
+    let count = before
+        .split("#Vertices ")
+        .nth(1)
+        .and_then(|rest| rest.split_whitespace().next());
+    let count: usize = count.expect("a count").parse().expect("a number");
+    let times = 200_000 / count;
+    let before = before.replace(&format!("#Vertices {count}"), &format!("#Vertices {}", count * times));
+    let file = scratch("interrupted_input.m3d");
+    std::fs::write(&file, before + &first.repeat(times) + after).expect("can be written");
+    file
+}
+
+/// The signal comes while the file beside the output is there. It may come too late, so that is tried more than once.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_nothing_half_written() {
+    let input = large_model();
+    let output = out("interrupt", "large.m3d");
+    let folder = Path::new(&output).parent().expect("a folder");
+    let parts = || -> Vec<PathBuf> {
+        let entries = std::fs::read_dir(folder).expect("is there");
+        let paths = entries.map(|entry| entry.expect("can be listed").path());
+        paths
+            .filter(|path| path.extension().is_some_and(|extension| extension == "part"))
+            .collect()
+    };
+    let mut interrupted = 0;
+    for _ in 0..30 {
+        std::fs::write(&output, "kept").expect("can be written");
+        let mut command = bindpose();
+        command.arg("convert").arg(&input).arg(&output).stdout(Stdio::null());
+        let mut child = command.spawn().expect("the binary was built for this test");
+        let status = loop {
+            if !parts().is_empty() {
+                let kill = std::process::Command::new("kill")
+                    .args(["-TERM", &child.id().to_string()])
+                    .status();
+                kill.expect("coreutils are there");
+                break child.wait().expect("it ends");
+            }
+            if let Some(status) = child.try_wait().expect("it ends") {
+                break status;
+            }
+        };
+        assert_eq!(parts(), [""; 0].map(PathBuf::from), "something is left");
+        if status.code() == Some(130) {
+            assert_eq!(std::fs::read(&output).expect("is there"), b"kept");
+            interrupted += 1;
+            break;
+        }
+        assert!(status.success(), "{status}");
+    }
+    assert_eq!(interrupted, 1, "no signal came in time");
 }
 
 #[test]
@@ -377,7 +557,7 @@ fn wrong_use_says_what_is_wrong_and_writes_nothing() {
     let glb = out("wrong", "out.glb");
     let none = out("wrong", "out.obj");
     let lost = format!("{m3d}/no/such/out.m3d");
-    let cases: [(&str, &[&str], &str); 19] = [
+    let cases: [(&str, &[&str], &str); 22] = [
         (&none, &[], "OUT ends in .m3d or .glb"),
         (&glb, &["--dialect", "d3d11"], "--dialect is for .m3d"),
         (&glb, &["--for-book"], "--for-book is for .m3d"),
@@ -415,6 +595,13 @@ fn wrong_use_says_what_is_wrong_and_writes_nothing() {
             "A clip cannot be named \"Run\": another one is.",
         ),
         (&m3d, &["--rename-bone", "900=Tail"], "There is no bone 900"),
+        (&m3d, &["--rename-bone", "0="], "it is N=NAME"),
+        (&m3d, &["--rename-bone", "0= "], "it is N=NAME"),
+        (
+            &m3d,
+            &["--deny", "loses"],
+            "there is no code \"loses\"; the nearest is \"losses\"",
+        ),
         (&m3d, &["--dialect", "imm"], "d3d11, d3d12"),
         (&lost, &[], "cannot be written"),
     ];

@@ -63,6 +63,64 @@ fn what_is_no_file_and_what_leads_nowhere_is_told() {
     );
 }
 
+fn make_fifo(path: &std::path::Path) {
+    let made = std::process::Command::new("mkfifo").arg(path).status();
+    assert!(made.expect("coreutils are there").success());
+}
+
+#[test]
+fn pipes_and_devices_with_the_name_of_a_model_are_skipped_with_a_word() {
+    let folder = scratch("odd_models");
+    fs::create_dir_all(&folder).expect("can be made");
+    make_fifo(&folder.join("a.m3d"));
+    symlink("/dev/zero", folder.join("b.m3d")).expect("links");
+    fs::create_dir_all(folder.join("c.m3d")).expect("can be made");
+    symlink("c.m3d", folder.join("d.m3d")).expect("links");
+    fs::copy(fixture("good/d3d12_skinned.m3d"), folder.join("e.m3d")).expect("can be copied");
+    symlink("nowhere", folder.join("f.m3d")).expect("links");
+    let folder = folder.to_str().expect("UTF-8");
+    let told = run(["check", folder]);
+    assert_eq!(told.code, Some(2), "the link leads nowhere: {told:?}");
+    let lines: Vec<_> = told.err.lines().collect();
+    let skipped = |name: &str| format!("{folder}/{name}: warning[not-a-file]: This is no regular file; skipped.");
+    assert_eq!(lines[..2], [skipped("a.m3d"), skipped("b.m3d")]);
+    assert!(lines[2].starts_with(&format!("error: {folder}/f.m3d cannot be read: ")) && lines.len() == 3);
+    assert_eq!(told.out, "1 file: 0 errors, 0 warnings, 0 notes\n");
+}
+
+#[test]
+fn a_pipe_that_is_named_is_read() {
+    let pipe = scratch("named_pipe.m3d");
+    make_fifo(&pipe);
+    let bytes = fs::read(fixture("good/comment_above_header.m3d")).expect("is there");
+    let to = pipe.clone();
+    let writer = std::thread::spawn(move || fs::write(to, bytes));
+    let told = run(["check", pipe.to_str().expect("UTF-8")]).fine();
+    assert!(told.contains("note[comment]"), "{told}");
+    writer.join().expect("ends").expect("was read");
+}
+
+/// A sparse file takes no room, and would take as much memory as it claims; a device never ends.
+#[test]
+fn a_file_that_is_too_large_is_refused() {
+    let file = scratch("large.m3d");
+    let made = fs::File::create(&file).and_then(|file| file.set_len(5_000_000_000));
+    made.expect("can be written");
+    let (file, out) = (file.to_str().expect("UTF-8"), scratch("large_out.m3d"));
+    for arguments in [
+        vec!["check", file],
+        vec!["info", file],
+        vec!["pose", file],
+        vec!["convert", file, out.to_str().expect("UTF-8")],
+        vec!["info", "/dev/zero"],
+    ] {
+        let told = run(&arguments);
+        let expected = format!("error: {} cannot be read: it is larger than 1 GB\n", arguments[1]);
+        assert_eq!((told.code, told.err), (Some(2), expected), "{arguments:?}");
+    }
+    fs::remove_file(file).expect("was made");
+}
+
 #[test]
 fn a_folder_inside_that_cannot_be_listed_is_skipped() {
     let folder = scratch("closed");

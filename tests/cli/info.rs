@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::program::{FIGURE, fixture, run, scratch, shared};
+use crate::program::{FIGURE, bindpose, fixture, run, run_with_input, scratch, shared};
 
 /// f32 arithmetic of a turn by 90°.
 const ROUNDING: f64 = 1e-6;
@@ -18,6 +18,7 @@ fn json_says_all_of_a_skinned_file() {
     assert_close(&found["animated_bounds"].take(), [[-1.0, 1.0, z], [1.0, 2.0, 0.0]]);
     assert_close(&found["bind_bounds"].take(), [[0.0, 0.0, z], [1.0, 2.0, 0.0]]);
     let expected = json!({
+        "schemaVersion": 1,
         "file": file,
         "dialect": "d3d12",
         "handedness": "left",
@@ -183,6 +184,43 @@ fn control_characters_are_not_printed() {
     );
     let found = run(["info", "--json", file]).json();
     assert_eq!(found["clips"][0]["name"], "Wa\u{1b}[31mve");
+}
+
+/// A line end in a name is no line end of the output, and large numbers stay apart.
+#[test]
+fn names_stay_on_their_lines_and_numbers_in_their_columns() {
+    let text = std::fs::read_to_string(fixture("gltf/leaf-and-glass.gltf")).expect("is text");
+    let file = scratch("forged.gltf");
+    let name = "\"name\": \"Leaf\"";
+    assert!(text.contains(name), "{text}");
+    let text = text.replace(name, "\"name\": \"Leaf\\n0 errors\"");
+    std::fs::write(&file, text).expect("can be written");
+    let printed = run(["info", file.to_str().expect("UTF-8")]).fine();
+    assert!(printed.contains("Leaf\u{fffd}0 errors"), "{printed}");
+
+    let text = std::fs::read_to_string(fixture("good/bones_child_first.m3d")).expect("is text");
+    let file = scratch("far.m3d");
+    let line = text
+        .lines()
+        .find(|line| line.starts_with("Position: "))
+        .expect("a vertex");
+    let far = text.replacen(line, "Position: -3617036800 -3208518912 -3000000000", 1);
+    std::fs::write(&file, far).expect("can be written");
+    let printed = run(["info", file.to_str().expect("UTF-8")]).fine();
+    let row = printed
+        .lines()
+        .find(|line| line.starts_with("  bind min"))
+        .expect("a row");
+    assert_eq!(row.split_whitespace().count(), 5, "{printed}");
+}
+
+#[test]
+fn standard_input_is_read() {
+    let bytes = std::fs::read(fixture("good/bones_child_first.m3d")).expect("is there");
+    for command in ["info", "pose"] {
+        let told = run_with_input(bindpose().args([command, "-", "--json"]), &bytes).json();
+        assert_eq!(told["schemaVersion"], 1, "{told}");
+    }
 }
 
 /// No width is made of a name alone: the formatter takes none above 65 535.

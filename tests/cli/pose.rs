@@ -52,7 +52,7 @@ fn assert_as_in_the_books(file: &str) {
             ])
             .json();
             let keys: Vec<&String> = found.as_object().expect("an object").keys().collect();
-            assert_eq!(keys, ["clip", "palette", "positions", "time_secs"]);
+            assert_eq!(keys, ["clip", "palette", "positions", "schemaVersion", "time_secs"]);
             assert_eq!(found["clip"], clip.name.as_str());
             assert_eq!(found["time_secs"].as_f64().map(|secs| secs as f32), Some(time_secs));
 
@@ -123,7 +123,7 @@ fn positions_come_only_when_asked_for_and_the_only_clip_needs_no_name() {
     let file = fixture("good/bones_child_first.m3d");
     let found = run(["pose", &file, "--time", "0.25", "--json"]).json();
     let keys: Vec<&String> = found.as_object().expect("an object").keys().collect();
-    assert_eq!(keys, ["clip", "palette", "time_secs"]);
+    assert_eq!(keys, ["clip", "palette", "schemaVersion", "time_secs"]);
     assert_eq!(found["clip"], "Wave");
 }
 

@@ -1,8 +1,9 @@
 //! Runs the program, and finds files for it.
 
 use std::ffi::OsStr;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 use serde_json::Value;
 
@@ -27,6 +28,23 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = impl AsRef<OsStr>>) -> Run
 /// Likewise, with an environment of the caller's.
 pub(crate) fn run_command(command: &mut Command) -> Run {
     let output = command.output().expect("the binary was built for this test");
+    Run {
+        code: output.status.code(),
+        out: String::from_utf8(output.stdout).expect("prints UTF-8"),
+        err: String::from_utf8_lossy(&output.stderr).into_owned(),
+    }
+}
+
+/// Likewise, with bytes on standard input.
+pub(crate) fn run_with_input(command: &mut Command, input: &[u8]) -> Run {
+    let pipes = command
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    let mut child = pipes.spawn().expect("the binary was built for this test");
+    // It may refuse before it has read all.
+    let _ = child.stdin.take().expect("piped").write_all(input);
+    let output = child.wait_with_output().expect("it ends");
     Run {
         code: output.status.code(),
         out: String::from_utf8(output.stdout).expect("prints UTF-8"),

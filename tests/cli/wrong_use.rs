@@ -25,6 +25,11 @@ fn wrong_use_is_told_apart_from_bad_files() {
             vec!["render", &file, "-o", "x.png", "--size", "0x9"],
             "such as 1280x720",
         ),
+        (
+            vec!["render", &file, "-o", "x.jpg"],
+            "-o x.jpg is no name of a picture: PNG is written, so it ends in .png",
+        ),
+        (vec!["render", &file, "-o", "-"], "-o - is no name of a picture"),
         (vec!["render", &file, "-o", "x.png", "--crowd", "1001"], "1..=1000"),
         (vec!["render", &file, "-o", "x.png", "--crowd", "0"], "1..=1000"),
         (vec!["render", &file, "-o", "x.png", "--seed", "3"], "--crowd <N>"),
@@ -215,10 +220,12 @@ fn keys(value: &Value, found: &mut Vec<String>) {
 fn every_key_is_explained_in_the_help() {
     let noted = fixture("good/subset_typos.m3d");
     let skinned = fixture("good/bones_child_first.m3d");
+    let banner = fixture("gltf/banner.glb");
     for (command, arguments) in [
         ("info", vec!["info", "--json", &noted]),
         ("info", vec!["info", "--json", &skinned]),
         ("check", vec!["check", "--json", &noted]),
+        ("check", vec!["check", "--json", "--book", "all", &banner]),
         ("pose", vec!["pose", "--json", "--positions", &skinned]),
     ] {
         let mut all = Vec::new();

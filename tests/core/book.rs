@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use bindpose::check::book::{Book, Known, Outcome, Row, Verdict, read, verdict};
-use bindpose::format::{Dialect, Document, Reflectance, parse, write};
+use bindpose::format::{Dialect, Document, Material, Reflectance, Subset, parse, write};
 use bindpose::model::Handedness;
 use proptest::prelude::*;
 
@@ -308,6 +308,108 @@ fn a_model_for_the_demo_has_no_limits() {
     assert_eq!(verdict.shows, "The model in \"Take1\".");
 }
 
+/// Gives a document so many materials with names of their own, the last ones for no triangle.
+fn with_materials(document: &mut Document, count: usize) {
+    let first = document.materials[0].clone();
+    let named = |index| Material {
+        name: format!("skin{index}"),
+        ..first.clone()
+    };
+    document.materials.extend((1..count).map(named));
+    document.subsets.resize(count, Subset::default());
+}
+
+/// Where a material has no map, the format says `None`, and the demo opens a file of that name.
+#[test]
+fn a_material_without_a_map_ends_the_demo_whoever_asks() {
+    let mut document = for_demo();
+    document.materials[0].normal_map = None;
+    let text = write(&document);
+    let meant = parse(text.as_bytes()).expect("it can be read").document;
+    assert_eq!(meant.materials[0].normal_map, None);
+    for document in [Some(&meant), None] {
+        let known = Known {
+            document,
+            handedness: Some(Handedness::Right),
+            missing_maps: Some(&[]),
+        };
+        let verdict = verdict(Book::D3d12, text.as_bytes(), &known);
+        assert_eq!((verdict.outcome, verdict.ends), (Outcome::EndsWithError, true));
+        assert_eq!(
+            verdict.shows,
+            "It ends with an error: \"None\" is no picture that it reads."
+        );
+        let codes: Vec<_> = verdict.limits.iter().map(|limit| limit.code).collect();
+        assert_eq!(codes, ["book-map-format"]);
+        assert!(
+            verdict.limits[0].message.starts_with("Material 0 lacks a map, "),
+            "{:?}",
+            verdict.limits
+        );
+    }
+}
+
+/// Maps are opened, and views of them made, before the first frame asks for the clip and the bones.
+#[test]
+fn what_ends_the_demo_first_is_told() {
+    let mut document = for_demo();
+    document.clips[0].name = "Walk".into();
+    let shows = |document: &Document| verdict_of(Book::D3d12, document).shows;
+    assert_eq!(
+        shows(&document),
+        "It crashes at its first frame: there is no clip \"Take1\"."
+    );
+    with_materials(&mut document, 25);
+    let garbage = "It has room for 24 pairs of maps and writes 25: it crashes or draws garbage.";
+    assert_eq!(shows(&document), garbage);
+    document.materials[3].diffuse_map = Some("suit.png".into());
+    assert_eq!(
+        shows(&document),
+        "It ends with an error: \"suit.png\" is no picture that it reads."
+    );
+    let codes = |document: &Document| -> Vec<_> {
+        let limits = verdict_of(Book::D3d12, document).limits;
+        limits.iter().map(|limit| limit.code).collect()
+    };
+    assert_eq!(
+        codes(&document),
+        ["book-clip-name", "book-many-materials", "book-map-format"]
+    );
+}
+
+/// The demo's shader has 48 textures, of which six are the scene's own; its heap has room for 64 views, of which 16 are.
+#[test]
+fn the_demos_room_for_textures_is_judged() {
+    for (count, is_told, ends) in [
+        (21, false, false),
+        (22, true, false),
+        (24, true, false),
+        (25, true, true),
+    ] {
+        let mut document = for_demo();
+        with_materials(&mut document, count);
+        let verdict = verdict_of(Book::D3d12, &document);
+        let codes: Vec<_> = verdict.limits.iter().map(|limit| limit.code).collect();
+        assert_eq!(codes.contains(&"book-many-materials"), is_told, "{count}");
+        assert_eq!(verdict.ends, ends, "{count}: {}", verdict.shows);
+    }
+}
+
+#[test]
+fn the_sign_of_tangents_matters_where_there_are_bumps() {
+    for (map, is_told) in [
+        ("flat_normal.dds", false),
+        ("default_nmap.dds", false),
+        ("skin_norm.dds", true),
+    ] {
+        let mut document = for_demo();
+        document.vertices[0].tangent[3] = 1.0;
+        document.materials[0].normal_map = Some(map.into());
+        let limits = verdict_of(Book::D3d12, &document).limits;
+        assert_eq!(!limits.is_empty(), is_told, "{map}: {limits:?}");
+    }
+}
+
 /// Each limit by itself: an edit of a document that has none, and the only code that comes of it.
 #[test]
 fn each_limit_is_found_and_nothing_else() {
@@ -319,7 +421,7 @@ fn each_limit_is_found_and_nothing_else() {
             document.clips[0].bones.push(track([key(0.0, [0.0; 3])]));
         }
     };
-    let edits: [(&str, Edit); 13] = [
+    let edits: [(&str, Edit); 16] = [
         ("many-bones", many_bones),
         ("many-vertices", |document| {
             document.vertices.resize(65_537, document.vertices[0]);
@@ -348,6 +450,14 @@ fn each_limit_is_found_and_nothing_else() {
         ("book-tangent-sign", |document| document.vertices[0].tangent[3] = 1.0),
         ("book-map-format", |document| {
             document.materials[0].diffuse_map = Some("skin.png".into());
+        }),
+        ("book-many-materials", |document| with_materials(document, 22)),
+        ("book-material-name", |document| {
+            document.materials[0].name = "mirror0".into()
+        }),
+        ("duplicate-material-name", |document| {
+            with_materials(document, 2);
+            document.materials[1].name = document.materials[0].name.clone();
         }),
     ];
     for (code, edit) in edits {

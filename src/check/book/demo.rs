@@ -5,11 +5,8 @@ use crate::modes::modes;
 /// The clip that the demos play.
 pub const DEMO_CLIP: &str = "Take1";
 
-/// Bones that the demos' shaders have room for.
-pub const MOST_BONES: usize = 96;
-
-/// Vertices that 16-bit indices name.
-pub const MOST_VERTICES: usize = 1 << 16;
+/// Names of materials that the D3D12 book's demo has itself, for its sky, its columns and box, its floor and its spheres.
+pub const DEMO_MATERIALS: [&str; 4] = ["sky", "bricks0", "tile0", "mirror0"];
 
 /// The demos scale their character by this, since their soldier is 72 units high.
 pub const DEMO_SCALE: f32 = 0.05;

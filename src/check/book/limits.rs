@@ -2,10 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use super::demo::{Book, DEMO_CLIP, DEMO_SCALE, MOST_BONES, MOST_VERTICES, SEEN_HEIGHTS};
-use crate::diagnostic::collect::counted;
-use crate::diagnostic::{Code, codes};
-use crate::format::{Document, Vertex};
+use super::demo::{Book, DEMO_CLIP, DEMO_MATERIALS, DEMO_SCALE, SEEN_HEIGHTS};
+use crate::diagnostic::collect::{counted, named};
+use crate::diagnostic::limits::{MOST_BONE_INDEX, MOST_BONES, MOST_MATERIALS, MOST_VERTICES};
+use crate::diagnostic::{Code, Diagnostic, codes};
+use crate::format::{Document, Material, Vertex};
 use crate::model::Handedness;
 
 /// What is known of a file beside its bytes. What is not known is not judged.
@@ -28,46 +29,81 @@ pub struct Limit {
     pub message: String,
 }
 
+impl Limit {
+    /// It as a finding; `whose` is whose limit it is.
+    pub fn diagnostic(&self, whose: &str) -> Option<Diagnostic> {
+        Some(codes::named(self.code)?.says(format!("{whose}: {}", self.message)))
+    }
+}
+
 /// A fourth weight may differ by this from what the shader makes of it: files have six digits.
 const WEIGHT_TOLERANCE: f32 = 1e-3;
+
+/// Normal maps without bumps: the one that an export for the book adds, and the demo's own.
+const FLAT_MAPS: [&str; 2] = ["flat_normal.dds", "default_nmap.dds"];
 
 /// A rotation's length may differ by this from 1 before one sees it: a thousandth of a bone's length.
 const ROTATION_TOLERANCE: f32 = 1e-3;
 
-/// All limits that a file meets, the gravest first.
-pub(super) fn limits(book: Book, document: &Document, known: &Known<'_>) -> Vec<Limit> {
-    let skinned = !document.bone_parents.is_empty();
+/// All limits that a file meets, the gravest first. `document` is what the file means, where that is known; `read` is what the loader made
+/// of it, by which materials and maps are judged: the demos know no word for "no map".
+pub(super) fn limits(book: Book, document: Option<&Document>, read: &Document, known: &Known<'_>) -> Vec<Limit> {
     let mut limits = Limits(Vec::new());
-    limits.vertices(document);
-    if skinned {
-        limits.bones(document);
-        limits.influences(document);
-        limits.clips(document);
-        limits.alpha(document);
-        limits.space(document, known.handedness);
-        if book == Book::D3d12 {
-            limits.tangent_signs(document);
-        }
+    if let Some(document) = document {
+        limits.meant(book, document, known);
     }
-    limits.maps(book, document, known.missing_maps);
+    if book == Book::D3d12 {
+        limits.materials(&read.materials);
+    }
+    limits.maps(book, read, known.missing_maps);
     limits.0
+}
+
+/// The first map that a demo cannot open, whatever lies beside the file: its material, and its name as the loader reads it.
+pub(super) fn unreadable_map(book: Book, read: &Document) -> Option<(usize, &String)> {
+    let kinds: &[&str] = match book {
+        // D3DX of that time.
+        Book::D3d11 => &["dds", "bmp", "jpg", "jpeg", "png", "tif", "tiff", "gif"],
+        Book::D3d12 => &["dds"],
+    };
+    let is_read = |name: &str| {
+        let extension = name.rsplit_once('.').map(|(_, extension)| extension);
+        extension.is_some_and(|extension| kinds.iter().any(|kind| kind.eq_ignore_ascii_case(extension)))
+    };
+    maps(read).find(|(_, name)| !is_read(name))
 }
 
 /// How many maps the materials name.
 pub(super) fn map_count(document: &Document) -> usize {
-    maps(document).collect::<BTreeSet<_>>().len()
+    maps(document).map(|(_, name)| name).collect::<BTreeSet<_>>().len()
 }
 
-fn maps(document: &Document) -> impl Iterator<Item = &String> {
-    let of_each = document.materials.iter();
-    of_each
-        .flat_map(|material| [&material.diffuse_map, &material.normal_map])
-        .flatten()
+fn maps(document: &Document) -> impl Iterator<Item = (usize, &String)> {
+    let of_each = document.materials.iter().enumerate();
+    of_each.flat_map(|(index, material)| {
+        let maps = [&material.diffuse_map, &material.normal_map];
+        maps.into_iter().flatten().map(move |name| (index, name))
+    })
 }
 
 struct Limits(Vec<Limit>);
 
 impl Limits {
+    fn meant(&mut self, book: Book, document: &Document, known: &Known<'_>) {
+        self.vertices(document);
+        if document.bone_parents.is_empty() {
+            return;
+        }
+        self.bones(document);
+        self.influences(document);
+        self.clips(document);
+        self.alpha(document);
+        self.space(document, known.handedness);
+        if book == Book::D3d12 {
+            self.tangent_signs(document);
+        }
+    }
+
     fn add(&mut self, code: &'static Code, message: String) {
         self.0.push(Limit {
             code: code.name,
@@ -78,7 +114,7 @@ impl Limits {
     fn vertices(&mut self, document: &Document) {
         let count = document.vertices.len();
         if count > MOST_VERTICES {
-            let message = format!("It has {count} vertices; 16-bit indices name {MOST_VERTICES}.");
+            let message = format!("It has {count} vertices; 16-bit indices can number {MOST_VERTICES}.");
             self.add(&codes::MANY_VERTICES, message);
         }
     }
@@ -112,6 +148,33 @@ impl Limits {
         }
     }
 
+    /// Of the D3D12 book's demo, which keeps materials by name, beside its own.
+    fn materials(&mut self, materials: &[Material]) {
+        let count = materials.len();
+        if count > MOST_MATERIALS {
+            let message = format!("It has {count} materials; the shader reaches the maps of {MOST_MATERIALS}.");
+            self.add(&codes::BOOK_MANY_MATERIALS, message);
+        }
+        let names = materials.iter().map(|material| material.name.as_str());
+        let own: Vec<&str> = names.clone().filter(|name| DEMO_MATERIALS.contains(name)).collect();
+        if !own.is_empty() {
+            let message = format!(
+                "The demo has materials of its own called {}: those of the file take their place, and parts of the scene look like them.",
+                named(own)
+            );
+            self.add(&codes::BOOK_MATERIAL_NAME, message);
+        }
+        let mut met = BTreeSet::new();
+        let again: Vec<&str> = names.filter(|name| !name.is_empty() && !met.insert(*name)).collect();
+        if !again.is_empty() {
+            let message = format!(
+                "The demo keeps one material of a name, and draws all that have it with the last one: {}.",
+                named(again)
+            );
+            self.add(&codes::DUPLICATE_MATERIAL_NAME, message);
+        }
+    }
+
     fn influences(&mut self, document: &Document) {
         let with_weight = |vertex: &Vertex| {
             let slots = vertex.blend_weights.into_iter().zip(vertex.blend_indices);
@@ -121,11 +184,11 @@ impl Limits {
         let above = document
             .vertices
             .iter()
-            .filter(|vertex| with_weight(vertex) > 255)
+            .filter(|vertex| with_weight(vertex) > MOST_BONE_INDEX)
             .count();
         if above > 0 {
             let message = format!(
-                "{} a bone above 255, of which a byte keeps the remainder: another bone moves {}.",
+                "{} a bone above {MOST_BONE_INDEX}, of which a byte keeps the remainder: another bone moves {}.",
                 counted(above, "vertex names", "vertices name"),
                 if above == 1 { "it" } else { "them" }
             );
@@ -237,7 +300,12 @@ impl Limits {
     /// The D3D12 book's loader throws the fourth number of a tangent away, and its shader takes cross(normal, tangent) in the world. The
     /// demo's mirror turns that round, so that it is right where the number is negative.
     fn tangent_signs(&mut self, document: &Document) {
-        let mapped = document.materials.iter().any(|material| material.normal_map.is_some());
+        let is_flat = |map: &String| FLAT_MAPS.iter().any(|flat| map.eq_ignore_ascii_case(flat));
+        let mut maps = document
+            .materials
+            .iter()
+            .filter_map(|material| material.normal_map.as_ref());
+        let mapped = maps.any(|map| !is_flat(map));
         let positive = document
             .vertices
             .iter()
@@ -252,20 +320,14 @@ impl Limits {
         }
     }
 
-    fn maps(&mut self, book: Book, document: &Document, missing: Option<&[String]>) {
-        let is_read = |name: &str| {
-            let extension = name
-                .rsplit_once('.')
-                .map(|(_, extension)| extension.to_ascii_lowercase());
-            let kinds: &[&str] = match book {
-                // D3DX of that time.
-                Book::D3d11 => &["dds", "bmp", "jpg", "jpeg", "png", "tif", "tiff", "gif"],
-                Book::D3d12 => &["dds"],
+    fn maps(&mut self, book: Book, read: &Document, missing: Option<&[String]>) {
+        if let Some((material, name)) = unreadable_map(book, read) {
+            let message = match name.as_str() {
+                "None" | "Null" => format!(
+                    "Material {material} lacks a map, and the demo opens two of each: it looks for a file \"{name}\" and ends with an error."
+                ),
+                _ => format!("\"{name}\" is no picture that the demo reads: it ends with an error."),
             };
-            extension.is_some_and(|extension| kinds.contains(&extension.as_str()))
-        };
-        if let Some(name) = maps(document).find(|name| !is_read(name)) {
-            let message = format!("\"{name}\" is no picture that the demo reads: it ends with an error.");
             self.add(&codes::BOOK_MAP_FORMAT, message);
         }
         if let Some(missing) = missing

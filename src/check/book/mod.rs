@@ -12,13 +12,14 @@ mod row;
 mod shows;
 mod stream;
 
-pub use demo::{Book, DEMO_CLIP, DEMO_SCALE, MOST_BONES, MOST_VERTICES, SEEN_HEIGHTS};
+pub use demo::{Book, DEMO_CLIP, DEMO_MATERIALS, DEMO_SCALE, SEEN_HEIGHTS};
 pub use limits::{Known, Limit};
 pub use loader::{Counts, Reading, read};
 pub use outcome::Outcome;
 pub use row::Row;
 pub use stream::Trouble;
 
+pub use crate::diagnostic::limits::{MOST_BONES, MOST_MATERIALS, MOST_VERTICES};
 use crate::diagnostic::{Diagnostic, Position, codes};
 use crate::format::Dialect;
 
@@ -66,11 +67,8 @@ impl Verdict {
             places: vec![trouble.position],
             ..codes::BOOK_STOPS.says(format!("{label}: {} One sees: {}", trouble.why, self.shows))
         });
-        let limits = self
-            .limits
-            .iter()
-            .filter_map(move |limit| Some(codes::named(limit.code)?.says(format!("{label}: {}", limit.message))));
-        stops.chain(limits)
+        let limits = self.limits.iter();
+        stops.chain(limits.filter_map(move |limit| limit.diagnostic(label)))
     }
 
     /// Where it goes wrong.
@@ -79,25 +77,29 @@ impl Verdict {
     }
 }
 
+/// A file of another format as text tells of it: whether it fits the demos once it is converted for them, with what no conversion mends.
+pub fn converted_in_words(limits: &[Limit]) -> String {
+    let exceeded: Vec<&str> = limits.iter().map(|limit| limit.message.as_str()).collect();
+    match exceeded.as_slice() {
+        [] => "converted for the book: fits".to_owned(),
+        _ => format!("converted for the book: does not fit. {}", exceeded.join(" ")),
+    }
+}
+
 /// Reads a file as a book's program does.
 pub fn verdict(book: Book, bytes: &[u8], known: &Known<'_>) -> Verdict {
     let reading = read(book, bytes);
     let trouble = trouble(&reading);
     let document = known.document.or(trouble.is_none().then_some(&reading.document));
-    let limits = document.map_or_else(Vec::new, |document| limits::limits(book, document, known));
-    // Maps are opened before anything is shown. One that is missing may still come.
-    let by_map = limits
-        .iter()
-        .any(|limit| limit.code == codes::BOOK_MAP_FORMAT.name)
-        .then(|| (Outcome::EndsWithError, "It ends with an error about a map.".to_owned()));
-    let end = shows::ends(book, &reading).or(by_map);
+    let limits = limits::limits(book, document, &reading.document, known);
+    let end = shows::ends(book, &reading);
     let outcome = match (&trouble, &end) {
         (Some(_), _) => Outcome::CannotRead,
         (None, Some((outcome, _))) => *outcome,
         (None, None) => Outcome::Shows {
             missing_maps: known
                 .missing_maps
-                .map_or_else(|| document.map_or(0, limits::map_count), <[String]>::len),
+                .map_or_else(|| limits::map_count(&reading.document), <[String]>::len),
         },
     };
     let dialect = known.document.map(|document| document.dialect);

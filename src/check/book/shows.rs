@@ -1,9 +1,11 @@
 //! What one sees when a book's demo shows what its loader made of a file.
 
-use super::demo::{Book, DEMO_CLIP, MOST_BONES};
+use super::demo::{Book, DEMO_CLIP};
+use super::limits::unreadable_map;
 use super::loader::{Counts, Reading};
 use super::outcome::Outcome;
 use super::row::Row;
+use crate::diagnostic::limits::{MOST_BONES, MOST_MATERIAL_VIEWS};
 
 /// What one sees of a file with which the demo does not end, in a sentence.
 pub(super) fn shows(reading: &Reading) -> String {
@@ -64,7 +66,8 @@ pub(super) fn is_complete(reading: &Reading) -> bool {
         && document.clips.iter().all(|clip| has(clip.bones.len(), bones))
 }
 
-/// How the demo ends before it shows anything, if it does.
+/// How the demo ends before it shows anything, if it does: what comes first. It makes its buffers, opens the maps, makes the views of them,
+/// and then asks for the clip in its first frame. A map that is missing may still come.
 pub(super) fn ends(book: Book, reading: &Reading) -> Option<(Outcome, String)> {
     let Reading {
         document, counts, stop, ..
@@ -84,6 +87,17 @@ pub(super) fn ends(book: Book, reading: &Reading) -> Option<(Outcome, String)> {
     if let Some(Row::Header | Row::Material(_)) = stop.as_ref().map(|stop| stop.row) {
         return error("it looks for a map without a name");
     }
+    if let Some((_, name)) = unreadable_map(book, document) {
+        return error(&format!("\"{name}\" is no picture that it reads"));
+    }
+    let too_many = |count: usize, what: &str, most: usize| {
+        let words = format!("It has room for {most} {what} and writes {count}: it crashes or draws garbage.");
+        (count > most).then_some((Outcome::Crashes, words))
+    };
+    let views = too_many(document.materials.len(), "pairs of maps", MOST_MATERIAL_VIEWS);
+    if let Some(views) = views.filter(|_| book == Book::D3d12) {
+        return Some(views);
+    }
     if counts.bones == 0 {
         return None;
     }
@@ -100,16 +114,7 @@ pub(super) fn ends(book: Book, reading: &Reading) -> Option<(Outcome, String)> {
     if let Some(bone) = empty.or((there < counts.bones as usize).then_some(there)) {
         return crash(&format!("bone {bone} has no keys in \"{DEMO_CLIP}\""));
     }
-    if counts.bones as usize > MOST_BONES {
-        let surplus = counts.bones as usize - MOST_BONES;
-        return Some((
-            Outcome::Crashes,
-            format!(
-                "It writes {surplus} matrices behind the {MOST_BONES} that it has room for, and crashes or shows anything."
-            ),
-        ));
-    }
-    None
+    too_many(counts.bones as usize, "matrices of bones", MOST_BONES)
 }
 
 /// More than this a program does not get.

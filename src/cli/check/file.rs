@@ -8,25 +8,22 @@ use serde::Serialize;
 
 use super::maps;
 use crate::anim::CompiledClip;
-use crate::check::book::{self, Book, Known, Verdict};
+use crate::check::book::{self, Book, Known, Limit, Verdict};
 use crate::check::report::{self, CheckedFile};
 use crate::check::sarif;
+use crate::cli::codes::SCHEMA_VERSION;
 use crate::cli::diagnostic::Colors;
 use crate::cli::failure::{Failure, Outcome};
 use crate::cli::textures::Folders;
 use crate::cli::{input, paths};
 use crate::diagnostic::{Code, Diagnostic, Severity, codes};
 use crate::import::{self, Imported};
+use crate::session::limits_once_converted;
 use crate::session::summary::{self, Finding};
 
-/// What, besides errors, fails.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Deny {
-    /// Warnings too.
-    Warnings,
-    /// A book that does not read a file, or whose demo ends before it shows anything, as it does where --textures lacks a map.
-    Book,
-}
+/// What --deny calls all warnings, and what the books' programs do not show.
+pub(super) const WARNINGS: &str = "warnings";
+pub(super) const BOOK: &str = "book";
 
 /// Whose programs are asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -42,6 +39,8 @@ pub(super) struct Checked {
     bytes: Vec<u8>,
     pub(super) diagnostics: Vec<Diagnostic>,
     verdicts: Vec<Verdict>,
+    /// Of a file of another format, what it exceeds even converted for the books that are asked for.
+    converted: Option<Vec<Limit>>,
 }
 
 /// Reads and checks a file. `textures` are folders to look for its maps in; `is_only` as for [`maps::find`].
@@ -62,7 +61,28 @@ pub(super) fn check(
         missing_maps = Some(found.missing);
         diagnostics = found.diagnostics;
     }
-    let verdicts = verdicts(books, &bytes, imported.as_ref().ok(), missing_maps.as_deref());
+    let books: &[Book] = match books {
+        None => &[],
+        Some(WhichBooks::D3d11) => &[Book::D3d11],
+        Some(WhichBooks::D3d12) => &[Book::D3d12],
+        Some(WhichBooks::All) => &Book::ALL,
+    };
+    // The books' programs know no other format than theirs.
+    let (verdicts, converted) = match &imported {
+        _ if books.is_empty() => (Vec::new(), None),
+        Ok(imported) if imported.format.is_gltf() => (Vec::new(), Some(limits_once_converted(&imported.model, books))),
+        Err(_) if import::begins_like_gltf(&bytes) => (Vec::new(), None),
+        _ => {
+            let imported = imported.as_ref().ok();
+            let known = Known {
+                document: imported.and_then(|imported| imported.document.as_ref()),
+                handedness: imported.map(|imported| imported.model.handedness),
+                missing_maps: missing_maps.as_deref(),
+            };
+            let verdict = |&book| book::verdict(book, &bytes, &known);
+            (books.iter().map(verdict).collect(), None)
+        }
+    };
     diagnostics.extend(diagnostics_of(imported));
     diagnostics.sort_by_key(|diagnostic| diagnostic.position);
     Ok(Checked {
@@ -70,6 +90,7 @@ pub(super) fn check(
         bytes,
         diagnostics,
         verdicts,
+        converted,
     })
 }
 
@@ -85,32 +106,28 @@ fn diagnostics_of(imported: Result<Imported, Box<import::Refused>>) -> Vec<Diagn
     }
 }
 
-fn verdicts(
-    books: Option<WhichBooks>,
-    bytes: &[u8],
-    imported: Option<&Imported>,
-    missing_maps: Option<&[String]>,
-) -> Vec<Verdict> {
-    let books: &[Book] = match books {
-        None => return Vec::new(),
-        Some(WhichBooks::D3d11) => &[Book::D3d11],
-        Some(WhichBooks::D3d12) => &[Book::D3d12],
-        Some(WhichBooks::All) => &Book::ALL,
-    };
-    let known = Known {
-        document: imported.and_then(|imported| imported.document.as_ref()),
-        handedness: imported.map(|imported| imported.model.handedness),
-        missing_maps,
-    };
-    books.iter().map(|&book| book::verdict(book, bytes, &known)).collect()
-}
-
 /// What --json prints of a file.
 #[derive(Serialize)]
 pub(super) struct Report<'a> {
+    #[serde(rename = "schemaVersion")]
+    schema_version: u32,
     file: String,
     findings: Vec<Explained<'a>>,
     book: Option<summary::Books<'a>>,
+    error: Option<String>,
+}
+
+impl Report<'_> {
+    /// Of a file that could not be read.
+    pub(super) fn unread(path: &str, error: String) -> Self {
+        Self {
+            schema_version: SCHEMA_VERSION,
+            file: path.to_owned(),
+            findings: Vec::new(),
+            book: None,
+            error: Some(error),
+        }
+    }
 }
 
 /// A finding and what its code means.
@@ -123,17 +140,28 @@ struct Explained<'a> {
 }
 
 impl Checked {
-    pub(super) fn outcome(&self, deny: &[Deny]) -> Outcome {
-        let worst = self.diagnostics.iter().map(|diagnostic| diagnostic.severity).max();
-        let is_denied =
-            |severity| severity == Severity::Error || (severity == Severity::Warning && deny.contains(&Deny::Warnings));
+    /// How it went: `deny` has words and codes, of which `allow` takes codes out. Errors count always.
+    pub(super) fn outcome(&self, deny: &[&str], allow: &[&str]) -> Outcome {
+        let counts = |code: &str| !allow.contains(&code);
+        let is_named = |code: &str| deny.contains(&code) && counts(code);
+        let is_denied = |diagnostic: &Diagnostic| match diagnostic.severity {
+            Severity::Error => true,
+            Severity::Warning if deny.contains(&WARNINGS) => counts(diagnostic.code),
+            _ => is_named(diagnostic.code),
+        };
         let lacks_maps = |verdict: &Verdict| {
             let mut limits = verdict.limits.iter();
-            limits.any(|limit| limit.code == codes::MAP_MISSING.name)
+            limits.any(|limit| limit.code == codes::MAP_MISSING.name) && counts(codes::MAP_MISSING.name)
         };
         let is_shown = |verdict: &Verdict| verdict.is_shown() && !lacks_maps(verdict);
-        let book_fails = deny.contains(&Deny::Book) && !self.verdicts.iter().all(is_shown);
-        if book_fails || worst.is_some_and(is_denied) {
+        let of_books = |diagnostic: Diagnostic| is_named(diagnostic.code);
+        let exceeded = || self.converted.iter().flatten().map(|limit| limit.code);
+        let book_fails = deny.contains(&BOOK) && !(self.verdicts.iter().all(is_shown) && !exceeded().any(counts));
+        if book_fails
+            || self.diagnostics.iter().any(is_denied)
+            || self.verdicts.iter().flat_map(Verdict::diagnostics).any(of_books)
+            || exceeded().any(is_named)
+        {
             Outcome::FileHasErrors
         } else {
             Outcome::Fine
@@ -153,6 +181,7 @@ impl Checked {
             bytes: &self.bytes,
             diagnostics: &self.diagnostics,
             verdicts: &self.verdicts,
+            converted: self.converted.as_deref(),
         }
     }
 
@@ -163,6 +192,7 @@ impl Checked {
             .iter()
             .all(|diagnostic| diagnostic.severity < Severity::Error);
         Report {
+            schema_version: SCHEMA_VERSION,
             file: self.path.display().to_string(),
             findings: self
                 .diagnostics
@@ -176,7 +206,8 @@ impl Checked {
                     }
                 })
                 .collect(),
-            book: books.map(|_| summary::Books::of(&self.verdicts)),
+            book: books.map(|_| summary::Books::of(&self.verdicts, self.converted.as_deref())),
+            error: None,
         }
     }
 

@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::cli::paths::not_a_file;
 use crate::cli::text::counted;
-use crate::cli::textures::{Folders, MapState, Textures, by_name, missing, not_a_file, without_name};
+use crate::cli::textures::{Folders, MapState, Textures, by_name, missing, without_name};
 use crate::diagnostic::{Diagnostic, Subject, codes};
 use crate::import::Imported;
 use crate::session::{File, Maps};

@@ -6,11 +6,12 @@ mod file;
 mod maps;
 
 use std::io::{self, IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::ValueEnum;
 
+use super::codes;
 use super::diagnostic::Colors;
 use super::failure::{Failure, Outcome};
 use super::in_order::in_order;
@@ -19,7 +20,7 @@ use super::progress::progress;
 use super::textures::Folders;
 use crate::check::sarif;
 use counts::Counts;
-use file::{Deny, WhichBooks};
+use file::{BOOK, WARNINGS, WhichBooks};
 
 /// List what is wrong with files, or was mended while reading them.
 ///
@@ -28,6 +29,8 @@ use file::{Deny, WhichBooks};
 #[command(after_long_help = OUTPUT)]
 pub(super) struct Arguments {
     /// Files to read, folders with models in them, or - for standard input.
+    ///
+    /// Links to files are followed in a folder, links to folders are not. Pipes and devices in it are skipped with a word.
     #[arg(required_unless_present = "explain", value_name = "PATH")]
     paths: Vec<PathBuf>,
     /// How findings are printed; see below.
@@ -36,19 +39,22 @@ pub(super) struct Arguments {
     /// The same as --format json.
     #[arg(long, conflicts_with = "format")]
     json: bool,
-    /// What, besides errors, makes the exit code 1.
-    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
-    deny: Vec<Deny>,
+    /// What, besides errors, makes the exit code 1: warnings, book, or codes, with commas between; see below.
+    #[arg(long, value_name = "WHAT", value_delimiter = ',', value_parser = denied)]
+    deny: Vec<&'static str>,
+    /// Codes that --deny does not count, with commas between.
+    #[arg(long, value_name = "CODES", value_delimiter = ',', value_parser = codes::known, requires = "deny")]
+    allow: Vec<&'static str>,
     /// Whether the programs of Frank Luna's books read the files, and what they show.
     #[arg(long, value_name = "BOOK")]
     book: Option<WhichBooks>,
-    /// Look for maps in this folder and in those in it; may be given more than once.
+    /// Look for maps in this folder and in those in it, links to folders included; may be given more than once.
     #[arg(long, value_name = "DIR")]
     textures: Vec<PathBuf>,
     /// Say what a code means, instead of reading files.
-    #[arg(long, value_name = "CODE", conflicts_with_all = ["paths", "json", "format", "deny", "book", "textures"])]
+    #[arg(long, value_name = "CODE", conflicts_with_all = ["paths", "json", "format", "deny", "allow", "book", "textures"])]
     explain: Option<String>,
-    /// Colours: auto is on a terminal.
+    /// Colours: auto is on a terminal that has them, or where CLICOLOR_FORCE is set, but not where NO_COLOR is.
     #[arg(long, value_name = "WHEN", default_value = "auto")]
     color: When,
 }
@@ -73,11 +79,12 @@ Text:
   and the line of the file with a mark under the place; without :LINE:COLUMN when it is about the whole file.
   Findings come in the order of the file. Many alike are one, with the lines of the next few below it.
   Last stands how to write the file without what was mended, or can be.
-  Of a folder every .m3d, .glb and .gltf file below it is read, by path. After several files comes a line with counts.
+  Of a folder every .m3d, .glb and .gltf file below it is read, by path. After several files, or none, comes a line with counts.
   --explain CODE tells what a finding of this code means, what is done about it, and how to mend it in the exporter.
   The viewer has the same of all codes, with an example of each, as the page web/codes.html.
 
-JSON: an array with one object for each file that could be read
+JSON: an array with one object for each file
+  schemaVersion       1; it grows when a key changes its meaning or goes
   file                the path as given
   findings            array, empty when there is nothing to say
     severity          \"note\", \"warning\" or \"error\"
@@ -103,18 +110,39 @@ JSON: an array with one object for each file that could be read
       shows           what one then sees
       ends            whether its demo ends before it shows anything
       limits          what the demo cannot show as it is meant: code and message of each
+    converted         of a glTF file, which the books' programs do not read; else null
+      fits            whether `convert --for-book` makes one of it that the demos have room for
+      limits          what it exceeds there: code and message of each
+  error               why the file could not be read, or null
 
-SARIF: version 2.1.0, with columns in UTF-16 code units; what books make of a file are results too.
+SARIF: version 2.1.0, with columns in UTF-16 code units; what books make of a file are results too. What could not be read
+is told in invocations, with executionSuccessful false.
 
 --textures DIR adds a finding for each map that is missing or cannot be read, and, when one file is read, for
 pictures that no material names.
 
 A file that cannot be read is named on standard error; the others are still checked.
 
+--deny warnings counts warnings, and a folder without a model. --deny book counts, with --book, a file that the book's
+program does not read or with which its demo ends, also where --textures lacks a map; of a glTF file, one that does not fit
+once it is converted. --deny CODE counts a finding of this code, also of a book. --allow CODE takes findings out of all that.
+
 Exit codes:
   0  no errors; notes and warnings are fine
-  1  a file has errors, or what --deny names: warnings; a book that does not read a file, or whose demo ends
+  1  a file has errors, or there is what --deny names
   2  wrong use, an unknown code, or a file cannot be read";
+
+fn denied(text: &str) -> Result<&'static str, String> {
+    codes::known_or(text, &[WARNINGS, BOOK])
+}
+
+/// Whether standard output is for colours: <https://no-color.org>, <https://bixense.com/clicolors>, and a terminal that can.
+fn wants_colors() -> bool {
+    let variable = |name| std::env::var_os(name).filter(|value| !value.is_empty());
+    let is_forced = variable("CLICOLOR_FORCE").is_some_and(|value| value != "0");
+    let can = || io::stdout().is_terminal() && variable("TERM").is_none_or(|value| value != "dumb");
+    variable("NO_COLOR").is_none() && (is_forced || can())
+}
 
 pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
     if let Some(name) = &arguments.explain {
@@ -123,7 +151,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     }
     let format = if arguments.json { Format::Json } else { arguments.format };
     let colors = Colors(match arguments.color {
-        When::Auto => io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
+        When::Auto => wants_colors(),
         When::Always => true,
         When::Never => false,
     });
@@ -131,11 +159,15 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     let textures = with_textures
         .then(|| Folders::walk(&arguments.textures, err))
         .transpose()?;
-    let models = paths::models(&arguments.paths).into_iter();
+    let models = paths::models(&arguments.paths, err)?.into_iter();
     let models: Vec<_> = models.map(|model| model.map_err(Arc::new)).collect();
     let is_only = models.len() == 1;
     let progress = progress(models.len(), "checking {pos} of {len} files, {eta} left");
-    let mut outcome = Outcome::Fine;
+    let mut outcome = match models.is_empty() && arguments.deny.contains(&WARNINGS) {
+        true => Outcome::FileHasErrors,
+        false => Outcome::Fine,
+    };
+    let mut unread = Vec::new();
     let mut counts = Counts::default();
     let mut json = Vec::new();
     let mut results = Vec::new();
@@ -153,11 +185,16 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
                     // Keeps the order of the files where both streams go to one terminal.
                     out.flush()?;
                     outcome = outcome.max(progress.suspend(|| failure.report(err)));
+                    let path = failure.unread().unwrap_or(Path::new("")).to_string_lossy().into_owned();
+                    if format == Format::Json {
+                        json.push(serde_json::to_value(file::Report::unread(&path, failure.to_string()))?);
+                    }
+                    unread.push((path, failure.to_string()));
                     return Ok(());
                 }
             };
             counts.add(&checked.diagnostics);
-            outcome = outcome.max(checked.outcome(&arguments.deny));
+            outcome = outcome.max(checked.outcome(&arguments.deny, &arguments.allow));
             match format {
                 Format::Text => progress.suspend(|| checked.write(out, colors))?,
                 Format::Json => json.push(serde_json::to_value(checked.report(arguments.book))?),
@@ -169,14 +206,14 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     progress.finish_and_clear();
     done?;
     match format {
-        Format::Text if models.len() > 1 => writeln!(out, "{counts}")?,
+        Format::Text if models.len() != 1 => writeln!(out, "{counts}")?,
         Format::Text => {}
         Format::Json => {
             serde_json::to_writer_pretty(&mut *out, &json)?;
             writeln!(out)?;
         }
         Format::Sarif => {
-            serde_json::to_writer_pretty(&mut *out, &sarif::log(results))?;
+            serde_json::to_writer_pretty(&mut *out, &sarif::log(results, &unread))?;
             writeln!(out)?;
         }
     }

@@ -4,10 +4,10 @@ use std::collections::HashSet;
 
 use super::animation::has_keys;
 use super::skeleton::is_unweighted;
-use crate::diagnostic::collect::counted;
+use crate::diagnostic::collect::{counted, named};
 use crate::export::losses::Losses;
 use crate::export::{Loss, MapImages};
-use crate::model::{MapSlot, Model, Sampling};
+use crate::model::{Clip, MapSlot, Model, Sampling};
 
 /// The cosine between two axes up to which they are square to each other but for rounding.
 const SQUARE: f32 = 1e-5;
@@ -52,24 +52,29 @@ pub fn glb_losses(model: &Model, maps: &MapImages<'_>) -> Vec<Loss> {
             counted(unweighted, "vertex is", "vertices are")
         ),
     );
-    let early = model
-        .clips
-        .iter()
-        .filter(|clip| has_keys(clip) && clip.start_secs < 0.0)
-        .count();
+    let names = |is: &dyn Fn(&Clip) -> bool| -> Vec<&str> {
+        let clips = model.clips.iter().filter(|clip| is(clip));
+        clips.map(|clip| clip.name.as_str()).collect()
+    };
+    let early = names(&|clip| has_keys(clip) && clip.start_secs < 0.0);
     losses.add(
         "negative-times",
-        early,
+        early.len(),
         format!(
-            "{} before 0 s, where glTF has no time; moved to begin there.",
-            counted(early, "clip begins", "clips begin")
+            "{} before 0 s, where glTF has no time, and moved to begin there: {}.",
+            counted(early.len(), "clip begins", "clips begin"),
+            named(early)
         ),
     );
-    let still = model.clips.iter().filter(|clip| !has_keys(clip)).count();
+    let still = names(&|clip| !has_keys(clip));
     losses.add(
         "clips-without-keys",
-        still,
-        format!("{} no keys; left out.", counted(still, "clip has", "clips have")),
+        still.len(),
+        format!(
+            "{} left out for having no keys: {}.",
+            counted(still.len(), "clip is", "clips are"),
+            named(still)
+        ),
     );
     // A picture that several materials name is one.
     let missing: HashSet<&str> = (0..)
@@ -82,13 +87,15 @@ pub fn glb_losses(model: &Model, maps: &MapImages<'_>) -> Vec<Loss> {
         .filter(|(place, _)| !maps.contains_key(place))
         .map(|(_, name)| name)
         .collect();
-    let missing = missing.len();
+    let mut missing: Vec<&str> = missing.into_iter().collect();
+    missing.sort_unstable();
     losses.add(
         "maps-missing",
-        missing,
+        missing.len(),
         format!(
-            "{} left out, since there is no picture.",
-            counted(missing, "map is", "maps are")
+            "{} left out, since there is no picture: {}.",
+            counted(missing.len(), "map is", "maps are"),
+            named(missing)
         ),
     );
     let named = model

@@ -3,23 +3,15 @@
 use super::document::{names_materials, of_subsets, one_word, rests_apart};
 use crate::anim::STRAIGHT_ERROR;
 use crate::diagnostic::codes;
-use crate::diagnostic::collect::counted;
+use crate::diagnostic::collect::{counted, few, named, quoted};
+use crate::diagnostic::limits::{MOST_BONE_INDEX, MOST_BONES, MOST_MATERIALS, MOST_VERTICES};
 use crate::export::Loss;
 use crate::export::losses::Losses;
 use crate::format::Dialect;
 use crate::model::{
-    AlphaMode, Front, JointIndex, JointNames, LocalJoint, MapSlot, Material, MaterialMap, Model, Reflectance, Sampling,
-    Track, UpAxis,
+    AlphaMode, Front, JointIndex, JointNames, LocalJoint, MapSlot, Material, Model, Reflectance, Sampling, Track,
+    UpAxis,
 };
-
-/// Bones that the shaders of the books have room for.
-const MOST_BONES: usize = 96;
-
-/// The highest bone that the books' loaders keep: they store it in a byte.
-const MOST_BONE_INDEX: u32 = 255;
-
-/// Vertices that the books' 16-bit indices name.
-const MOST_VERTICES: usize = 1 << 16;
 
 /// What a file of this dialect does not hold of a model, or holds otherwise. `names` are names that a person gave to bones.
 pub fn m3d_losses(model: &Model, names: &JointNames, dialect: Dialect) -> Vec<Loss> {
@@ -34,7 +26,7 @@ pub fn m3d_losses(model: &Model, names: &JointNames, dialect: Dialect) -> Vec<Lo
     mesh(model, &mut losses);
     skeleton(model, names, &mut losses);
     keys(model, &mut losses);
-    subsets(model, &mut losses);
+    subsets(model, dialect, &mut losses);
     single_words(model, dialect, &mut losses);
     let materials: Vec<&Material> = of_subsets(model).collect();
     surfaces(&materials, dialect, &mut losses);
@@ -59,8 +51,7 @@ fn space(model: &Model, dialect: Dialect, losses: &mut Losses) {
         losses.add(
             "front",
             1,
-            "Characters of the model face the positive axis, as in glTF; those of the format face the negative one."
-                .into(),
+            "The model faces the other way than characters of the format do, and is seen from behind there.".into(),
         );
     }
 }
@@ -71,14 +62,17 @@ fn mesh(model: &Model, losses: &mut Losses) {
     losses.add(
         "vertex-colors",
         mesh.colors.len(),
-        format!("{} a colour; the format has none.", vertices(mesh.colors.len())),
+        format!(
+            "{} a colour; the format has no vertex colours.",
+            vertices(mesh.colors.len())
+        ),
     );
     let second = mesh.second_tex_coords.len();
     losses.add(
         "second-tex-coords",
         second,
         format!(
-            "{} second texture coordinates; the format has one set.",
+            "{} a second UV map (texture coordinates); the format has one.",
             vertices(second)
         ),
     );
@@ -87,7 +81,7 @@ fn mesh(model: &Model, losses: &mut Losses) {
         codes::MANY_VERTICES.name,
         beyond,
         format!(
-            "{} beyond the {MOST_VERTICES} that the books' 16-bit indices name.",
+            "{} beyond the {MOST_VERTICES} that the books' 16-bit indices can number.",
             counted(beyond, "vertex is", "vertices are")
         ),
     );
@@ -135,7 +129,7 @@ fn skeleton(model: &Model, names: &JointNames, losses: &mut Losses) {
         "rest-pose",
         apart,
         format!(
-            "{} elsewhere than in the bind pose. In clips without keys for them they get one; without a clip the bind pose is seen.",
+            "{} elsewhere than in the bind pose. A clip without keys for such a bone gets one; without a clip the bind pose is seen.",
             counted(apart, "bone rests", "bones rest")
         ),
     );
@@ -151,7 +145,7 @@ fn keys(model: &Model, losses: &mut Losses) {
         "step-keys",
         stepped,
         format!(
-            "{} from key to key; each such key becomes two, the second just before the next.",
+            "{} from key to key (constant interpolation); each such key becomes two, the second just before the next.",
             counted(stepped, "track holds its values", "tracks hold their values")
         ),
     );
@@ -160,8 +154,8 @@ fn keys(model: &Model, losses: &mut Losses) {
         "cubic-keys",
         cubic,
         format!(
-            "{} splines; straight pieces take their place, off by at most {STRAIGHT_ERROR:e} of what a track ranges over, of rotations \
-             that angle in radians.",
+            "{} splines (Bézier curves); straight pieces take their place, off by at most {STRAIGHT_ERROR:e} of the track's range, for \
+             rotations {STRAIGHT_ERROR:e} radians.",
             counted(cubic, "track follows", "tracks follow")
         ),
     );
@@ -185,7 +179,13 @@ fn keys(model: &Model, losses: &mut Losses) {
     );
 }
 
-fn subsets(model: &Model, losses: &mut Losses) {
+fn subsets(model: &Model, dialect: Dialect, losses: &mut Losses) {
+    let count = model.mesh.submeshes.len();
+    losses.add(
+        codes::BOOK_MANY_MATERIALS.name,
+        if dialect == Dialect::D3d12 { count.saturating_sub(MOST_MATERIALS) } else { 0 },
+        format!("There are {count} materials, one for each subset; the demo of the D3D12 book reaches the maps of {MOST_MATERIALS}."),
+    );
     let mut uses = vec![0_usize; model.materials.len()];
     for submesh in &model.mesh.submeshes {
         uses[submesh.material as usize] += 1;
@@ -195,17 +195,20 @@ fn subsets(model: &Model, losses: &mut Losses) {
         "materials-shared",
         shared,
         format!(
-            "{} a material with another; each gets a copy, since subset i is drawn with material i.",
+            "{} a material with another one and gets a copy of it, since the format has one material for each subset.",
             counted(shared, "subset shares", "subsets share")
         ),
     );
-    let unused = uses.iter().filter(|uses| **uses == 0).count();
+    let unused = model.materials.iter().zip(&uses).filter(|(_, uses)| **uses == 0);
+    let unused: Vec<&str> = unused.map(|(material, _)| material.name.as_str()).collect();
     losses.add(
         "materials-unused",
-        unused,
+        unused.len(),
         format!(
-            "{} left out, since no subset is drawn with it.",
-            counted(unused, "material is", "materials are")
+            "{} left out, since nothing is drawn with {}: {}.",
+            counted(unused.len(), "material is", "materials are"),
+            if unused.len() == 1 { "it" } else { "them" },
+            named(unused)
         ),
     );
 }
@@ -259,25 +262,18 @@ fn is_named((index, material): &(usize, &Material)) -> bool {
 }
 
 fn surfaces(materials: &[&Material], dialect: Dialect, losses: &mut Losses) {
-    let count = |is: &dyn Fn(&Material) -> bool| materials.iter().filter(|material| is(material)).count();
-    let are = |count| counted(count, "material is", "materials are");
-    let have = |count| counted(count, "material has", "materials have");
-
-    let metallic = count(
-        &|material| matches!(material.reflectance, Reflectance::MetallicRoughness { metallic, .. } if metallic > 0.0),
-    );
+    let mut losses = OfMaterials { materials, all: losses };
     losses.add(
         "metallic-roughness",
-        metallic,
-        format!(
-            "{} metalness, which the format has not: Fresnel0 is mix(0.04, diffuse, metalness), diffuse is multiplied by 1 − metalness (glTF \
-             2.0, appendix B).",
-            have(metallic)
-        ),
+        &|material| matches!(material.reflectance, Reflectance::MetallicRoughness { metallic, .. } if metallic > 0.0),
+        IS,
+        "metal, for which the format has no number: the colour gets darker and the reflection (Fresnel0) takes it on",
     );
-    let phong = count(&|material| matches!(material.reflectance, Reflectance::Phong { .. }));
+    let are = |count| counted(count, IS[0], IS[1]);
+    let is_phong = |material: &&&Material| matches!(material.reflectance, Reflectance::Phong { .. });
+    let phong = materials.iter().filter(is_phong).count();
     if dialect == Dialect::D3d12 {
-        losses.add(
+        losses.all.add(
             "phong-to-fresnel",
             phong,
             format!(
@@ -288,7 +284,7 @@ fn surfaces(materials: &[&Material], dialect: Dialect, losses: &mut Losses) {
         );
     } else {
         let fresnel = materials.len() - phong;
-        losses.add(
+        losses.all.add(
             "fresnel-to-phong",
             fresnel,
             format!(
@@ -298,85 +294,132 @@ fn surfaces(materials: &[&Material], dialect: Dialect, losses: &mut Losses) {
             ),
         );
     }
-    let blended = count(&|material| material.alpha == AlphaMode::Blend);
     losses.add(
         "alpha-blend",
-        blended,
-        format!("{} blended; drawn opaque.", are(blended)),
+        &|material| material.alpha == AlphaMode::Blend,
+        IS,
+        "transparent by blending and drawn opaque",
     );
-    let cutoffs =
-        count(&|material| matches!(material.alpha, AlphaMode::Mask { cutoff } if cutoff != Material::ALPHA_CLIP));
     losses.add(
         "alpha-cutoff",
-        cutoffs,
-        format!(
-            "{} cut at another alpha than the books' {}.",
-            are(cutoffs),
-            Material::ALPHA_CLIP
-        ),
+        &|material| matches!(material.alpha, AlphaMode::Mask { cutoff } if cutoff != Material::ALPHA_CLIP),
+        IS,
+        &format!("cut out at another alpha than the books' {}", Material::ALPHA_CLIP),
     );
-    let opacity = count(&|material| material.opacity != 1.0);
     losses.add(
         "opacity",
-        opacity,
-        format!("{} an alpha beside its colour; the format has none.", have(opacity)),
+        &|material| material.opacity != 1.0,
+        HAS,
+        "an alpha beside the colour, which the format has not",
     );
-    let sides = count(&|material| material.double_sided != material.is_cut());
     losses.add(
         "double-sided",
-        sides,
-        format!(
-            "{} sides that the format cannot say: what alpha cuts has two there, all else has one.",
-            have(sides)
-        ),
+        &|material| material.double_sided && !material.is_cut(),
+        IS,
+        "two-sided (Backface Culling is off in Blender), and back faces will not be drawn",
     );
-    let unlit = count(&|material| material.unlit);
-    losses.add("unlit", unlit, format!("{} shown without light; lit here.", are(unlit)));
-    let emissive = count(&|material| material.emissive != [0.0; 3]);
+    losses.add(
+        "double-sided",
+        &|material| !material.double_sided && material.is_cut(),
+        IS,
+        "one-sided, and back faces will be drawn, as the books do of what is cut out",
+    );
+    losses.add(
+        "unlit",
+        &|material| material.unlit,
+        IS,
+        "shown without light (unlit) in the file; here light falls on it",
+    );
     losses.add(
         "emissive",
-        emissive,
-        format!("{} light of its own; the format has none.", have(emissive)),
+        &|material| material.emissive != [0.0; 3],
+        HAS,
+        "light of its own (emission), which the format has not",
     );
-    let bent = count(&|material| material.normal_map.is_some() && material.normal_scale != 1.0);
     losses.add(
         "normal-scale",
-        bent,
-        format!("{} a normal map of another strength than 1.", have(bent)),
+        &|material| material.normal_map.is_some() && material.normal_scale != 1.0,
+        HAS,
+        "a normal map of another strength than 1, which the format has not",
     );
 }
 
+/// What is said of one material, and of several.
+type Verb = [&'static str; 2];
+const IS: Verb = ["material is", "materials are"];
+const HAS: Verb = ["material has", "materials have"];
+
+/// Losses of materials, told with their names.
+struct OfMaterials<'a> {
+    materials: &'a [&'a Material],
+    all: &'a mut Losses,
+}
+
+impl OfMaterials<'_> {
+    fn add(&mut self, code: &'static str, is: &dyn Fn(&Material) -> bool, [one, many]: Verb, what: &str) {
+        let those = self.materials.iter().filter(|material| is(material));
+        let names: Vec<&str> = those.map(|material| material.name.as_str()).collect();
+        let count = names.len();
+        let message = format!("{} {what}: {}.", counted(count, one, many), named(names));
+        self.all.add(code, count, message);
+    }
+}
+
 fn maps(materials: &[&Material], losses: &mut Losses) {
-    let count = |of: &[MapSlot], is: &dyn Fn(&MaterialMap) -> bool| {
-        let maps = materials
-            .iter()
-            .flat_map(|material| of.iter().filter_map(|&slot| material.map(slot)));
-        maps.filter(|map| is(map)).count()
-    };
     for (code, slot) in [
         ("metallic-roughness-map", MapSlot::MetallicRoughness),
         ("occlusion-map", MapSlot::Occlusion),
         ("emissive-map", MapSlot::Emissive),
     ] {
-        let maps = count(&[slot], &|_| true);
+        let with: Vec<&str> = materials
+            .iter()
+            .filter(|material| material.map(slot).is_some())
+            .map(|material| material.name.as_str())
+            .collect();
         let (one, many) = (format!("{} is", slot.label()), format!("{}s are", slot.label()));
         losses.add(
             code,
-            maps,
+            with.len(),
             format!(
-                "{} left out; the format has diffuse and normal maps.",
-                counted(maps, &one, &many)
+                "{} left out; the format has diffuse and normal maps: of {}.",
+                counted(with.len(), &one, &many),
+                named(with)
             ),
         );
     }
-    let kept = [MapSlot::Diffuse, MapSlot::Normal];
-    let sampled = count(&kept, &|map| map.sampling != Sampling::default());
+    let places = materials
+        .iter()
+        .flat_map(|material| [MapSlot::Diffuse, MapSlot::Normal].map(|slot| (*material, slot)));
+    let sampled = places.filter_map(|(material, slot)| {
+        let how = otherwise(&material.map(slot)?.sampling)?;
+        Some(format!("{} of {} ({how})", slot.label(), quoted(&material.name)))
+    });
+    let sampled: Vec<String> = sampled.collect();
     losses.add(
         "map-sampling",
-        sampled,
+        sampled.len(),
         format!(
-            "{} with texture coordinates, edges or a filter of its own; the books' maps repeat as they are.",
-            counted(sampled, "map is sampled", "maps are sampled")
+            "{} on the model otherwise than in the books, which repeat a map by the first UVs as they are: {}.",
+            counted(sampled.len(), "map lies", "maps lie"),
+            few(&sampled)
         ),
     );
+}
+
+/// What of a map's place and look the books' format does not say, in a few words.
+fn otherwise(sampling: &Sampling) -> Option<String> {
+    let Sampling {
+        second_tex_coords,
+        map_from_mesh,
+        wrap,
+        nearest,
+    } = Sampling::default();
+    let parts = [
+        (sampling.second_tex_coords != second_tex_coords, "second UV map"),
+        (sampling.map_from_mesh != map_from_mesh, "moved, turned or scaled UVs"),
+        (sampling.wrap != wrap, "does not repeat at its edges"),
+        (sampling.nearest != nearest, "hard pixels"),
+    ];
+    let said: Vec<&str> = parts.iter().filter(|part| part.0).map(|part| part.1).collect();
+    (!said.is_empty()).then(|| said.join(", "))
 }

@@ -6,13 +6,11 @@ use std::collections::BinaryHeap;
 use glam::{Affine3A, Mat4};
 
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
+use crate::diagnostic::limits::MOST_BONES;
 use crate::diagnostic::{Code, Subject, codes};
 use crate::format::{Document, LineMap};
 use crate::import::{ImportError, ImportErrorKind};
 use crate::model::{JointIndex, Skeleton};
-
-/// Bones that the loaders of both books can hold in their constant buffer.
-const BOOK_BONE_LIMIT: usize = 96;
 
 /// The skeleton of a document. A file whose order is already valid keeps it; otherwise each bone follows its parent as
 /// soon as the bones with lower numbers allow.
@@ -32,11 +30,11 @@ pub(super) fn skeleton_from_document(
     let bone_parents = parents_in_range(&document.bone_parents, lines)?;
     let file_bones = parents_first(&bone_parents, lines)?;
     note_order(&file_bones, &bone_parents, lines, diagnostics);
-    if bone_count > BOOK_BONE_LIMIT {
+    if bone_count > MOST_BONES {
         diagnostics.add(
             &codes::MANY_BONES,
             Place::default(),
-            format!("There are {bone_count} bones; the books' shaders hold {BOOK_BONE_LIMIT}."),
+            format!("There are {bone_count} bones; the books' shaders hold {MOST_BONES}."),
         );
     }
 

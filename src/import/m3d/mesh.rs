@@ -4,15 +4,13 @@ use glam::{Vec2, Vec3, Vec4};
 
 use super::influences::influences_from_document;
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
+use crate::diagnostic::limits::MOST_VERTICES;
 use crate::diagnostic::{Subject, codes};
 use crate::format::{Document, LineMap, Vertex, VertexField};
 use crate::import::normals::{handedness_of, mend_normals};
 use crate::import::tangents::mend_tangents;
 use crate::import::{ImportError, ImportErrorKind};
 use crate::model::{Handedness, Mesh, ModelError, Skeleton};
-
-/// Vertices that the books' 16-bit indices can name.
-const BOOK_VERTEX_LIMIT: usize = 65_535;
 
 /// The mesh, still without submeshes, and the handedness of its space.
 pub(super) fn mesh_from_document(
@@ -22,9 +20,9 @@ pub(super) fn mesh_from_document(
     diagnostics: &mut Diagnostics,
 ) -> Result<(Mesh, Handedness), ImportError> {
     let vertices = &document.vertices;
-    if vertices.len() > BOOK_VERTEX_LIMIT {
+    if vertices.len() > MOST_VERTICES {
         let count = vertices.len();
-        let message = format!("There are {count} vertices; the books' 16-bit indices name {BOOK_VERTEX_LIMIT}.");
+        let message = format!("There are {count} vertices; the books' 16-bit indices can number {MOST_VERTICES}.");
         diagnostics.add(&codes::MANY_VERTICES, Place::default(), message);
     }
     let positions = finite_stream(vertices, lines, diagnostics, VertexField::Position, |vertex| {

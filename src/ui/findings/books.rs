@@ -8,7 +8,7 @@ use egui::{Align, Color32, FontId, Galley, Margin, Rect, Response, RichText, Rol
 use super::filter::color;
 use super::row::{INDENT, explanation, mending, tell_fold};
 use super::state::BookLines;
-use crate::check::book::{Book, Limit, Verdict};
+use crate::check::book::{Book, Limit, Verdict, converted_in_words};
 use crate::diagnostic::{Severity, codes};
 use crate::session::{ExportFormat, OpenModel, Session};
 use crate::ui::error_card::show_excerpt;
@@ -23,9 +23,12 @@ pub(in crate::ui) fn show_row(ui: &mut Ui, session: &Session, state: &mut UiStat
     let tokens = Tokens::of(ui);
     let verdicts = session.verdicts();
     let own = newest_first(verdicts).find(|verdict| !verdict.is_foreign);
-    let (label, value) = own.map_or(("Book demos", "read .m3d only".to_owned()), |own| {
-        (own.book.label(), own.outcome.to_string())
-    });
+    let converted = session.limits_once_converted().filter(|limits| !limits.is_empty());
+    let (label, value) = match (own, converted) {
+        (Some(own), _) => (own.book.label(), own.outcome.to_string()),
+        (None, Some(_)) => ("Book demos", "read .m3d only; too large even converted".to_owned()),
+        (None, None) => ("Book demos", "read .m3d only".to_owned()),
+    };
     let color = if own.is_some_and(Verdict::is_bad) {
         tokens.warning
     } else {
@@ -47,6 +50,7 @@ pub(in crate::ui) fn show_row(ui: &mut Ui, session: &Session, state: &mut UiStat
         .collect();
     if hint.is_empty() {
         hint.push("The books' demos read no glTF.".to_owned());
+        hint.extend(session.limits_once_converted().map(converted_in_words));
     }
     if hint_beside(response, None, &hint.join("\n")).clicked() {
         state.diagnostics_open = !state.diagnostics_open;

@@ -38,7 +38,7 @@ const CHANGES: &[fn(&mut Document)] = &[
     |arm| arm.bone_offsets[1][0] = f32::NAN,
     |arm| arm.bone_offsets[1][3] = 0.5,
     |arm| arm.bone_offsets[1][..11].fill(0.0),
-    |arm| arm.vertices.resize(65_536, arm.vertices[0]),
+    |arm| arm.vertices.resize(65_537, arm.vertices[0]),
     |arm| arm.vertices[0].position[0] = f32::INFINITY,
     |arm| arm.triangles[..6].iter_mut().for_each(|corners| corners.swap(1, 2)),
     |arm| arm.vertices[0].normal = [0.0; 3],

@@ -2,7 +2,7 @@
 
 use bindpose::check::book::Book;
 use bindpose::diagnostic::codes;
-use bindpose::session::{FileCommand, Session};
+use bindpose::session::{ExportOptions, File, FileCommand, Session};
 
 use super::maps::{mapped, picture};
 use super::{models, opened};
@@ -60,8 +60,28 @@ fn that_the_other_books_demo_cannot_read_the_file_is_no_fault_of_it() {
         told,
         [
             ("cannot read it".to_owned(), true, false),
-            ("would crash at its first frame".to_owned(), false, true)
+            ("would end with an error".to_owned(), false, true)
         ]
+    );
+}
+
+#[test]
+fn of_gltf_it_is_said_what_it_exceeds_once_it_is_converted() {
+    let m3d = opened(models::file("a.m3d", &models::document()));
+    assert!(m3d.limits_once_converted().is_none());
+    let glb = m3d
+        .export_job(&ExportOptions::default())
+        .expect("a model")
+        .run()
+        .expect("it can be written");
+    let session = opened(File::new("a.glb", glb.bytes));
+    assert!(session.verdicts().is_empty() && session.limits_once_converted().is_some_and(<[_]>::is_empty));
+    assert!(
+        session
+            .report()
+            .ends_with("a.glb: Book demos: converted for the book: fits\n"),
+        "{}",
+        session.report()
     );
 }
 
@@ -69,7 +89,11 @@ fn that_the_other_books_demo_cannot_read_the_file_is_no_fault_of_it() {
 fn another_model_has_verdicts_of_its_own() {
     let mut session = opened(models::file("a.m3d", &models::skinned(&models::CLIPS)));
     assert!(session.verdicts().iter().any(|verdict| verdict.reads() && verdict.ends));
-    session.apply(FileCommand::Add(vec![models::file("b.m3d", &models::document())]));
+    session.apply(FileCommand::Add(vec![mapped(
+        "b.m3d",
+        "skin_diff.dds",
+        "skin_norm.dds",
+    )]));
     assert!(
         session
             .verdicts()
@@ -97,7 +121,7 @@ fn the_report_names_the_file_and_has_a_line_for_each_book() {
     assert!(
         lines
             .iter()
-            .any(|line| line.starts_with("a.m3d: D3D12 demo: would crash at its first frame. One sees: ")),
+            .any(|line| line.starts_with("a.m3d: D3D12 demo: would end with an error. One sees: ")),
         "{report}"
     );
 }
