@@ -46,14 +46,14 @@ use crate::model::{Material, Model};
 use crate::scene::{FrameCost, Light, Pass, RenderFrame, ViewMode};
 use buffers::bind_group;
 use environment::Environments;
-use instances::{InstanceRange, Instances, Standing, pose_count, poses};
+use instances::{InstanceRange, Instances, Standing, front_sign_in_world, pose_count, poses};
 use light_maps::GeometryMap;
 use light_passes::{Common, LightPasses, Samplers};
 use maps::{MapTextures, one_texel};
 use model::{GpuModel, Posed};
 use overlays::Overlays;
 use pipelines::Pipelines;
-use recipe::{Cut, Draw, Maps, ModelDraw, Shading};
+use recipe::{Cut, Draw, Faces, Maps, ModelDraw, Shading};
 use timing::{FrameEncoder, FrameTimer};
 
 /// What a renderer is made for.
@@ -270,7 +270,7 @@ impl Renderer {
     fn unprepared(&self, samples: &[SampleCount]) -> Option<(Draw, SampleCount)> {
         let (model, pipelines) = (self.model.as_ref()?, &self.common.pipelines);
         let mut wanted = pipelines.drawn();
-        wanted.extend(Draw::within_reach(model.bones.is_some(), &model.kinds()));
+        wanted.extend(Draw::within_reach(model.bones.is_some(), &model.kinds(), model.front));
         let with_each = |draw| samples.iter().map(move |&samples| (draw, samples));
         let mut wanted = wanted.into_iter().flat_map(with_each);
         wanted.find(|&(draw, samples)| !pipelines.has(draw, samples))
@@ -326,8 +326,12 @@ impl Renderer {
             if let Some(colors) = &frame.vertex_colors {
                 model.set_colors(device, queue, colors);
             }
+            model.front = match front_sign_in_world(&frame.world_from_model, model.front_sign) {
+                ..0.0 => Faces::Counterclockwise,
+                _ => Faces::Clockwise,
+            };
             self.instances
-                .write(device, queue, frame, model.bones.as_ref(), model.winding);
+                .write(device, queue, frame, model.bones.as_ref(), model.front_sign);
         }
         self.overlays.write(device, queue, frame);
         self.shape.update(frame, self.instances.standing(), posed_anew);

@@ -10,5 +10,6 @@ mod materials;
 mod names;
 mod overflow;
 mod real_files;
+mod sides;
 mod skeleton;
 mod tree;

@@ -315,7 +315,11 @@ fn surfaces(materials: &[&Material], dialect: Dialect, losses: &mut Losses) {
         opacity,
         format!("{} an alpha beside its colour; the format has none.", have(opacity)),
     );
-    let sides = count(&|material| material.double_sided != material.is_cut());
+    // A book's own material is drawn from both sides here, whatever its demo does.
+    let sides = count(&|material| {
+        matches!(material.reflectance, Reflectance::MetallicRoughness { .. })
+            && material.double_sided != material.is_cut()
+    });
     losses.add(
         "double-sided",
         sides,

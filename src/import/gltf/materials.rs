@@ -334,7 +334,7 @@ fn of_book(read: Material, values: &Value) -> Material {
         } else {
             AlphaMode::Opaque
         },
-        double_sided: is_cut,
+        double_sided: read.double_sided,
         diffuse_map: map("diffuseMap", read.diffuse_map),
         normal_map: map("normalMap", read.normal_map),
         name: read.name,
