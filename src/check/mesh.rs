@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Subject, codes};
 use crate::format::LineMap;
-use crate::model::{Aabb, Mesh, Model};
+use crate::model::{Aabb, Mesh, Model, Submesh};
 
 /// A triangle lower than this fraction of the mesh's diagonal has no area: positions have about seven digits in a file and in an
 /// `f32`, so a lesser height is a rounding error.
@@ -70,28 +70,22 @@ pub(super) fn note_turned_away(model: &Model, lines: &LineMap, diagnostics: &mut
     let mesh = &model.mesh;
     let is_turned = |corners: [u32; 3]| {
         let side = mesh.side_of(corners) * model.handedness.front_sign();
-        corners
-            .iter()
-            .all(|&vertex| side.dot(mesh.normals[vertex as usize].as_dvec3()) < 0.0)
+        let normals = corners.map(|vertex| mesh.normals[vertex as usize].as_dvec3());
+        normals.into_iter().all(|normal| side.dot(normal) < 0.0)
     };
     let flat: Vec<u32> = flat_triangles(mesh).collect();
-    let mut turned: Vec<u32> = Vec::new();
-    for submesh in &mesh.submeshes {
-        if !model.materials[submesh.material as usize].double_sided {
-            let triangles = (submesh.triangle_start..).zip(mesh.triangles_of(submesh));
-            let triangles = triangles
-                .filter(|(_, corners)| is_turned(**corners))
-                .map(|(triangle, _)| triangle);
-            turned.extend(triangles.filter(|triangle| flat.binary_search(triangle).is_err()));
+    let mut tally = Tally::default();
+    let single_sided = |submesh: &&Submesh| !model.materials[submesh.material as usize].double_sided;
+    for submesh in mesh.submeshes.iter().filter(single_sided) {
+        for (triangle, &corners) in (submesh.triangle_start..).zip(mesh.triangles_of(submesh)) {
+            if is_turned(corners) && flat.binary_search(&triangle).is_err() {
+                tally.add(triangle);
+            }
         }
     }
-    if turned.is_empty() {
+    if tally.count == 0 {
         return;
     }
-    turned.sort_unstable();
-    turned.dedup();
-    let mut tally = Tally::default();
-    turned.into_iter().for_each(|triangle| tally.add(triangle));
     diagnostics.add(
         &codes::TRIANGLES_TURNED_AWAY,
         Place::of_rows(&tally, Subject::Triangle, &lines.triangles),

@@ -9,10 +9,7 @@ use super::{AlphaMode, Handedness, Influences, Material, Mesh, Model, Reflectanc
 impl Handedness {
     /// 1, or −1: cross(b − a, c − a) of a triangle's corners times this points to its front.
     pub fn front_sign(self) -> f64 {
-        match self {
-            Self::Left => 1.0,
-            Self::Right => -1.0,
-        }
+        if self == Self::Left { 1.0 } else { -1.0 }
     }
 }
 

@@ -233,7 +233,8 @@ impl Instances {
     }
 
     /// Uploads the frame's instances, unless they are there already. `bones` has the frame's [`poses`], then the ghosts'. An instance
-    /// whose palette is not there is posed by the last that is. `front_sign` is the model's.
+    /// whose palette is not there is posed by the last that is. `front_sign` is of them all: +1 where
+    /// clockwise triangles show their front in the world, else −1.
     pub(super) fn write(
         &mut self,
         device: &wgpu::Device,
@@ -249,7 +250,7 @@ impl Instances {
             rows: rows(world_from_model),
             tint_srgb: [1.0; 4],
             first_joint: first_joint(palette.min(poses.saturating_sub(1))),
-            front_sign: front_sign_in_world(world_from_model, front_sign),
+            front_sign,
         };
         let own = instance(&frame.world_from_model, 0);
         let crowd = frame.crowd.instances.iter();
@@ -333,12 +334,6 @@ impl Instances {
             count: range.len() as u32,
         }
     }
-}
-
-/// +1 where clockwise triangles show their front in the world, −1 where the others do.
-pub(super) fn front_sign_in_world(world_from_model: &Affine3A, front_sign: f32) -> f32 {
-    let mirrors = world_from_model.matrix3.determinant() < 0.0;
-    if mirrors { -front_sign } else { front_sign }
 }
 
 /// The same for the same instances in any order.

@@ -42,11 +42,11 @@ pub use read_back::{ReadBackError, read_back, read_back_blocking};
 pub use target::{SampleCount, Target};
 
 use crate::image::Image;
-use crate::model::{Material, Model};
+use crate::model::{Handedness, Material, Model};
 use crate::scene::{FrameCost, Light, Pass, RenderFrame, ViewMode};
 use buffers::bind_group;
 use environment::Environments;
-use instances::{InstanceRange, Instances, Standing, front_sign_in_world, pose_count, poses};
+use instances::{InstanceRange, Instances, Standing, pose_count, poses};
 use light_maps::GeometryMap;
 use light_passes::{Common, LightPasses, Samplers};
 use maps::{MapTextures, one_texel};
@@ -326,12 +326,16 @@ impl Renderer {
             if let Some(colors) = &frame.vertex_colors {
                 model.set_colors(device, queue, colors);
             }
-            model.front = match front_sign_in_world(&frame.world_from_model, model.front_sign) {
-                ..0.0 => Faces::Counterclockwise,
-                _ => Faces::Clockwise,
+            let mirrors = frame.world_from_model.matrix3.determinant() < 0.0;
+            let is_clockwise = (model.handedness == Handedness::Right) == mirrors;
+            model.front = if is_clockwise {
+                Faces::Clockwise
+            } else {
+                Faces::Counterclockwise
             };
+            let front_sign = if is_clockwise { 1.0 } else { -1.0 };
             self.instances
-                .write(device, queue, frame, model.bones.as_ref(), model.front_sign);
+                .write(device, queue, frame, model.bones.as_ref(), front_sign);
         }
         self.overlays.write(device, queue, frame);
         self.shape.update(frame, self.instances.standing(), posed_anew);

@@ -16,7 +16,7 @@ use super::pipelines::{
 };
 use super::recipe::{Alpha, Cut, Draw, Faces, Kind, Maps, ModelDraw};
 use super::triangles::{DrawRange, Drawn, Edges, draw_ranges, wound_one_way};
-use crate::model::{Material, Mesh, Model};
+use crate::model::{Handedness, Material, Mesh, Model};
 use crate::scene::{RenderFrame, VertexColors};
 use crate::shaders;
 
@@ -52,8 +52,8 @@ pub(super) struct GpuModel {
     colors: Option<(u64, wgpu::Buffer)>,
     /// None for a static model.
     pub(super) bones: Option<BoneTexture>,
-    /// See [`Handedness::front_sign`](crate::model::Handedness::front_sign); all its triangles are wound by it.
-    pub(super) front_sign: f32,
+    /// All its triangles are wound by it.
+    pub(super) handedness: Handedness,
     /// The fronts of its triangles, as they stand in the frame's world.
     pub(super) front: Faces,
     /// Draws and vertices.
@@ -122,7 +122,7 @@ impl GpuModel {
             vertex_count: mesh.vertex_count(),
             colors: None,
             bones: is_skinned.then(|| BoneTexture::new(device, &layouts.bones, joints)),
-            front_sign: model.handedness.front_sign() as f32,
+            handedness: model.handedness,
             front: Faces::Clockwise,
             drawn: Cell::default(),
         })

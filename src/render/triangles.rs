@@ -147,8 +147,6 @@ fn edges(triangles: &[u32]) -> impl Iterator<Item = u32> {
 
 #[cfg(test)]
 mod tests {
-    use glam::Vec3;
-
     use super::*;
 
     #[test]
@@ -189,22 +187,5 @@ mod tests {
         let mut drawn = Drawn::default();
         let parts = (0..20_000).flat_map(|_| drawn.add(&(3..9)));
         assert_eq!(parts.collect::<Vec<_>>(), std::slice::from_ref(&(3..9)));
-    }
-
-    // Seen from -z in a left-handed space (x right, y up, z away), 0 1 2 goes clockwise.
-    fn triangle(normal: Vec3) -> Mesh {
-        Mesh {
-            positions: vec![Vec3::ZERO, Vec3::Y, Vec3::X],
-            normals: vec![normal; 3],
-            indices: vec![0, 1, 2],
-            ..Mesh::default()
-        }
-    }
-
-    #[test]
-    fn normals_tell_which_way_triangles_are_wound() {
-        assert_eq!(winding(&triangle(Vec3::NEG_Z)), 1.0);
-        assert_eq!(winding(&triangle(Vec3::Z)), -1.0);
-        assert_eq!(winding(&Mesh::default()), 1.0);
     }
 }

@@ -79,10 +79,7 @@ impl Materials {
         let mut changed = false;
         for (index, material) in of_file.iter().enumerate() {
             let double_sided = both || material.double_sided;
-            let drawn = self
-                .get(index)
-                .filter(|drawn| drawn.double_sided != double_sided)
-                .cloned();
+            let drawn = self.get(index).cloned();
             changed |= drawn.is_some_and(|drawn| self.replace(index, Material { double_sided, ..drawn }));
         }
         changed

@@ -213,16 +213,13 @@ impl FindingRow<'_> {
 /// The other way to draw materials with one side, and back.
 fn sides(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let both = session.materials().iter().any(|material| !material.double_sided);
-    let button = if both {
-        TextButton::new("Draw both sides", "Draw both sides of all triangles")
+    let label = if both {
+        "Draw both sides"
     } else {
-        TextButton::new(
-            "Draw sides as in the file",
-            "Draw sides as in the file, without backs that it leaves out",
-        )
+        "Draw sides as in the file"
     };
     ui.add_space(4.0);
-    if button.show(ui).clicked() {
+    if TextButton::new(label, label).show(ui).clicked() {
         commands.push(MaterialCommand::DrawBothSides(both).into());
     }
 }
