@@ -13,17 +13,20 @@ const LEAST_HEIGHT: f64 = 1e-6;
 
 /// The triangles without area, in their order.
 pub(crate) fn flat_triangles(mesh: &Mesh) -> impl Iterator<Item = u32> {
-    let corners = mesh.indices.iter().map(|&vertex| mesh.positions[vertex as usize]);
-    let least_height = LEAST_HEIGHT * diagonal(&Aabb::from_points(corners));
-    let is_flat = move |corners: [u32; 3]| {
-        is_flat(
-            corners.map(|vertex| mesh.positions[vertex as usize].as_dvec3()),
-            least_height,
-        )
-    };
+    let is_flat = flatness(mesh);
     triangles(mesh)
         .filter(move |(_, corners)| is_flat(*corners))
         .map(|(triangle, _)| triangle)
+}
+
+/// Whether a triangle has no area.
+fn flatness(mesh: &Mesh) -> impl Fn([u32; 3]) -> bool {
+    let corners = mesh.indices.iter().map(|&vertex| mesh.positions[vertex as usize]);
+    let least_height = LEAST_HEIGHT * diagonal(&Aabb::from_points(corners));
+    move |corners| {
+        let corners = corners.map(|vertex| mesh.positions[vertex as usize].as_dvec3());
+        is_flat(corners, least_height)
+    }
 }
 
 /// Of each vertex, whether it is a corner of a triangle.
@@ -73,12 +76,12 @@ pub(super) fn note_turned_away(model: &Model, lines: &LineMap, diagnostics: &mut
         let normals = corners.map(|vertex| mesh.normals[vertex as usize].as_dvec3());
         normals.into_iter().all(|normal| side.dot(normal) < 0.0)
     };
-    let flat: Vec<u32> = flat_triangles(mesh).collect();
+    let is_flat = flatness(mesh);
     let mut tally = Tally::default();
     let single_sided = |submesh: &&Submesh| !model.materials[submesh.material as usize].double_sided;
     for submesh in mesh.submeshes.iter().filter(single_sided) {
         for (triangle, &corners) in (submesh.triangle_start..).zip(mesh.triangles_of(submesh)) {
-            if is_turned(corners) && flat.binary_search(&triangle).is_err() {
+            if is_turned(corners) && !is_flat(corners) {
                 tally.add(triangle);
             }
         }

@@ -61,11 +61,10 @@ impl Model {
             sums.push(sums[sums.len() - 1] + if vote.is_finite() { vote } else { 0.0 });
         }
         let is_turned = |submesh: &Submesh| {
-            let Some(material) = self.materials.get(submesh.material as usize) else {
-                return false;
-            };
+            let material = self.materials.get(submesh.material as usize);
             let (start, count) = (submesh.triangle_start as usize, submesh.triangle_count as usize);
-            !material.faces_as_wound() && (sums[start + count] - sums[start]) * self.handedness.front_sign() < 0.0
+            let fronts = (sums[start + count] - sums[start]) * self.handedness.front_sign();
+            fronts < 0.0 && material.is_some_and(|material| !material.faces_as_wound())
         };
         mesh.submeshes.iter().map(is_turned).collect()
     }
@@ -75,19 +74,22 @@ impl Model {
     /// are the [`Model::turned_submeshes`], which will be turned round.
     pub fn needs_both_sides(&self, turned: &[bool]) -> Vec<bool> {
         let mut of_materials = vec![Vec::new(); self.materials.len()];
+        // Where submeshes overlap nobody looks further.
+        let counts = self
+            .mesh
+            .submeshes
+            .iter()
+            .map(|submesh| submesh.triangle_count as usize);
+        let is_tangled = counts.sum::<usize>() > self.mesh.triangle_count();
         for (submesh, &is_turned) in self.mesh.submeshes.iter().zip(turned) {
             let index = submesh.material as usize;
-            if self
-                .materials
-                .get(index)
-                .is_some_and(|material| !material.faces_as_wound())
-            {
+            if !is_tangled && !self.materials[index].faces_as_wound() {
                 let front = |&[a, b, c]: &[u32; 3]| if is_turned { [a, c, b] } else { [a, b, c] };
                 of_materials[index].extend(self.mesh.triangles_of(submesh).iter().map(front));
             }
         }
         let needs = |(material, triangles): (&Material, Vec<[u32; 3]>)| {
-            let is_sealed = || material.alpha == AlphaMode::Opaque && !self.shows_backs(triangles);
+            let is_sealed = || material.alpha == AlphaMode::Opaque && !is_tangled && !self.shows_backs(triangles);
             material.double_sided && (material.faces_as_wound() || !is_sealed())
         };
         self.materials.iter().zip(of_materials).map(needs).collect()
@@ -125,13 +127,11 @@ impl Model {
             return true;
         }
         let mut volumes: HashMap<usize, f64> = HashMap::new();
-        let middle = triangles
-            .first()
-            .map_or(Vec3::ZERO, |corners| mesh.positions[corners[0] as usize]);
+        let origin = mesh.positions.first().copied().unwrap_or_default().as_dvec3();
         for corners in &triangles {
-            let from_middle = mesh.positions[corners[0] as usize].as_dvec3() - middle.as_dvec3();
+            let from_origin = mesh.positions[corners[0] as usize].as_dvec3() - origin;
             let part = part_of(&mut parts, point(corners[0]));
-            *volumes.entry(part).or_default() += mesh.side_of(*corners).dot(from_middle) * sign;
+            *volumes.entry(part).or_default() += mesh.side_of(*corners).dot(from_origin) * sign;
         }
         volumes.into_values().any(|volume| volume <= 0.0)
     }

@@ -64,7 +64,7 @@ fn of_a_closed_box_no_backs_are_seen() {
 #[test]
 fn backs_are_seen_through_an_opening_and_where_triangles_are_turned() {
     type Change = (&'static str, fn(&mut Model));
-    let changes: [Change; 7] = [
+    let changes: [Change; 8] = [
         ("a triangle is missing", |model| {
             model.mesh.submeshes[0].triangle_count = 11
         }),
@@ -73,6 +73,9 @@ fn backs_are_seen_through_an_opening_and_where_triangles_are_turned() {
             let first = model.mesh.indices[..3].to_vec();
             model.mesh.indices.extend(first);
             model.mesh.submeshes[0].triangle_count = 13;
+        }),
+        ("a submesh is there twice", |model| {
+            model.mesh.submeshes.extend_from_within(..)
         }),
         ("its fronts are inside", |model| {
             turn(model, 0..12);
