@@ -227,7 +227,6 @@ impl GpuModel {
             match self.materials.kind(range.material) {
                 _ if is_hidden(frame.hidden_submeshes, range.submesh) => &[],
                 Kind { alpha, .. } if alpha != Alpha::Blended => &[],
-                // What is behind shows through what is before it.
                 Kind { double_sided, .. } if double_sided => &[false, true],
                 _ => &[true],
             }

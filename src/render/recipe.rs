@@ -187,11 +187,8 @@ impl Draw {
             draws.push(Self::Occlusion(light));
         }
         // It is seen from below, and drawn as from above.
-        draws.extend(
-            kinds
-                .iter()
-                .map(|kind| of_faces(ModelDraw::Contact, kind.faces(front).turned())),
-        );
+        let below = kinds.iter().map(|kind| kind.faces(front).turned());
+        draws.extend(below.map(|faces| of_faces(ModelDraw::Contact, faces)));
         draws.extend([Self::ContactBlurRows, Self::ContactBlurColumns]);
         draws.extend(of_kinds(&|kind| {
             ModelDraw::Mesh(Shading::Inspect, cut_as(kind, Cut::Smooth), kind.maps)

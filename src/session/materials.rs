@@ -236,7 +236,7 @@ mod tests {
             },
             opacity: 0.5,
             alpha: AlphaMode::Blend,
-            double_sided: true,
+            double_sided: false,
             unlit: true,
             emissive: [5.0, 7.0, 0.5],
             normal_scale: -2.0,

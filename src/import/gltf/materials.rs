@@ -41,6 +41,7 @@ pub(super) fn materials(root: &Root, images: &Images, diagnostics: &mut Diagnost
                     metallic: 1.0,
                     roughness: 1.0,
                 },
+                double_sided: false,
                 ..Material::default()
             },
             Some(of_file) => {
