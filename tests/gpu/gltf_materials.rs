@@ -442,10 +442,12 @@ on_both_backends! {
         assert!(difference(found, expected) <= 3, "{found:?} for {expected:?}");
     }
 
-    /// Few are sorted, each pane by itself. Of many all first panes are one draw, and all second panes another.
+    /// Few are sorted, each pane by itself. Of many all first panes are one draw, and all second panes another. What has two sides takes
+    /// a draw for each.
     fn a_crowd_of_panes_takes_few_draws(gpu) {
-        let draws = |others: u32| {
-            let mut scene = panes([blended([220, 40, 40], 0.5), blended([40, 60, 220], 0.25)]);
+        let draws = |others: u32, double_sided: bool| {
+            let pane = |srgb, opacity| Material { double_sided, ..blended(srgb, opacity) };
+            let mut scene = panes([pane([220, 40, 40], 0.5), pane([40, 60, 220], 0.25)]);
             scene.options.passes = Passes::none();
             for other in 0..others {
                 // Each a little behind the one before.
@@ -458,9 +460,12 @@ on_both_backends! {
         };
         // The opaque parts of all are drawn before, in one draw for each pane.
         for (others, blended) in [(0, 2), (1, 4), (63, 128), (64, 2), (999, 2)] {
-            let cost = draws(others);
-            assert_eq!(cost.draws, blended + 2, "{others} others");
-            assert_eq!(cost.vertices, 2 * 12 * u64::from(others + 1), "{others} others: all are drawn");
+            for (double_sided, sides) in [(false, 1), (true, 2)] {
+                let cost = draws(others, double_sided);
+                assert_eq!(cost.draws, sides * blended + 2, "{others} others, from both sides {double_sided}");
+                let vertices = (sides + 1) * 12 * u64::from(others + 1);
+                assert_eq!(cost.vertices, vertices, "{others} others: all are drawn");
+            }
         }
     }
 
