@@ -49,22 +49,21 @@ impl Mesh {
 }
 
 impl Model {
-    /// Of each submesh, whether it is wound against the model's hand: most of its area then faces away from its normals. A file whose
+    /// Of each submesh, whether it is wound against the model's hand: most of its triangles then face away from their normals. A file whose
     /// parts are wound in two ways is lit from the right side everywhere. False for what faces as it is wound: see
     /// [`Material::double_sided`].
     pub fn turned_submeshes(&self) -> Vec<bool> {
         let mesh = &self.mesh;
         // Submeshes may overlap as a file likes: sums up to each triangle give the votes of any range.
-        let mut sums = vec![0.0];
+        let mut sums = vec![0_i64];
         for corners in mesh.indices.as_chunks().0 {
-            let vote = mesh.side_by_normals(*corners);
-            sums.push(sums[sums.len() - 1] + if vote.is_finite() { vote } else { 0.0 });
+            let side = mesh.side_by_normals(*corners) * self.handedness.front_sign();
+            sums.push(sums[sums.len() - 1] + i64::from(side > 0.0) - i64::from(side < 0.0));
         }
         let is_turned = |submesh: &Submesh| {
             let material = self.materials.get(submesh.material as usize);
             let (start, count) = (submesh.triangle_start as usize, submesh.triangle_count as usize);
-            let fronts = (sums[start + count] - sums[start]) * self.handedness.front_sign();
-            fronts < 0.0 && material.is_some_and(|material| !material.faces_as_wound())
+            sums[start + count] < sums[start] && material.is_some_and(|material| !material.faces_as_wound())
         };
         mesh.submeshes.iter().map(is_turned).collect()
     }

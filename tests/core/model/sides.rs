@@ -127,7 +127,7 @@ fn backs_are_seen_through_an_opening_and_where_triangles_are_turned() {
 }
 
 #[test]
-fn each_submesh_of_a_book_is_wound_as_most_of_its_area_is() {
+fn each_submesh_of_a_book_is_wound_as_most_of_its_triangles_are() {
     let mut model = boxed();
     let half = |triangle_start| Submesh {
         triangle_start,
