@@ -102,7 +102,7 @@ pub(super) fn farthest_first(
         for &is_front in sides(range) {
             match runs.last_mut() {
                 Some((run, of, side)) if (*of, *side, run.end) == (range, is_front, instance) => {
-                    run.end = instances.end
+                    run.end = instances.end;
                 }
                 _ => runs.push((instances.clone(), range, is_front)),
             }

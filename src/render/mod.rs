@@ -328,12 +328,9 @@ impl Renderer {
             }
             let mirrors = frame.world_from_model.matrix3.determinant() < 0.0;
             let is_clockwise = (model.handedness == Handedness::Right) == mirrors;
-            model.front = if is_clockwise {
-                Faces::Clockwise
-            } else {
-                Faces::Counterclockwise
-            };
-            let front_sign = if is_clockwise { 1.0 } else { -1.0 };
+            let sides = [(Faces::Counterclockwise, -1.0), (Faces::Clockwise, 1.0)];
+            let (front, front_sign) = sides[usize::from(is_clockwise)];
+            model.front = front;
             self.instances
                 .write(device, queue, frame, model.bones.as_ref(), front_sign);
         }

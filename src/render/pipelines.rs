@@ -249,6 +249,10 @@ impl Pipelines {
             Draw::World { .. } => vec![buffer(size_of::<OverlayVertex>(), step, &WORLD_VERTEX)],
             _ => Vec::new(),
         };
+        let faces = match draw {
+            Draw::Model { faces, .. } => faces,
+            _ => Faces::All,
+        };
         let targets: Vec<_> = recipe.color.into_iter().map(Some).collect();
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(recipe.program.name),
@@ -262,10 +266,10 @@ impl Pipelines {
             primitive: wgpu::PrimitiveState {
                 topology: recipe.topology,
                 front_face: wgpu::FrontFace::Cw,
-                cull_mode: match draw {
-                    Draw::Model { faces, .. } if faces == Faces::Clockwise => Some(wgpu::Face::Back),
-                    Draw::Model { faces, .. } if faces == Faces::Counterclockwise => Some(wgpu::Face::Front),
-                    _ => None,
+                cull_mode: match faces {
+                    Faces::All => None,
+                    Faces::Clockwise => Some(wgpu::Face::Back),
+                    Faces::Counterclockwise => Some(wgpu::Face::Front),
                 },
                 ..Default::default()
             },
