@@ -28,8 +28,6 @@ struct MaterialMaps {
     is_metallic_roughness: u32,
     // 1 when it is shown in its own colour without light.
     is_unlit: u32,
-    // 1 when what is blended is seen from its front alone.
-    @size(16) is_single_sided: u32,
 }
 
 const DIFFUSE: u32 = 0u;

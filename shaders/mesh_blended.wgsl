@@ -1,20 +1,16 @@
 // How a pixel of a material is stored that alpha blends with what is behind it. What is opaque of it is drawn among the opaque
 // materials, with depth, so that hair and leaves hide what is behind them whatever the order of the triangles. The rest is drawn
-// after them, farther submeshes first, without depth: of two panes in one submesh both show, in whatever order they come.
+// after them, farther submeshes first and backs before fronts, without depth: of two panes in one submesh both show, in whatever order
+// they come.
 
 // From here on a pixel is opaque. Bytes of 255 that are filtered come to this.
 const OPAQUE_ALPHA: f32 = 0.998;
-
-// Whether the side that is seen is none of the surface's.
-fn is_back(mesh: MeshVertex, clockwise: bool) -> bool {
-    return material_maps.is_single_sided == 1u && (clockwise != (mesh.front_sign > 0.0));
-}
 
 @fragment
 fn fragment_opaque_part(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
     let point = surface_point(mesh, clockwise);
     let color = stored(surface_color(point), mesh.clip.xy);
-    if point.made.diffuse_texel.a < OPAQUE_ALPHA || is_back(mesh, clockwise) {
+    if point.made.diffuse_texel.a < OPAQUE_ALPHA {
         discard;
     }
     return vec4<f32>(color, 1.0);
@@ -25,7 +21,7 @@ fn fragment_blended(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) ->
     let point = surface_point(mesh, clockwise);
     let color = stored(surface_color(point), mesh.clip.xy);
     let alpha = clamp(point.made.diffuse_texel.a, 0.0, 1.0);
-    if alpha >= OPAQUE_ALPHA || is_back(mesh, clockwise) {
+    if alpha >= OPAQUE_ALPHA {
         discard;
     }
     return vec4<f32>(color * alpha, alpha);

@@ -1,4 +1,4 @@
-// The model's triangles. Both sides are drawn, so that a file with holes or turned triangles still shows.
+// The model's triangles.
 
 @vertex
 fn vertex_static(

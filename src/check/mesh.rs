@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Subject, codes};
 use crate::format::LineMap;
-use crate::model::{Aabb, Mesh};
+use crate::model::{Aabb, Mesh, Model, Submesh};
 
 /// A triangle lower than this fraction of the mesh's diagonal has no area: positions have about seven digits in a file and in an
 /// `f32`, so a lesser height is a rounding error.
@@ -13,17 +13,20 @@ const LEAST_HEIGHT: f64 = 1e-6;
 
 /// The triangles without area, in their order.
 pub(crate) fn flat_triangles(mesh: &Mesh) -> impl Iterator<Item = u32> {
-    let corners = mesh.indices.iter().map(|&vertex| mesh.positions[vertex as usize]);
-    let least_height = LEAST_HEIGHT * diagonal(&Aabb::from_points(corners));
-    let is_flat = move |corners: [u32; 3]| {
-        is_flat(
-            corners.map(|vertex| mesh.positions[vertex as usize].as_dvec3()),
-            least_height,
-        )
-    };
+    let is_flat = flatness(mesh);
     triangles(mesh)
         .filter(move |(_, corners)| is_flat(*corners))
         .map(|(triangle, _)| triangle)
+}
+
+/// Whether a triangle has no area.
+fn flatness(mesh: &Mesh) -> impl Fn([u32; 3]) -> bool {
+    let corners = mesh.indices.iter().map(|&vertex| mesh.positions[vertex as usize]);
+    let least_height = LEAST_HEIGHT * diagonal(&Aabb::from_points(corners));
+    move |corners| {
+        let corners = corners.map(|vertex| mesh.positions[vertex as usize].as_dvec3());
+        is_flat(corners, least_height)
+    }
 }
 
 /// Of each vertex, whether it is a corner of a triangle.
@@ -63,6 +66,37 @@ pub(super) fn note_useless(mesh: &Mesh, lines: &LineMap, diagnostics: &mut Diagn
             ),
         );
     }
+}
+
+/// Notes triangles that are drawn from one side, which is not the one to which the normals of all their corners point.
+pub(super) fn note_turned_away(model: &Model, lines: &LineMap, diagnostics: &mut Diagnostics) {
+    let mesh = &model.mesh;
+    let is_turned = |corners: [u32; 3]| {
+        let side = mesh.side_of(corners) * model.handedness.front_sign();
+        let normals = corners.map(|vertex| mesh.normals[vertex as usize].as_dvec3());
+        normals.into_iter().all(|normal| side.dot(normal) < 0.0)
+    };
+    let is_flat = flatness(mesh);
+    let mut tally = Tally::default();
+    let single_sided = |submesh: &&Submesh| !model.materials[submesh.material as usize].double_sided;
+    for submesh in mesh.submeshes.iter().filter(single_sided) {
+        for (triangle, &corners) in (submesh.triangle_start..).zip(mesh.triangles_of(submesh)) {
+            if is_turned(corners) && !is_flat(corners) {
+                tally.add(triangle);
+            }
+        }
+    }
+    if tally.count == 0 {
+        return;
+    }
+    diagnostics.add(
+        &codes::TRIANGLES_TURNED_AWAY,
+        Place::of_rows(&tally, Subject::Triangle, &lines.triangles),
+        format!(
+            "{} drawn from the side that normals point away from, and not from the other.",
+            counted(tally.count, "triangle is", "triangles are")
+        ),
+    );
 }
 
 /// Number and corners of each triangle.

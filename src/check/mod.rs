@@ -28,6 +28,7 @@ pub fn model(model: &Model, compiled: &[CompiledClip], lines: &LineMap) -> Vec<D
     let mut diagnostics = Diagnostics::default();
     mesh::note_useless(&model.mesh, lines, &mut diagnostics);
     mesh::note_repeated(&model.mesh, lines, &mut diagnostics);
+    mesh::note_turned_away(model, lines, &mut diagnostics);
     texture::note_equal_coords(model, lines, &mut diagnostics);
     texture::note_tangent_signs(model, lines, &mut diagnostics);
     rig::note_idle_bones(model, lines, &mut diagnostics);

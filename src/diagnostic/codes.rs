@@ -609,6 +609,11 @@ table! {
             "One hides the other, or flickers with it. Where it is meant as the back, it needs vertices with normals of its own.",
             "Both are drawn. `bindpose convert --fix` leaves out those that wind the same way.",
             "Remove duplicate faces before the export.";
+        TRIANGLES_TURNED_AWAY = "triangles-turned-away", Warning,
+            "A triangle is drawn from the side that its normals point away from, and not from the other.",
+            "The file says that its material has one side. Turned triangles leave holes; the outline of a drawn character may be meant so.",
+            "It is drawn from the side that its corners wind round. On the page, `Draw both sides` closes the holes.",
+            "Turn its corners round where they were mirrored or flipped, or give the material two sides (`doubleSided`).";
         VERTICES_UNUSED = "vertices-unused", Note,
             "A vertex is a corner of no triangle.",
             "It is loose: not seen, but it counts for the model's size and is moved with the others. It can be left out.",

@@ -40,8 +40,7 @@ pub(super) fn turn(edited: &mut Edited, to: Space) {
     (model.handedness, model.up_axis, model.front) = (to_handedness, to_up_axis, to_front);
     let turned_round = handedness_asked.is_some() && winds_against(model);
     if turned_round {
-        let (triangles, _) = model.mesh.indices.as_chunks_mut::<3>();
-        triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
+        model.mesh.turn_triangles();
     }
     let mut change = |is_one: bool, code, message: String| {
         if is_one {
@@ -77,19 +76,10 @@ pub(super) fn turn(edited: &mut Edited, to: Space) {
 /// Whether most triangles wind as in the other hand: where fronts are clockwise, normals point to the side that the corners go round by
 /// the left hand.
 fn winds_against(model: &Model) -> bool {
-    let mesh = &model.mesh;
-    let (triangles, _) = mesh.indices.as_chunks::<3>();
-    let mut left_less_right = 0_i64;
-    for corners in triangles {
-        let [a, b, c] = corners.map(|vertex| mesh.positions[vertex as usize].as_dvec3());
-        let normal: Vec3 = corners.iter().map(|&vertex| mesh.normals[vertex as usize]).sum();
-        let side = (b - a).cross(c - a).dot(normal.as_dvec3());
-        left_less_right += i64::from(side > 0.0) - i64::from(side < 0.0);
-    }
-    match model.handedness {
-        Handedness::Left => left_less_right < 0,
-        Handedness::Right => left_less_right > 0,
-    }
+    let sides = model.mesh.indices.as_chunks().0.iter();
+    let sides = sides.map(|corners| model.mesh.side_by_normals(*corners) * model.handedness.front_sign());
+    let fronts: i64 = sides.map(|side| i64::from(side > 0.0) - i64::from(side < 0.0)).sum();
+    fronts < 0
 }
 
 /// Multiplies all lengths.

@@ -61,16 +61,11 @@ pub(super) fn mend_normals(
 
 /// Sum of the facing sides of the triangles around each vertex, as long as twice their area.
 fn area_weighted(mesh: &Mesh, handedness: Handedness) -> Vec<DVec3> {
-    let outward = match handedness {
-        Handedness::Left => 1.0,
-        Handedness::Right => -1.0,
-    };
     let mut sums = vec![DVec3::ZERO; mesh.vertex_count()];
-    for corners in mesh.indices.chunks_exact(3) {
-        let [a, b, c] = [0, 1, 2].map(|corner| corners[corner] as usize);
-        let side = facing([a, b, c].map(|vertex| mesh.positions[vertex])) * outward;
-        for corner in [a, b, c] {
-            sums[corner] += side;
+    for corners in mesh.indices.as_chunks().0 {
+        let side = mesh.side_of(*corners) * handedness.front_sign();
+        for corner in corners {
+            sums[*corner as usize] += side;
         }
     }
     sums
@@ -83,13 +78,12 @@ const CLEAR_FRACTION: f64 = 0.8;
 /// (clockwise fronts), and disagree in a right-handed one. Left without any evidence, as in the books.
 pub(super) fn handedness_of(mesh: &Mesh, diagnostics: &mut Diagnostics) -> Handedness {
     let (mut agree, mut disagree) = (0u32, 0u32);
-    for corners in mesh.indices.chunks_exact(3) {
-        let corners = [0, 1, 2].map(|corner| corners[corner] as usize);
+    for &corners in mesh.indices.as_chunks::<3>().0 {
         // A corner without a normal says nothing; the others still do.
-        let normals = corners.map(|vertex| mesh.normals[vertex]);
+        let normals = corners.map(|vertex| mesh.normals[vertex as usize]);
         let known = normals.into_iter().filter(|&normal| is_direction(normal));
         let normal: DVec3 = known.map(|normal| at_unit_length(normal).as_dvec3()).sum();
-        let side = facing(corners.map(|vertex| mesh.positions[vertex])).dot(normal);
+        let side = mesh.side_of(corners).dot(normal);
         agree += u32::from(side > 0.0);
         disagree += u32::from(side < 0.0);
     }
@@ -107,11 +101,4 @@ pub(super) fn handedness_of(mesh: &Mesh, diagnostics: &mut Diagnostics) -> Hande
         );
     }
     handedness
-}
-
-/// Twice the area of a triangle, along the side from which its corners run clockwise in a left-handed space. In f64, since
-/// the square of a large coordinate may not fit an f32.
-fn facing(corners: [Vec3; 3]) -> DVec3 {
-    let [a, b, c] = corners.map(Vec3::as_dvec3);
-    (b - a).cross(c - a)
 }

@@ -17,7 +17,8 @@ pub struct Material {
     pub reflectance: Reflectance,
     /// What alpha does.
     pub alpha: AlphaMode,
-    /// Drawn from both sides. A cut material of the books is.
+    /// Drawn from both sides, as all of a `.m3d` file is, which may have holes and triangles that are turned: the normals then tell its
+    /// fronts. Otherwise triangles are seen from where their corners run clockwise alone, and cast no shadow from behind.
     pub double_sided: bool,
     /// Shown in its diffuse colour without any light.
     pub unlit: bool,
@@ -51,7 +52,7 @@ impl Default for Material {
                 roughness: 0.6,
             },
             alpha: AlphaMode::Opaque,
-            double_sided: false,
+            double_sided: true,
             unlit: false,
             emissive: [0.0; 3],
             normal_scale: 1.0,

@@ -16,6 +16,7 @@ mod mesh;
 mod mirror;
 mod names;
 mod reflectance;
+mod sides;
 mod skeleton;
 mod space;
 mod tangents;

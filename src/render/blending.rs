@@ -55,22 +55,22 @@ impl Center {
     }
 }
 
-/// Instances that follow each other in the stream, and the range that is drawn of them.
-pub(super) type Run = (Range<u32>, usize);
+/// Instances that follow each other in the stream, the range that is drawn of them, and whether its fronts are or its backs.
+pub(super) type Run = (Range<u32>, usize, bool);
 
 /// More instances than this are blended in the order of the stream, so that a range of all of them is one draw.
 const MOST_SORTED: usize = 64;
 
 /// Instances in sight and ranges, the farthest first, by where their centres lie along the view. Equally far ones are in the order of
-/// the file. Of many instances the first says in which order the ranges come. `is_blended` says which ranges; without `own`, the frame's
-/// own instance is left out.
+/// the file. Of many instances the first says in which order the ranges come. `sides` says what is drawn of a range, one after the other,
+/// true for its fronts; nothing of one that is not blended. Without `own`, the frame's own instance is left out.
 pub(super) fn farthest_first(
     frame: &RenderFrame<'_>,
     centers: &[Center],
-    is_blended: impl Fn(usize) -> bool,
+    sides: impl Fn(usize) -> &'static [bool],
     own: bool,
 ) -> Vec<Run> {
-    let ranges: Vec<usize> = (0..centers.len()).filter(|&range| is_blended(range)).collect();
+    let ranges: Vec<usize> = (0..centers.len()).filter(|&range| !sides(range).is_empty()).collect();
     if ranges.is_empty() {
         return Vec::new();
     }
@@ -99,9 +99,13 @@ pub(super) fn farthest_first(
     let mut runs: Vec<Run> = Vec::new();
     for (_, (instance, range)) in order {
         let instances = instance..instance + together as u32;
-        match runs.last_mut() {
-            Some((run, of)) if *of == range && run.end == instance => run.end = instances.end,
-            _ => runs.push((instances, range)),
+        for &is_front in sides(range) {
+            match runs.last_mut() {
+                Some((run, of, side)) if (*of, *side, run.end) == (range, is_front, instance) => {
+                    run.end = instances.end;
+                }
+                _ => runs.push((instances.clone(), range, is_front)),
+            }
         }
     }
     runs

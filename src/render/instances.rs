@@ -233,27 +233,24 @@ impl Instances {
     }
 
     /// Uploads the frame's instances, unless they are there already. `bones` has the frame's [`poses`], then the ghosts'. An instance
-    /// whose palette is not there is posed by the last that is. `winding` is +1 when the model's triangles are clockwise from their
-    /// front in a left-handed space, else −1.
+    /// whose palette is not there is posed by the last that is. `front_sign` is of them all: +1 where
+    /// clockwise triangles show their front in the world, else −1.
     pub(super) fn write(
         &mut self,
         device: &wgpu::Device,
         queue: &Queue,
         frame: &RenderFrame<'_>,
         bones: Option<&BoneTexture>,
-        winding: f32,
+        front_sign: f32,
     ) {
         let (palettes, joints) = bones.map_or((0, 0), |bones| (bones.palette_count, bones.joint_count));
         let poses = pose_count(frame).min(palettes);
         let first_joint = |palette: usize| (palette * joints) as u32;
-        let instance = |world_from_model: &Affine3A, palette: usize| {
-            let mirrors = world_from_model.matrix3.determinant() < 0.0;
-            Instance {
-                rows: rows(world_from_model),
-                tint_srgb: [1.0; 4],
-                first_joint: first_joint(palette.min(poses.saturating_sub(1))),
-                front_sign: if mirrors { -winding } else { winding },
-            }
+        let instance = |world_from_model: &Affine3A, palette: usize| Instance {
+            rows: rows(world_from_model),
+            tint_srgb: [1.0; 4],
+            first_joint: first_joint(palette.min(poses.saturating_sub(1))),
+            front_sign,
         };
         let own = instance(&frame.world_from_model, 0);
         let crowd = frame.crowd.instances.iter();

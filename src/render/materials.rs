@@ -9,7 +9,7 @@ use super::buffers::{Queue, UploadError, Uploader, bind_group};
 use super::device::is_software;
 use super::maps::{MapTextures, MaterialImages};
 use super::pipelines::Layouts;
-use super::recipe::{Alpha, Maps};
+use super::recipe::{Alpha, Kind, Maps};
 use crate::image::Channels;
 use crate::model::{AlphaMode, MapSlot, Material, Reflectance, Sampling, Wrap};
 use crate::shaders::MapPlace;
@@ -43,7 +43,7 @@ struct BoundMaps {
 
 struct BoundMaterial {
     group: wgpu::BindGroup,
-    kind: (Alpha, Maps),
+    kind: Kind,
     is_thin: bool,
 }
 
@@ -129,11 +129,12 @@ impl GpuMaterials {
         self.bound.clear();
         for (index, (material, maps)) in self.materials.iter().zip(&self.maps).enumerate() {
             let uniform = material_uniform(index, material, maps.facts, self.has_colors);
-            let kind = (
-                alpha(material, &uniform, maps.facts, self.has_colors),
-                maps_of(material, self.has_colors),
-            );
-            let maps_uniform = maps_uniform(material, &uniform, maps.facts, kind.0);
+            let kind = Kind {
+                alpha: alpha(material, &uniform, maps.facts, self.has_colors),
+                maps: maps_of(material, self.has_colors),
+                double_sided: material.double_sided,
+            };
+            let maps_uniform = maps_uniform(material, &uniform, maps.facts, kind.alpha);
             write(bytemuck::bytes_of(&uniform));
             write(bytemuck::bytes_of(&maps_uniform));
             for slot in MapSlot::ALL {
@@ -141,19 +142,17 @@ impl GpuMaterials {
                 self.samplers.entry(key).or_insert_with(|| sampler(device, key));
             }
             self.bound.push(BoundMaterial {
-                group: self.group(device, layouts, index, kind.1),
+                group: self.group(device, layouts, index, kind.maps),
                 kind,
-                is_thin: kind.0 == Alpha::Blended && material.opacity < LEAST_SOLID_ALPHA,
+                is_thin: kind.alpha == Alpha::Blended && material.opacity < LEAST_SOLID_ALPHA,
             });
         }
         queue.write_buffer(&self.uniforms, 0, &bytes);
     }
 
-    /// What alpha does to a material, and which maps it reads.
-    pub(super) fn kind(&self, material: u32) -> (Alpha, Maps) {
-        self.bound
-            .get(material as usize)
-            .map_or((Alpha::Whole, Maps::Two), |material| material.kind)
+    pub(super) fn kind(&self, material: u32) -> Kind {
+        let bound = self.bound.get(material as usize);
+        bound.map(|material| material.kind).unwrap_or_default()
     }
 
     /// Whether so much shows through all of it that nothing of it casts a shadow.
@@ -165,7 +164,7 @@ impl GpuMaterials {
 
     /// Whether some read all maps.
     pub(super) fn read_all_maps(&self) -> bool {
-        self.bound.iter().any(|material| material.kind.1 == Maps::All)
+        self.bound.iter().any(|material| material.kind.maps == Maps::All)
     }
 
     pub(super) fn bind(&self, pass: &mut wgpu::RenderPass<'_>, material: u32) {
@@ -354,7 +353,6 @@ fn maps_uniform(
     maps: MapFacts,
     alpha: Alpha,
 ) -> shaders::MaterialMaps {
-    let is_blended = alpha == Alpha::Blended;
     shaders::MaterialMaps {
         places: MapSlot::ALL.map(|slot| {
             let sampling = material.map(slot).map(|map| map.sampling).unwrap_or_default();
@@ -368,7 +366,7 @@ fn maps_uniform(
         },
         normal_scale: material.normal_scale,
         occlusion_strength: material.occlusion_strength.clamp(0.0, 1.0),
-        least_solid_alpha: if is_blended {
+        least_solid_alpha: if alpha == Alpha::Blended {
             LEAST_SOLID_ALPHA
         } else {
             uniform.alpha_clip
@@ -377,9 +375,6 @@ fn maps_uniform(
         has_map_alpha: u32::from(maps.has_alpha),
         is_metallic_roughness: u32::from(matches!(material.reflectance, Reflectance::MetallicRoughness { .. })),
         is_unlit: u32::from(material.unlit),
-        // Both sides of anything else are drawn; of glass the other side would show through as a second layer.
-        is_single_sided: u32::from(is_blended && !material.double_sided),
-        ..Default::default()
     }
 }
 

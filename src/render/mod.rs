@@ -42,7 +42,7 @@ pub use read_back::{ReadBackError, read_back, read_back_blocking};
 pub use target::{SampleCount, Target};
 
 use crate::image::Image;
-use crate::model::{Material, Model};
+use crate::model::{Handedness, Material, Model};
 use crate::scene::{FrameCost, Light, Pass, RenderFrame, ViewMode};
 use buffers::bind_group;
 use environment::Environments;
@@ -53,7 +53,7 @@ use maps::{MapTextures, one_texel};
 use model::{GpuModel, Posed};
 use overlays::Overlays;
 use pipelines::Pipelines;
-use recipe::{Cut, Draw, Maps, ModelDraw, Shading};
+use recipe::{Cut, Draw, Faces, Maps, ModelDraw, Shading};
 use timing::{FrameEncoder, FrameTimer};
 
 /// What a renderer is made for.
@@ -270,7 +270,7 @@ impl Renderer {
     fn unprepared(&self, samples: &[SampleCount]) -> Option<(Draw, SampleCount)> {
         let (model, pipelines) = (self.model.as_ref()?, &self.common.pipelines);
         let mut wanted = pipelines.drawn();
-        wanted.extend(Draw::within_reach(model.bones.is_some(), &model.kinds()));
+        wanted.extend(Draw::within_reach(model.bones.is_some(), &model.kinds(), model.front));
         let with_each = |draw| samples.iter().map(move |&samples| (draw, samples));
         let mut wanted = wanted.into_iter().flat_map(with_each);
         wanted.find(|&(draw, samples)| !pipelines.has(draw, samples))
@@ -326,8 +326,13 @@ impl Renderer {
             if let Some(colors) = &frame.vertex_colors {
                 model.set_colors(device, queue, colors);
             }
+            let mirrors = frame.world_from_model.matrix3.determinant() < 0.0;
+            let is_clockwise = (model.handedness == Handedness::Right) == mirrors;
+            let sides = [(Faces::Counterclockwise, -1.0), (Faces::Clockwise, 1.0)];
+            let (front, front_sign) = sides[usize::from(is_clockwise)];
+            model.front = front;
             self.instances
-                .write(device, queue, frame, model.bones.as_ref(), model.winding);
+                .write(device, queue, frame, model.bones.as_ref(), front_sign);
         }
         self.overlays.write(device, queue, frame);
         self.shape.update(frame, self.instances.standing(), posed_anew);

@@ -1,6 +1,7 @@
 //! A model in GPU memory, and how its parts are drawn.
 
 use std::cell::{Cell, OnceCell};
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use glam::Vec4;
@@ -13,9 +14,9 @@ use super::materials::GpuMaterials;
 use super::pipelines::{
     COLOR_SLOT, INFLUENCE_SLOT, INSTANCE_SLOT, Layouts, MORE_MAPS_SLOT, POSITION_SLOT, Pipelines, SURFACE_SLOT,
 };
-use super::recipe::{Alpha, Cut, Draw, Maps, ModelDraw};
-use super::triangles::{DrawRange, Drawn, Edges, draw_ranges, winding};
-use crate::model::{Material, Mesh, Model};
+use super::recipe::{Alpha, Cut, Draw, Faces, Kind, Maps, ModelDraw};
+use super::triangles::{DrawRange, Drawn, Edges, draw_ranges, wound_one_way};
+use crate::model::{Handedness, Material, Mesh, Model};
 use crate::scene::{RenderFrame, VertexColors};
 use crate::shaders;
 
@@ -51,8 +52,10 @@ pub(super) struct GpuModel {
     colors: Option<(u64, wgpu::Buffer)>,
     /// None for a static model.
     pub(super) bones: Option<BoneTexture>,
-    /// See [`winding`].
-    pub(super) winding: f32,
+    /// All its triangles are wound by it.
+    pub(super) handedness: Handedness,
+    /// The fronts of its triangles, as they stand in the frame's world.
+    pub(super) front: Faces,
     /// Draws and vertices.
     drawn: Cell<[u64; 2]>,
 }
@@ -90,6 +93,7 @@ impl GpuModel {
         let materials = GpuMaterials::upload(&uploader, layouts, textures, &model.materials, has_colors)?;
         let has_more = has_colors || !mesh.second_tex_coords.is_empty() || materials.read_all_maps();
         let ranges = draw_ranges(mesh, model.materials.len());
+        let indices = wound_one_way(model);
         Ok(Self {
             positions: uploader.upload("positions", vertex, mesh.vertex_count(), positions)?,
             surface: uploader.upload("vertices", vertex, mesh.vertex_count(), surface)?,
@@ -107,18 +111,19 @@ impl GpuModel {
             indices: uploader.upload(
                 "indices",
                 wgpu::BufferUsages::INDEX,
-                mesh.indices.len(),
-                mesh.indices.iter().copied(),
+                indices.len(),
+                indices.iter().copied(),
             )?,
             materials,
             centers: Center::of(mesh, &ranges, joints),
             ranges,
-            triangles: mesh.indices.clone(),
+            triangles: indices,
             edges: OnceCell::new(),
             vertex_count: mesh.vertex_count(),
             colors: None,
             bones: is_skinned.then(|| BoneTexture::new(device, &layouts.bones, joints)),
-            winding: winding(mesh),
+            handedness: model.handedness,
+            front: Faces::Clockwise,
             drawn: Cell::default(),
         })
     }
@@ -185,25 +190,22 @@ impl GpuModel {
         draw: impl Fn(Cut, Maps) -> ModelDraw,
     ) {
         let mut drawn = Drawn::default();
-        let alphas = [
-            (Alpha::Whole, Cut::Whole),
-            (Alpha::Cut, cut),
-            (Alpha::Blended, of_blended),
-        ];
-        let kinds = alphas
-            .into_iter()
-            .flat_map(|(alpha, cut)| [Maps::Two, Maps::All].map(|maps| ((alpha, maps), cut)));
-        for (kind, cut) in kinds {
+        for kind in self.kinds() {
+            let cut = match kind.alpha {
+                Alpha::Whole => Cut::Whole,
+                Alpha::Cut => cut,
+                Alpha::Blended => of_blended,
+            };
             let mut ranges = self
                 .in_view(posed.hidden)
                 .filter(|range| self.materials.kind(range.material) == kind)
                 .peekable();
             if ranges.peek().is_some() {
-                self.bind(pass, posed, draw(cut, kind.1));
+                self.bind(pass, posed, draw(cut, kind.maps), kind.faces(self.front));
             }
             for range in ranges {
                 // All cut triangles are drawn: one may be seen through the holes of another.
-                let parts = if kind.0 == Alpha::Whole {
+                let parts = if kind.alpha == Alpha::Whole {
                     drawn.add(&range.indices)
                 } else {
                     drawn.missing(&range.indices)
@@ -220,11 +222,16 @@ impl GpuModel {
 
     /// Instances and ranges to blend, the farthest first; without `own`, those of the crowd alone.
     pub(super) fn blended(&self, frame: &RenderFrame<'_>, own: bool) -> Vec<Run> {
-        let is_blended = |range: usize| {
+        let sides = |range: usize| -> &[bool] {
             let range = &self.ranges[range];
-            !is_hidden(frame.hidden_submeshes, range.submesh) && self.materials.kind(range.material).0 == Alpha::Blended
+            match self.materials.kind(range.material) {
+                _ if is_hidden(frame.hidden_submeshes, range.submesh) => &[],
+                Kind { alpha, .. } if alpha != Alpha::Blended => &[],
+                Kind { double_sided, .. } if double_sided => &[false, true],
+                _ => &[true],
+            }
         };
-        farthest_first(frame, &self.centers, is_blended, own)
+        farthest_first(frame, &self.centers, sides, own)
     }
 
     /// Draws what [`GpuModel::blended`] found of these instances. The caller sets groups 0 and 2.
@@ -235,10 +242,13 @@ impl GpuModel {
         order: &[Run],
         draw: ModelDraw,
     ) {
-        if !order.is_empty() {
-            self.bind(pass, posed, draw);
-        }
-        for (instances, range) in order {
+        let mut bound = None;
+        for (instances, range, is_front) in order {
+            let faces = if *is_front { self.front } else { self.front.turned() };
+            if bound != Some(faces) {
+                self.bind(pass, posed, draw, faces);
+                bound = Some(faces);
+            }
             let range = &self.ranges[*range];
             pass.set_vertex_buffer(INSTANCE_SLOT, posed.instances.from(instances.start));
             self.materials.bind(pass, range.material);
@@ -249,32 +259,38 @@ impl GpuModel {
     /// Draws all visible triangles without their materials, in as few draws as possible; for contact without those that much shows
     /// through. The caller sets group 0.
     pub(super) fn draw_shape(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, draw: ModelDraw) {
-        self.bind(pass, posed, draw);
-        let mut shape = Drawn::default();
-        for range in self.in_view(posed.hidden) {
-            if draw != ModelDraw::Contact || !self.materials.is_thin(range.material) {
-                shape.add(&range.indices);
+        let faces_of = |range: &DrawRange| match (draw, self.materials.kind(range.material).faces(self.front)) {
+            // It shows where the model is, not how it looks.
+            (ModelDraw::Highlight, _) => Faces::All,
+            // What faces down is seen from below; the map is drawn as from above.
+            (ModelDraw::Contact, faces) => faces.turned(),
+            (_, faces) => faces,
+        };
+        for faces in [Faces::All, Faces::Clockwise, Faces::Counterclockwise] {
+            let mut shape = Drawn::default();
+            for range in self.in_view(posed.hidden).filter(|range| faces_of(range) == faces) {
+                if draw != ModelDraw::Contact || !self.materials.is_thin(range.material) {
+                    shape.add(&range.indices);
+                }
             }
-        }
-        for range in shape.ranges() {
-            self.draw_indices(pass, range, posed.instances.count);
+            for (index, range) in shape.ranges().enumerate() {
+                if index == 0 {
+                    self.bind(pass, posed, draw, faces);
+                }
+                self.draw_indices(pass, range, posed.instances.count);
+            }
         }
     }
 
-    /// What alpha does to its materials, and which maps they read: each kind once.
-    pub(super) fn kinds(&self) -> Vec<(Alpha, Maps)> {
-        let mut kinds = Vec::new();
-        for kind in self.ranges.iter().map(|range| self.materials.kind(range.material)) {
-            if !kinds.contains(&kind) {
-                kinds.push(kind);
-            }
-        }
-        kinds
+    /// The kinds of its materials, each once, in the order in which they are drawn.
+    pub(super) fn kinds(&self) -> BTreeSet<Kind> {
+        let materials = self.ranges.iter().map(|range| range.material);
+        materials.map(|material| self.materials.kind(material)).collect()
     }
 
     /// Draws what casts a shadow. The caller sets group 0.
     pub(super) fn draw_caster(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>) {
-        let is_holed = |range: &DrawRange| self.materials.kind(range.material).0 != Alpha::Whole;
+        let is_holed = |range: &DrawRange| self.materials.kind(range.material).alpha != Alpha::Whole;
         if self.ranges.iter().any(is_holed) {
             self.draw(pass, posed, [Cut::Hard; 2], ModelDraw::Caster);
         } else {
@@ -292,7 +308,7 @@ impl GpuModel {
     ) {
         let mut ranges = self.in_view(posed.hidden);
         if let Some(range) = ranges.find(|range| range.submesh == submesh) {
-            self.bind(pass, posed, draw);
+            self.bind(pass, posed, draw, Faces::All);
             self.draw_indices(pass, range.indices.clone(), posed.instances.count);
         }
     }
@@ -303,7 +319,7 @@ impl GpuModel {
             let ranges = self.ranges.iter().map(|range| range.indices.clone());
             Edges::new(device, &self.triangles, ranges)
         });
-        self.bind(pass, posed, ModelDraw::Edges);
+        self.bind(pass, posed, ModelDraw::Edges, Faces::All);
         pass.set_index_buffer(edges.buffer.slice(..), wgpu::IndexFormat::Uint32);
         for (range, edges) in self.ranges.iter().zip(&edges.ranges) {
             if !is_hidden(posed.hidden, range.submesh) {
@@ -314,7 +330,7 @@ impl GpuModel {
 
     /// Draws a line at each visible vertex. The caller sets groups 0 and 3.
     pub(super) fn draw_vertex_lines(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, draw: ModelDraw) {
-        self.bind(pass, posed, draw);
+        self.bind(pass, posed, draw, Faces::All);
         for range in self.in_view(posed.hidden) {
             // WebGL2 has no first instance: the buffers start there instead.
             let start = |stride: usize| u64::from(range.vertices.start) * stride as u64;
@@ -356,9 +372,9 @@ impl GpuModel {
             .filter(move |range| !is_hidden(hidden, range.submesh))
     }
 
-    fn bind(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, draw: ModelDraw) {
+    fn bind(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, draw: ModelDraw, faces: Faces) {
         let Posed { skinned, .. } = posed;
-        pass.set_pipeline(&posed.pipelines.get(Draw::Model { draw, skinned }));
+        pass.set_pipeline(&posed.pipelines.get(Draw::Model { draw, skinned, faces }));
         pass.set_bind_group(1, posed.bones.group(), &[]);
         pass.set_vertex_buffer(INSTANCE_SLOT, posed.instances.from(0));
         pass.set_vertex_buffer(POSITION_SLOT, self.positions.slice(..));

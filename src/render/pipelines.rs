@@ -5,7 +5,7 @@ use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 
 use super::instances::BoneTexture;
-use super::recipe::{Draw, Maps, ModelDraw, Recipe};
+use super::recipe::{Draw, Faces, Maps, ModelDraw, Recipe};
 use super::target::SampleCount;
 use crate::model::MapSlot;
 use crate::scene::OverlayVertex;
@@ -210,8 +210,7 @@ impl Pipelines {
         module.clone()
     }
 
-    /// Nothing is culled: files have holes, flat leaves and turned triangles, and a viewer shows them. Shaders learn the side
-    /// from `front_facing`, which here says "clockwise on the screen".
+    /// Shaders learn the side from `front_facing`, which here says "clockwise on the screen".
     fn build(&self, draw: Draw, samples: SampleCount) -> wgpu::RenderPipeline {
         let recipe = Recipe::of(draw, samples);
         let module = self.module(&recipe.program);
@@ -239,7 +238,7 @@ impl Pipelines {
         let colors = buffer(size_of::<[u8; 4]>(), step, &VERTEX_COLOR);
         let more_maps = buffer(size_of::<MoreMapsVertex>(), step, &MORE_MAPS);
         let buffers = match draw {
-            Draw::Model { draw, skinned } => vec![
+            Draw::Model { draw, skinned, .. } => vec![
                 instances,
                 positions,
                 surface.filter(|_| draw.reads_surface()),
@@ -249,6 +248,10 @@ impl Pipelines {
             ],
             Draw::World { .. } => vec![buffer(size_of::<OverlayVertex>(), step, &WORLD_VERTEX)],
             _ => Vec::new(),
+        };
+        let faces = match draw {
+            Draw::Model { faces, .. } => faces,
+            _ => Faces::All,
         };
         let targets: Vec<_> = recipe.color.into_iter().map(Some).collect();
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -263,7 +266,11 @@ impl Pipelines {
             primitive: wgpu::PrimitiveState {
                 topology: recipe.topology,
                 front_face: wgpu::FrontFace::Cw,
-                cull_mode: None,
+                cull_mode: match faces {
+                    Faces::All => None,
+                    Faces::Clockwise => Some(wgpu::Face::Back),
+                    Faces::Counterclockwise => Some(wgpu::Face::Front),
+                },
                 ..Default::default()
             },
             depth_stencil: recipe.depth,

@@ -1,5 +1,7 @@
 //! What is drawn, and what each thing is drawn with: program, entry points, blending, depth.
 
+use std::collections::BTreeSet;
+
 use super::target::{COLOR_FORMAT, DEPTH_FORMAT, FRACTION_FORMAT, GEOMETRY_FORMAT, SampleCount};
 use crate::scene::Light;
 use crate::shaders::{self, Program};
@@ -12,18 +14,20 @@ pub(super) enum Shading {
 }
 
 /// What of a material its program reads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) enum Maps {
     /// The diffuse and the normal map, both sampled as the books do: all that a .m3d file has.
+    #[default]
     Two,
     /// Five maps, each sampled in a way of its own, and colours of vertices: all that a glTF file has.
     All,
 }
 
-/// What alpha does to a material, as it is with its maps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+/// What alpha does to a material, as it is with its maps. In the order in which they are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Alpha {
     /// Nothing.
+    #[default]
     Whole,
     /// It cuts holes.
     Cut,
@@ -31,15 +35,37 @@ pub(super) enum Alpha {
     Blended,
 }
 
-impl Alpha {
-    /// How a material is drawn under a light.
-    fn cuts_when_lit(self) -> impl Iterator<Item = Cut> {
-        let cuts: &[Cut] = match self {
-            Self::Whole => &[Cut::Whole],
-            Self::Cut => &[Cut::Smooth],
-            Self::Blended => &[Cut::OpaquePart, Cut::Blended],
-        };
-        cuts.iter().copied()
+/// Which triangles are drawn, by the way that their corners run on the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Faces {
+    All,
+    Clockwise,
+    Counterclockwise,
+}
+
+impl Faces {
+    /// The other sides of the same triangles.
+    pub(super) fn turned(self) -> Self {
+        match self {
+            Self::All => Self::All,
+            Self::Clockwise => Self::Counterclockwise,
+            Self::Counterclockwise => Self::Clockwise,
+        }
+    }
+}
+
+/// All of a material that decides which pipelines draw it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Kind {
+    pub(super) alpha: Alpha,
+    pub(super) maps: Maps,
+    pub(super) double_sided: bool,
+}
+
+impl Kind {
+    /// What is drawn of its triangles where `front` are their fronts.
+    pub(super) fn faces(self, front: Faces) -> Faces {
+        if self.double_sided { Faces::All } else { front }
     }
 }
 
@@ -102,6 +128,7 @@ pub(super) enum Draw {
     Model {
         draw: ModelDraw,
         skinned: bool,
+        faces: Faces,
     },
     Backdrop,
     /// Hidden by the model or, with `through`, seen through it.
@@ -133,35 +160,44 @@ impl Draw {
         }
     }
 
-    /// What one key or the pointer may ask for while a model is open, the likeliest first: what the pointer marks, the other light, view modes, wires, bones, weights, normals. `kinds` are those of the model's materials.
-    pub(super) fn within_reach(skinned: bool, kinds: &[(Alpha, Maps)]) -> Vec<Self> {
-        let cuts = |cut| {
-            kinds.iter().map(move |&(alpha, maps)| match alpha {
-                Alpha::Whole => (Cut::Whole, maps),
-                Alpha::Cut | Alpha::Blended => (cut, maps),
-            })
+    /// What one key or the pointer may ask for while a model is open, the likeliest first: what the pointer marks, the other light, view modes, wires, bones, weights, normals. `kinds` are those of the model's materials, and
+    /// `front` the fronts of its triangles.
+    pub(super) fn within_reach(skinned: bool, kinds: &BTreeSet<Kind>, front: Faces) -> Vec<Self> {
+        let of_faces = |draw, faces| Self::Model { draw, skinned, faces };
+        let of_model = |draw| of_faces(draw, Faces::All);
+        let of_kinds = |draw: &dyn Fn(Kind) -> ModelDraw| -> Vec<Self> {
+            let draws = kinds.iter().map(|&kind| of_faces(draw(kind), kind.faces(front)));
+            draws.collect()
         };
-        let of_model = |draw| Self::Model { draw, skinned };
+        let cut_as = |kind: Kind, cut| if kind.alpha == Alpha::Whole { Cut::Whole } else { cut };
         let mut draws = vec![of_model(ModelDraw::Highlight)];
         for light in Light::ALL {
-            let mesh = move |cut, maps| of_model(ModelDraw::Mesh(Shading::Lit(light), cut, maps));
-            draws.extend(
-                kinds
-                    .iter()
-                    .flat_map(|&(alpha, maps)| alpha.cuts_when_lit().map(move |cut| mesh(cut, maps))),
-            );
+            for kind in kinds {
+                let faces = kind.faces(front);
+                // Of what is blended, backs have a draw of their own.
+                let back = if kind.double_sided { front.turned() } else { front };
+                let drawn: &[(Cut, Faces)] = match kind.alpha {
+                    Alpha::Whole => &[(Cut::Whole, faces)],
+                    Alpha::Cut => &[(Cut::Smooth, faces)],
+                    Alpha::Blended => &[(Cut::OpaquePart, faces), (Cut::Blended, back), (Cut::Blended, front)],
+                };
+                let lit = |&(cut, faces)| of_faces(ModelDraw::Mesh(Shading::Lit(light), cut, kind.maps), faces);
+                draws.extend(drawn.iter().map(lit));
+            }
             draws.push(Self::Occlusion(light));
         }
-        draws.extend([
-            of_model(ModelDraw::Contact),
-            Self::ContactBlurRows,
-            Self::ContactBlurColumns,
-        ]);
-        let inspected = cuts(Cut::Smooth).map(|(cut, maps)| ModelDraw::Mesh(Shading::Inspect, cut, maps));
-        draws.extend(inspected.map(of_model));
+        // It is seen from below, and drawn as from above.
+        let below = kinds.iter().map(|kind| kind.faces(front).turned());
+        draws.extend(below.map(|faces| of_faces(ModelDraw::Contact, faces)));
+        draws.extend([Self::ContactBlurRows, Self::ContactBlurColumns]);
+        draws.extend(of_kinds(&|kind| {
+            ModelDraw::Mesh(Shading::Inspect, cut_as(kind, Cut::Smooth), kind.maps)
+        }));
         draws.push(of_model(ModelDraw::Edges));
         draws.extend([WorldShape::Triangles, WorldShape::Lines].map(|shape| Self::World { shape, through: true }));
-        draws.extend(cuts(Cut::Hard).map(|(cut, maps)| of_model(ModelDraw::SkinView(cut, maps))));
+        draws.extend(of_kinds(&|kind| {
+            ModelDraw::SkinView(cut_as(kind, Cut::Hard), kind.maps)
+        }));
         draws.push(of_model(ModelDraw::Normals));
         draws
     }
@@ -222,7 +258,7 @@ impl Recipe {
             samples: 1,
         };
         match draw {
-            Draw::Model { draw, skinned } => Self::of_model(draw, skinned, samples),
+            Draw::Model { draw, skinned, .. } => Self::of_model(draw, skinned, samples),
             Draw::Backdrop => Recipe {
                 color: Some(COLOR_FORMAT.into()),
                 // It lies at the farthest depth: what the model covers is not shaded.

@@ -1,11 +1,11 @@
-//! The triangles of a mesh as they are drawn: in ranges of one material, each once a pass, as edges, and which way they are wound.
+//! The triangles of a mesh as they are drawn: in ranges of one material, each once a pass, all wound one way, and as edges.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 use wgpu::util::DeviceExt as _;
 
-use crate::model::Mesh;
+use crate::model::{Mesh, Model};
 
 /// A submesh: a range of indices with one material.
 pub(super) struct DrawRange {
@@ -35,22 +35,20 @@ pub(super) fn draw_ranges(mesh: &Mesh, material_count: usize) -> Vec<DrawRange> 
         .collect()
 }
 
-/// +1 when most triangles are clockwise seen from the side that their normals point to (left-handed), else −1. Each triangle
-/// votes with its area. A file that is wound the other way is then lit from the right side.
-pub(super) fn winding(mesh: &Mesh) -> f32 {
-    let vote: f64 = mesh
-        .indices
-        .chunks_exact(3)
-        .map(|triangle| {
-            let at = |corner: usize| triangle[corner] as usize;
-            let position = |corner| mesh.positions[at(corner)];
-            let normal = |corner| mesh.normals.get(at(corner)).copied().unwrap_or_default();
-            let area = (position(1) - position(0)).cross(position(2) - position(0));
-            f64::from(area.dot(normal(0) + normal(1) + normal(2)))
-        })
-        .filter(|vote| vote.is_finite())
-        .sum();
-    if vote < 0.0 { -1.0 } else { 1.0 }
+/// The indices of a model, with the triangles of submeshes turned round that are wound against its hand. A triangle of several submeshes
+/// goes with the first of them, as it is drawn.
+pub(super) fn wound_one_way(model: &Model) -> Vec<u32> {
+    let mut indices = model.mesh.indices.clone();
+    let mut met = Drawn::default();
+    for (submesh, is_turned) in model.mesh.submeshes.iter().zip(model.turned_submeshes()) {
+        let start = submesh.triangle_start * 3;
+        let parts = met.add(&(start..start + submesh.triangle_count * 3));
+        for part in parts.into_iter().filter(|_| is_turned) {
+            let (triangles, _) = indices[part.start as usize..part.end as usize].as_chunks_mut::<3>();
+            triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
+        }
+    }
+    indices
 }
 
 /// The ranges of indices that a pass has drawn, so that no triangle is drawn twice. A triangle of several submeshes shows the
@@ -149,8 +147,6 @@ fn edges(triangles: &[u32]) -> impl Iterator<Item = u32> {
 
 #[cfg(test)]
 mod tests {
-    use glam::Vec3;
-
     use super::*;
 
     #[test]
@@ -191,22 +187,5 @@ mod tests {
         let mut drawn = Drawn::default();
         let parts = (0..20_000).flat_map(|_| drawn.add(&(3..9)));
         assert_eq!(parts.collect::<Vec<_>>(), std::slice::from_ref(&(3..9)));
-    }
-
-    // Seen from -z in a left-handed space (x right, y up, z away), 0 1 2 goes clockwise.
-    fn triangle(normal: Vec3) -> Mesh {
-        Mesh {
-            positions: vec![Vec3::ZERO, Vec3::Y, Vec3::X],
-            normals: vec![normal; 3],
-            indices: vec![0, 1, 2],
-            ..Mesh::default()
-        }
-    }
-
-    #[test]
-    fn normals_tell_which_way_triangles_are_wound() {
-        assert_eq!(winding(&triangle(Vec3::NEG_Z)), 1.0);
-        assert_eq!(winding(&triangle(Vec3::Z)), -1.0);
-        assert_eq!(winding(&Mesh::default()), 1.0);
     }
 }

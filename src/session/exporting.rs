@@ -112,6 +112,10 @@ impl Session {
             .filter(|&material| self.is_edited(material))
             .count();
         model.materials = self.materials().to_vec();
+        if self.handedness() != model.handedness {
+            // Space is mirrored, and the fronts stay where they were.
+            model.mesh.turn_triangles();
+        }
         (model.handedness, model.up_axis) = (self.handedness(), self.up_axis());
         let edited = (edited > 0).then(|| Change {
             code: "materials-edited",

@@ -20,6 +20,8 @@ pub enum MaterialCommand {
     },
     /// Draws a material as the file has it.
     Reset(usize),
+    /// Draws all materials from both sides, or each from those that the file says.
+    DrawBothSides(bool),
 }
 
 /// The materials of the open model as they are drawn. A copy of them is cheap.
@@ -68,8 +70,19 @@ impl Materials {
                 (index, self.get(index).map(|drawn| with_values(drawn, &material)))
             }
             MaterialCommand::Reset(index) => (index, of_file.get(index).cloned()),
+            MaterialCommand::DrawBothSides(both) => return self.draw_both_sides(both, of_file),
         };
         material.is_some_and(|material| self.replace(index, material))
+    }
+
+    fn draw_both_sides(&mut self, both: bool, of_file: &[Material]) -> bool {
+        let mut changed = false;
+        for (index, material) in of_file.iter().enumerate() {
+            let double_sided = both || material.double_sided;
+            let drawn = self.get(index).cloned();
+            changed |= drawn.is_some_and(|drawn| self.replace(index, Material { double_sided, ..drawn }));
+        }
+        changed
     }
 
     /// Draws a material with all of another. Returns whether that changed it.
@@ -223,7 +236,7 @@ mod tests {
             },
             opacity: 0.5,
             alpha: AlphaMode::Blend,
-            double_sided: true,
+            double_sided: false,
             unlit: true,
             emissive: [5.0, 7.0, 0.5],
             normal_scale: -2.0,

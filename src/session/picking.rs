@@ -1,4 +1,4 @@
-//! The first triangle that a ray meets in the pose of now, without what is hidden or cut away.
+//! The first triangle that a ray meets in the pose of now, without what is hidden or cut away, and without backs that are not drawn.
 
 use std::collections::BTreeMap;
 
@@ -106,15 +106,22 @@ impl Picker {
         world_from_model: Affine3A,
         ray: Ray,
     ) -> Option<Hit> {
-        let mesh = &content.open.as_ref()?.model.mesh;
-        let materials = &content.materials;
-        let cutouts = &self.cutouts;
+        let model = &content.open.as_ref()?.model;
+        let (mesh, materials, cutouts) = (&model.mesh, &content.materials, &self.cutouts);
+        let along = world_from_model.inverse().transform_vector3(ray.direction) * model.handedness.front_sign() as f32;
         let is_solid = |hit: &Hit| {
             let index = mesh.submeshes[hit.submesh].material as usize;
             let is_clear = |material: &Material| {
                 may_be_clear(material) && cutouts.alpha(index, material, mesh, hit) < material.least_alpha()
             };
-            submeshes.is_visible(hit.submesh) && !materials.get(index).is_some_and(is_clear)
+            let is_back = |corners: &[u32; 3]| {
+                let [a, b, c] = corners.map(|vertex| positions[vertex as usize]);
+                (b - a).cross(c - a).dot(along) > 0.0
+            };
+            let is_culled =
+                |material: &Material| !material.double_sided && is_back(&mesh.indices.as_chunks().0[hit.triangle]);
+            let is_seen = |material: &Material| !is_clear(material) && !is_culled(material);
+            submeshes.is_visible(hit.submesh) && materials.get(index).is_none_or(is_seen)
         };
         pick(mesh, positions, world_from_model, ray, &mut self.in_ray, is_solid)
     }

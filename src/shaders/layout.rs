@@ -115,8 +115,6 @@ pub struct MaterialMaps {
     pub has_map_alpha: u32,
     pub is_metallic_roughness: u32,
     pub is_unlit: u32,
-    pub is_single_sided: u32,
-    pub unused: [u32; 3],
 }
 
 /// Twin of `Environment` in `environment.wgsl`.

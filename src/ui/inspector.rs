@@ -164,8 +164,7 @@ fn of_gltf(ui: &mut Ui, material: &Material, mut edited: Material) -> Option<Mat
     if material.alpha != AlphaMode::Opaque {
         part_row(ui, "Opacity", &mut edited.opacity);
     }
-    // Of other surfaces both sides are seen in any case.
-    if material.alpha == AlphaMode::Blend && switch_row(ui, "Both sides", "", material.double_sided).clicked() {
+    if switch_row(ui, "Both sides", "", material.double_sided).clicked() {
         edited.double_sided = !material.double_sided;
     }
     if switch_row(ui, "Unlit", "", material.unlit).clicked() {

@@ -11,6 +11,7 @@ mod materials;
 mod names;
 mod overflow;
 mod real_files;
+mod sides;
 mod skeleton;
 mod space;
 mod tree;

@@ -240,7 +240,6 @@ fn twins() -> BTreeMap<String, Layout> {
             has_map_alpha,
             is_metallic_roughness,
             is_unlit,
-            is_single_sided,
         }),
         twin!(Environment {
             sh,

@@ -82,7 +82,7 @@ fn cards(with_tangents: bool, is_skinned: bool) -> Vec<File> {
     }
 }
 
-fn opened(files: Vec<File>) -> Session {
+pub(crate) fn opened(files: Vec<File>) -> Session {
     let mut session = Session::new(true);
     session.apply(FileCommand::Add(files));
     session.apply(CameraCommand::SetViewport {
@@ -94,7 +94,7 @@ fn opened(files: Vec<File>) -> Session {
 }
 
 /// What a session exports, opened.
-fn exported(session: &Session, format: ExportFormat, for_book: bool) -> (Session, WrittenModel) {
+pub(crate) fn exported(session: &Session, format: ExportFormat, for_book: bool) -> (Session, WrittenModel) {
     let options = ExportOptions {
         format,
         for_book,

@@ -49,6 +49,9 @@ mod robust;
 mod scenes;
 mod sets;
 mod shadows;
+#[path = "../common/shared.rs"]
+mod shared;
+mod sides;
 mod skinning;
 mod sky;
 mod still_life;

@@ -1,12 +1,14 @@
 //! Pipelines are built before somebody asks for what they draw, and each once.
 
-use bindpose::model::AlphaMode;
+use bindpose::model::{AlphaMode, Material};
 use bindpose::render::{MaterialImages, SampleCount, Target};
 use bindpose::scene::{Background, Light, Overlay, Theme, ViewMode};
 use glam::Vec3;
 
+use crate::gltf_materials::{blended, metallic_roughness};
 use crate::gpu::{Gpu, vulkan};
 use crate::scenes::{Scene, bent_tube};
+use crate::sets::corner;
 use crate::textures::{card_once, diffuse, square};
 
 const SIZE: [u32; 2] = [32, 24];
@@ -74,6 +76,15 @@ on_both_backends! {
         let mut scene = card_once().three_quarter(Theme::Dark);
         scene.model.materials[0].alpha = AlphaMode::clipped(true);
         check(gpu, scene, &diffuse(&map));
+    }
+
+    /// Of what glTF says has one side fronts are drawn alone, and backs of glass by themselves.
+    fn no_key_builds_one_for_sides_and_glass(gpu) {
+        let mut scene = corner().three_quarter(Theme::Dark);
+        let glass = blended([200, 220, 240], 0.5);
+        let pane = Material { double_sided: false, ..glass.clone() };
+        scene.model.materials = vec![metallic_roughness([0.5; 3], 0.0, 0.5), glass, pane];
+        check(gpu, scene, &[]);
     }
 
     /// A slow device draws what moves with one sample a pixel: the first drag, and keys while a clip plays.

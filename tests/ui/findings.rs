@@ -282,6 +282,20 @@ fn what_was_mended_says_how_to_keep_it_and_leads_to_the_export() {
 }
 
 #[test]
+fn where_triangles_are_turned_away_both_sides_can_be_drawn() {
+    let file = include_bytes!("../fixtures/check/triangles-turned-away.gltf").to_vec();
+    let mut window = window(WIDE, vec![File::new("turned.gltf", file)]);
+    window.click("Findings: ");
+    window.click_anywhere("warning triangles-turned-away: ");
+    let (both, of_file) = ("Draw both sides", "Draw sides as in the file");
+    window.click_anywhere(both);
+    assert!(window.session().materials()[0].double_sided);
+    assert!(!window.shows(both));
+    window.click_anywhere(of_file);
+    assert!(!window.session().materials()[0].double_sided && window.shows(both));
+}
+
+#[test]
 fn a_phone_tells_of_warnings_before_anything_is_opened() {
     let mut window = phone(files());
     window.click("Show 5 warnings, 1 note");

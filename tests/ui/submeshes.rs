@@ -300,7 +300,7 @@ fn a_material_of_gltf_has_the_values_that_do_something() {
     let material = |window: &Window, index: usize| window.session().materials()[index].clone();
     window.click("Leaf, 1 triangle");
     assert!(window.shows("Metallic") && window.shows("Cutoff") && window.shows("Emissive: green"));
-    assert!(!window.shows("Both sides") && !window.shows("Normal scale") && !window.shows("Alpha clip"));
+    assert!(window.shows("Both sides") && !window.shows("Normal scale") && !window.shows("Alpha clip"));
     type_number(&mut window, "Emissive: green", "0.5");
     assert_eq!(material(&window, 0).emissive, [0.0, 0.5, 0.0]);
     window.click("Alpha: Opaque");

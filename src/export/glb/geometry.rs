@@ -15,8 +15,7 @@ pub(super) fn mesh(
     unmoving: Option<usize>,
     binary: &mut Binary,
 ) -> Option<Value> {
-    let drawn = || model.mesh.submeshes.iter().filter(|submesh| submesh.triangle_count > 0);
-    drawn().next()?;
+    model.mesh.submeshes.iter().find(|submesh| submesh.triangle_count > 0)?;
     let attributes = attributes(model, space, turned, unmoving, binary);
     // The greatest number of a type ends strips.
     let is_short = model.mesh.vertex_count() < usize::from(u16::MAX);
@@ -27,15 +26,16 @@ pub(super) fn mesh(
     };
     let mut bytes = Vec::new();
     let mut ranges = Vec::new();
-    for submesh in drawn() {
+    let turned_round = model.turned_submeshes();
+    let drawn = model.mesh.submeshes.iter().zip(&turned_round);
+    for (submesh, &is_turned) in drawn.filter(|(submesh, _)| submesh.triangle_count > 0) {
         bytes.resize(bytes.len().next_multiple_of(size), 0);
         let first = 3 * submesh.triangle_start as usize;
         let corners = &model.mesh.indices[first..first + 3 * submesh.triangle_count as usize];
         ranges.push((submesh.material, bytes.len(), corners.len()));
-        // Ours run with the clock, seen from outside.
-        let against = corners
-            .chunks_exact(3)
-            .flat_map(|corners| [corners[0], corners[2], corners[1]]);
+        // Ours run with the clock, seen from outside; but for those of a submesh that is wound otherwise than the model.
+        let front = |&[a, b, c]: &[u32; 3]| if is_turned { [a, b, c] } else { [a, c, b] };
+        let against = corners.as_chunks().0.iter().flat_map(front);
         if is_short {
             bytes.extend(against.flat_map(|corner| (corner as u16).to_le_bytes()));
         } else {

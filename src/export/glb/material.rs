@@ -77,6 +77,7 @@ pub(super) fn materials(
         maps,
         turned,
         has_second: !model.mesh.second_tex_coords.is_empty(),
+        double_sided: model.needs_both_sides(&model.turned_submeshes()),
         binary,
     };
     for (index, material) in model.materials.iter().enumerate() {
@@ -95,6 +96,8 @@ struct Writer<'a> {
     maps: &'a MapImages<'a>,
     turned: &'a [bool],
     has_second: bool,
+    /// Of each material.
+    double_sided: Vec<bool>,
     binary: &'a mut Binary,
 }
 
@@ -147,7 +150,7 @@ impl Writer<'_> {
             }
             AlphaMode::Blend => written["alphaMode"] = json!("BLEND"),
         }
-        if material.double_sided {
+        if self.double_sided[index] {
             written["doubleSided"] = json!(true);
         }
         if let Some(values) = of_book(material) {

@@ -312,15 +312,17 @@ fn surfaces(materials: &[&Material], dialect: Dialect, losses: &mut Losses) {
         HAS,
         "an alpha beside the colour, which the format has not",
     );
+    // A book's own material is drawn from both sides here, whatever its demo does.
+    let has_sides = |material: &Material| matches!(material.reflectance, Reflectance::MetallicRoughness { .. });
     losses.add(
         "double-sided",
-        &|material| material.double_sided && !material.is_cut(),
+        &|material| has_sides(material) && material.double_sided && !material.is_cut(),
         IS,
         "two-sided (Backface Culling is off in Blender), and back faces will not be drawn",
     );
     losses.add(
         "double-sided",
-        &|material| !material.double_sided && material.is_cut(),
+        &|material| has_sides(material) && !material.double_sided && material.is_cut(),
         IS,
         "one-sided, and back faces will be drawn, as the books do of what is cut out",
     );

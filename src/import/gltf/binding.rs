@@ -86,7 +86,7 @@ impl Binding {
     }
 
     /// What brings the mesh of a skin to where it is at rest, when all its joints move it alike there, or when it is of quite
-    /// another size in the file: exporters that scale a character leave its mesh as it was. `None` where it stays as it is.
+    /// another size in the file, or mirrored: exporters that scale a character leave its mesh as it was. `None` where it stays as it is.
     fn upright(&self, joints: &[u32], matrices: &[DAffine3]) -> Option<DAffine3> {
         let at_rest = |(&joint, matrix): (&u32, &DAffine3)| self.model_at_rest[joint as usize] * *matrix;
         let first = joints
@@ -103,7 +103,8 @@ impl Binding {
                 .zip(matrices)
                 .all(|slot| are_same(&first, &at_rest(slot), AS_AT_REST))
         };
-        let size = first.matrix3.determinant().abs().cbrt();
+        // Negative where it mirrors: fronts are then wound the other way.
+        let size = first.matrix3.determinant().cbrt();
         (!(0.5..2.0).contains(&size) || are_alike()).then_some(first)
     }
 

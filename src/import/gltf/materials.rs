@@ -44,6 +44,7 @@ pub(super) fn materials(root: &Root, images: &Images, diagnostics: &mut Diagnost
                     metallic: 1.0,
                     roughness: 1.0,
                 },
+                double_sided: false,
                 ..Material::default()
             },
             Some(of_file) => {
@@ -366,7 +367,7 @@ fn of_book(read: Material, values: &Value) -> Material {
         } else {
             AlphaMode::Opaque
         },
-        double_sided: is_cut,
+        double_sided: read.double_sided,
         diffuse_map: map("diffuseMap", read.diffuse_map),
         normal_map: map("normalMap", read.normal_map),
         name: read.name,

@@ -221,7 +221,6 @@ pub(super) fn materials_from_document(
             diffuse: finite(material.diffuse),
             reflectance: reflectance(material.reflectance),
             alpha: AlphaMode::clipped(material.alpha_clip),
-            double_sided: material.alpha_clip,
             diffuse_map: material.diffuse_map.clone().map(Into::into),
             normal_map: material.normal_map.clone().map(Into::into),
             ..Material::default()

@@ -9,7 +9,7 @@ use super::goal::Goal;
 use super::state::ShownDiagnostic;
 use crate::actions;
 use crate::diagnostic::{Code, Diagnostic, Mended, codes};
-use crate::session::{Command, OpenModel, Session};
+use crate::session::{Command, MaterialCommand, OpenModel, Session};
 use crate::ui::error_card::{expected_and_found, show_excerpt};
 use crate::ui::state::{Request, UiState};
 use crate::ui::theme::{self, Tokens};
@@ -106,7 +106,7 @@ impl FindingRow<'_> {
         let scope = UiBuilder::new().scope_id(response.id.with("unfolded"));
         let unfolded = ui.scope_builder(scope, |ui| {
             self.occurrences(ui, list, session, open, state, commands);
-            self.details(ui, state);
+            self.details(ui, session, state, commands);
         });
         let height = unfolded.response.rect.height();
         if let Some(shown) = &mut state.findings.shown {
@@ -136,7 +136,7 @@ impl FindingRow<'_> {
     }
 
     /// The lines of the file, what belonged there, and how to mend it for good.
-    fn details(&self, ui: &mut Ui, state: &mut UiState) {
+    fn details(&self, ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
         let diagnostic = self.diagnostic;
         if let Some(lines) = state.findings.shown.as_ref().and_then(|shown| shown.excerpt.as_ref()) {
             ui.add_space(4.0);
@@ -149,6 +149,9 @@ impl FindingRow<'_> {
         explanation(ui, diagnostic.code, &mut state.requests);
         if let Some(code) = codes::named(diagnostic.code) {
             permanence(ui, code, state);
+        }
+        if diagnostic.code == codes::TRIANGLES_TURNED_AWAY.name {
+            sides(ui, session, commands);
         }
         ui.add_space(8.0);
     }
@@ -204,6 +207,20 @@ impl FindingRow<'_> {
                 ui.label(words.size(12.0).color(tokens.muted));
             });
         }
+    }
+}
+
+/// The other way to draw materials with one side, and back.
+fn sides(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let both = session.materials().iter().any(|material| !material.double_sided);
+    let label = if both {
+        "Draw both sides"
+    } else {
+        "Draw sides as in the file"
+    };
+    ui.add_space(4.0);
+    if TextButton::new(label, label).show(ui).clicked() {
+        commands.push(MaterialCommand::DrawBothSides(both).into());
     }
 }
 

@@ -86,7 +86,10 @@ fn every_value_of_a_material_arrives() {
     assert!(moved.abs_diff_eq(Vec2::new(4.5, -1.75), 1e-5), "{moved}");
     assert_eq!(model.materials[1].alpha, AlphaMode::Blend);
     let default = &model.materials[2];
-    assert_eq!((default.name.as_str(), default.diffuse), ("default", [1.0; 3]));
+    assert_eq!(
+        (default.name.as_str(), default.diffuse, default.double_sided),
+        ("default", [1.0; 3], false)
+    );
     assert_eq!(codes_of(&imported), Vec::<&str>::new());
 }
 
@@ -97,7 +100,7 @@ fn a_books_material_comes_back_from_what_was_written_of_it() {
     let phong = json!({ "reflectance": "phong", "ambient": [0.1, 0.1, 0.1], "specular": [0.2, 0.2, 0.2], "specPower": 8.0,
         "reflectivity": [0.0, 0.0, 0.5], "diffuse": [1.0, 1.0, 1.0], "alphaClip": false, "diffuseMap": null, "normalMap": "n.dds" });
     let file = triangle(
-        &json!({ "materials": [{ "extras": { "bindpose": book } }, { "extras": { "bindpose": phong } }, { "extras": 7 }],
+        &json!({ "materials": [{ "extras": { "bindpose": book } }, { "extras": { "bindpose": phong }, "doubleSided": true }, { "extras": 7 }],
             "meshes": [{ "primitives": [{ "material": 0 }, { "material": 1 }, { "material": 2 }] }] }),
         |_| json!({}),
     );
@@ -112,7 +115,7 @@ fn a_books_material_comes_back_from_what_was_written_of_it() {
     );
     assert_eq!(
         (skin.diffuse, skin.alpha, skin.double_sided),
-        ([0.5, 0.6, 0.7], AlphaMode::Mask { cutoff: 0.1 }, true)
+        ([0.5, 0.6, 0.7], AlphaMode::Mask { cutoff: 0.1 }, false)
     );
     assert_eq!(
         (skin.map_name(MapSlot::Diffuse), skin.map_name(MapSlot::Normal)),
@@ -129,6 +132,10 @@ fn a_books_material_comes_back_from_what_was_written_of_it() {
     assert_eq!(
         (spec_power, reflectivity, materials[1].map_name(MapSlot::Normal)),
         (8.0, [0.0, 0.0, 0.5], Some("n.dds"))
+    );
+    assert!(
+        materials[1].double_sided && !materials[2].double_sided,
+        "as the file says"
     );
     assert!(matches!(
         materials[2].reflectance,

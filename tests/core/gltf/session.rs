@@ -1,8 +1,11 @@
 //! glTF in a session: drops of several files, pictures, names, and a model without a clip.
 
 use bindpose::model::{JointIndex, MapSlot};
-use bindpose::session::{File, FileCommand, FileFormat, FileSet, Session};
-use glam::Affine3A;
+use bindpose::scene::ViewPreset;
+use bindpose::session::{
+    CameraCommand, File, FileCommand, FileFormat, FileSet, HistoryCommand, MaterialCommand, Session,
+};
+use glam::{Affine3A, Vec2};
 use serde_json::json;
 
 use super::banner::banner;
@@ -151,4 +154,89 @@ fn clips_of_a_text_with_its_data_join_and_join_again() {
         (error.diagnostic.code, &*error.file_name),
         ("gltf-buffer-missing", "run.gltf")
     );
+}
+
+/// Two upright cards, one before the other; the nearer one is turned away from whoever looks at the front. `normal_z` is of both.
+fn cards(normal_z: [f32; 2]) -> Session {
+    let mut file = Gltf::new(&json!({
+        "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }],
+        "materials": [{ "name": "Near" }, { "name": "Far" }, { "name": "Both", "doubleSided": true }],
+    }));
+    let corners = |z: f32| [[-1.0, -1.0, z], [1.0, -1.0, z], [0.0, 2.0, z]];
+    let card = |file: &mut Gltf, z: f32, normal_z: f32, order: [[u16; 1]; 3], material: usize| {
+        let attributes =
+            json!({ "POSITION": file.floats(&corners(z)), "NORMAL": file.floats(&[[0.0, 0.0, normal_z]; 3]) });
+        json!({ "attributes": attributes, "indices": file.shorts(&order), "material": material })
+    };
+    let [near_z, far_z] = normal_z;
+    let near = card(&mut file, 1.0, near_z, [[0], [2], [1]], 0);
+    let far = card(&mut file, 0.0, far_z, [[0], [1], [2]], 1);
+    // Behind all and turned away, but drawn from both sides.
+    let both = card(&mut file, -1.0, 1.0, [[0], [2], [1]], 2);
+    file.json["meshes"] = json!([{ "primitives": [near, far, both] }]);
+    opened(vec![File::new("cards.glb", file.glb())])
+}
+
+#[test]
+fn a_back_that_is_not_drawn_is_not_met() {
+    let mut session = cards([-1.0, 1.0]);
+    for (preset, submesh) in [(ViewPreset::Front, 1), (ViewPreset::Back, 2)] {
+        session.apply(CameraCommand::LookFrom(preset));
+        assert_eq!(
+            session.pick(Vec2::ZERO).map(|hit| hit.submesh),
+            Some(submesh),
+            "{preset:?}"
+        );
+    }
+    session.apply(MaterialCommand::DrawBothSides(true));
+    session.apply(CameraCommand::LookFrom(ViewPreset::Front));
+    assert_eq!(session.pick(Vec2::ZERO).map(|hit| hit.submesh), Some(0));
+}
+
+#[test]
+fn triangles_that_look_away_from_their_normals_are_told_where_one_side_is_drawn() {
+    let told = |session: &Session| {
+        let all = session
+            .diagnostics()
+            .filter(|finding| finding.code == "triangles-turned-away");
+        all.map(|finding| (finding.message.clone(), finding.count))
+            .collect::<Vec<_>>()
+    };
+    // The third is turned too, but drawn from both sides.
+    assert_eq!(told(&cards([-1.0, 1.0])), []);
+    let words = "1 triangle is drawn from the side that normals point away from, and not from the other.";
+    assert_eq!(told(&cards([1.0, 1.0])), [(words.to_owned(), 1)]);
+    let words = "2 triangles are drawn from the side that normals point away from, and not from the other.";
+    assert_eq!(told(&cards([1.0, -1.0])), [(words.to_owned(), 2)]);
+}
+
+#[test]
+fn both_sides_of_all_are_drawn_and_that_is_taken_back() {
+    let mut session = cards([1.0, 1.0]);
+    let sides = |session: &Session| {
+        session
+            .materials()
+            .iter()
+            .map(|one| one.double_sided)
+            .collect::<Vec<_>>()
+    };
+    let of_file = session.materials().to_vec();
+    session.apply(MaterialCommand::DrawBothSides(true));
+    assert_eq!(sides(&session), [true; 3]);
+    assert!(session.is_edited(0) && !session.is_edited(2));
+    assert_eq!(session.history().undo_label(), Some("edit Near and 1 more change"));
+    session.apply(HistoryCommand::Undo);
+    assert_eq!(session.materials(), of_file);
+    session.apply(HistoryCommand::Redo);
+    assert_eq!(sides(&session), [true; 3]);
+    // Other edits stay.
+    let mut material = Box::new(session.materials()[0].clone());
+    material.diffuse = [0.25; 3];
+    session.apply(MaterialCommand::Edit { index: 0, material });
+    session.apply(MaterialCommand::DrawBothSides(false));
+    assert_eq!(sides(&session), [false, false, true]);
+    assert_eq!(session.materials()[0].diffuse, [0.25; 3]);
+    let revision = session.materials_revision();
+    session.apply(MaterialCommand::DrawBothSides(false));
+    assert_eq!(session.materials_revision(), revision, "nothing changes");
 }
