@@ -3,7 +3,6 @@
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use clap::ValueEnum;
 use serde::Serialize;
@@ -56,7 +55,8 @@ pub(super) struct Arguments {
     close_loop: Option<f32>,
     /// Leave keys out while all joints and their tips stay within this fraction of the model's size.
     ///
-    /// The size is the diagonal of the bind pose; they are compared in the model's space at all old keys.
+    /// The size is the diagonal of the bind pose; they are compared in the model's space at all old keys and half-way between
+    /// them. 0.1 is the most.
     #[arg(long, value_name = "TOLERANCE", value_parser = number, allow_negative_numbers = true)]
     reduce: Option<f32>,
     /// Multiply all lengths.
@@ -80,6 +80,11 @@ pub(super) struct Arguments {
     /// bone from 0 s on; names of one word, and a clip Take1. Maps are written as DDS with mips into --textures-out.
     #[arg(long)]
     for_book: bool,
+    /// Leave bones without keys as they are; the books' programs stop at one.
+    ///
+    /// Without this each has a key at rest in every clip of a .m3d.
+    #[arg(long, conflicts_with = "for_book")]
+    keep_empty: bool,
     /// Look for maps in this folder and in those in it; may be given more than once.
     #[arg(long, value_name = "DIR")]
     textures: Vec<PathBuf>,
@@ -197,10 +202,21 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     }
     let is_denied = arguments.deny == Some(Deny::Losses) && !plan.losses.is_empty();
     if !is_denied {
+        let mut files: Vec<(PathBuf, &[u8])> = Vec::new();
+        let is_new = arguments.textures_out.as_ref().filter(|folder| !folder.exists());
         if let Some(folder) = &arguments.textures_out {
-            write_maps(folder, &map_files)?;
+            let unwritable = |reason| Failure::Unwritable {
+                path: folder.clone(),
+                reason,
+            };
+            fs::create_dir_all(folder).map_err(unwritable)?;
+            files.extend(map_files.iter().map(|(name, bytes)| (folder.join(name), &**bytes)));
         }
-        write_whole(&arguments.output, &bytes)?;
+        files.push((arguments.output.clone(), &bytes));
+        write_all(&files).inspect_err(|_| {
+            // One that was made for them goes as they do.
+            let _ = is_new.map(fs::remove_dir);
+        })?;
     }
     let converted = Converted {
         input: arguments.input.display().to_string(),
@@ -254,11 +270,15 @@ impl Arguments {
             clip_names: self.rename.clone(),
             bone_names: self.rename_bone.clone(),
             for_book: self.for_book,
+            keys_for_all: false,
         };
         // A .glb is brought into its one space as it is written.
         match format {
             ExportFormat::Glb => edits,
-            ExportFormat::D3d12 | ExportFormat::D3d11 => edits.in_space_of_the_books(model),
+            ExportFormat::D3d12 | ExportFormat::D3d11 => Edits {
+                keys_for_all: !self.keep_empty,
+                ..edits.in_space_of_the_books(model)
+            },
         }
     }
 }
@@ -280,6 +300,7 @@ fn check_use(arguments: &Arguments) -> Result<(), Failure> {
     let only_m3d = [
         (arguments.dialect.is_some(), "--dialect"),
         (arguments.for_book, "--for-book"),
+        (arguments.keep_empty, "--keep-empty"),
         (arguments.textures_out.is_some(), "--textures-out"),
         (arguments.up == Some(UpAxis::Z), "--up z"),
         (arguments.hand == Some(Handedness::Left), "--hand left"),
@@ -335,29 +356,30 @@ fn refuse_own_input<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path
     Ok(())
 }
 
-fn write_maps(folder: &Path, files: &[(String, Arc<[u8]>)]) -> Result<(), Failure> {
-    fs::create_dir_all(folder).map_err(|reason| Failure::Unwritable {
-        path: folder.to_owned(),
-        reason,
-    })?;
-    files
-        .iter()
-        .try_for_each(|(name, bytes)| write_whole(&folder.join(name), bytes))
-}
-
-/// Writes beside the place and renames, so that a file is whole or not there.
-fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let beside = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
-    let written = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, path));
-    written.map_err(|reason| {
-        // It may not even have been made.
-        let _ = fs::remove_file(&beside);
-        Failure::Unwritable {
-            path: path.to_owned(),
-            reason,
+/// Writes files beside their places and renames them when all are written, so that each is whole or not there, and all are as they were
+/// where one cannot be written.
+fn write_all(files: &[(PathBuf, &[u8])]) -> Result<(), Failure> {
+    let beside = |path: &Path| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        path.with_file_name(format!(".{name}.{}.part", std::process::id()))
+    };
+    let steps = files.iter().map(|(path, bytes)| (path, Some(bytes)));
+    let steps = steps.chain(files.iter().map(|(path, _)| (path, None)));
+    for (path, bytes) in steps {
+        let done = match bytes {
+            Some(bytes) => fs::write(beside(path), bytes),
+            None => fs::rename(beside(path), path),
+        };
+        if let Err(reason) = done {
+            for (path, _) in files {
+                // It may not even have been made.
+                let _ = fs::remove_file(beside(path));
+            }
+            let path = path.clone();
+            return Err(Failure::Unwritable { path, reason });
         }
-    })
+    }
+    Ok(())
 }
 
 impl<'a> From<&'a Change> for Told<'a> {

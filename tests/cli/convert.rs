@@ -377,11 +377,13 @@ fn wrong_use_says_what_is_wrong_and_writes_nothing() {
     let glb = out("wrong", "out.glb");
     let none = out("wrong", "out.obj");
     let lost = format!("{m3d}/no/such/out.m3d");
-    let cases: [(&str, &[&str], &str); 19] = [
+    let cases: [(&str, &[&str], &str); 21] = [
         (&none, &[], "OUT ends in .m3d or .glb"),
         (&glb, &["--dialect", "d3d11"], "--dialect is for .m3d"),
         (&glb, &["--for-book"], "--for-book is for .m3d"),
         (&glb, &["--textures-out", "x"], "--textures-out is for .m3d"),
+        (&glb, &["--keep-empty"], "--keep-empty is for .m3d"),
+        (&m3d, &["--reduce", "2"], "at most 0.1"),
         (&glb, &["--hand", "left"], "--hand left is for .m3d"),
         (
             &m3d,
@@ -456,6 +458,32 @@ fn maps_are_written_as_png_and_named() {
         folder_name,
     ]);
     assert_eq!(twice.code, Some(2), "maps that are read are not overwritten: {twice:?}");
+}
+
+/// The maps are written first, and nothing stays of them where the rest cannot be.
+#[test]
+fn maps_go_again_where_the_file_cannot_be_written() {
+    let sample = Path::new(FIGURE).parent().expect("a folder").to_str().expect("UTF-8");
+    let beside = scratch("convert_half");
+    let (new, old) = (beside.join("new"), beside.join("old"));
+    std::fs::create_dir_all(&old).expect("can be made");
+    let _ = std::fs::remove_dir_all(&new);
+    let output = beside.join("missing/o.m3d");
+    for folder in [&new, &old] {
+        let [folder_name, output] = [folder, &output].map(|path| path.to_str().expect("UTF-8"));
+        let failed = run([
+            "convert",
+            FIGURE,
+            output,
+            "--textures",
+            sample,
+            "--textures-out",
+            folder_name,
+        ]);
+        assert_eq!(failed.code, Some(2), "{failed:?}");
+    }
+    assert!(!new.exists(), "it was made for the maps");
+    assert_eq!(std::fs::read_dir(&old).expect("it was there").count(), 0);
 }
 
 #[test]
