@@ -294,15 +294,19 @@ fn what_was_mended_is_a_change() {
 }
 
 #[test]
-fn a_bone_without_keys_is_told_or_mended_for_the_book() {
+fn a_bone_without_keys_gets_one_unless_it_is_to_stay_so() {
     let empty = fixture("check/track-empty.m3d");
-    let told = convert(&empty, &out("empty", "as_it_is.m3d"), &[]);
+    let told = convert(&empty, &out("empty", "kept.m3d"), &["--keep-empty"]);
     assert!(codes(&told["losses"]).contains(&"track-empty"), "{told}");
-    let text = run(["convert", &empty, &out("empty", "text.m3d")]).fine();
+    let text = run(["convert", &empty, &out("empty", "text.m3d"), "--keep-empty"]).fine();
     assert!(
-        text.contains("track-empty") && text.contains("for the book's demo"),
+        text.contains("track-empty") && text.contains("`--keep-empty`"),
         "{text}"
     );
+    let told = convert(&empty, &out("empty", "filled.m3d"), &[]);
+    assert!(!codes(&told["losses"]).contains(&"track-empty"), "{told}");
+    assert!(codes(&told["changes"]).contains(&"track-empty"), "{told}");
+    assert_book_shows(&out("empty", "filled.m3d"), true);
     let told = convert(&empty, &out("empty", "for_book.m3d"), &["--for-book"]);
     assert!(!codes(&told["losses"]).contains(&"track-empty"), "{told}");
     assert!(codes(&told["changes"]).contains(&"track-empty"), "{told}");

@@ -12,6 +12,9 @@ use super::skeleton::is_unweighted;
 use super::space::Space;
 use crate::model::{Influences, Model};
 
+/// Primitives that name no more vertices than this together share them all, as the model has them.
+const FEW_VERTICES: usize = 4096;
+
 /// Triangles that submeshes draw and that no others overlap, and the vertices that stand for them.
 struct Part {
     triangles: Range<usize>,
@@ -114,7 +117,7 @@ fn parts(model: &Model) -> Vec<Part> {
         .map(|(used, (_, count))| used.len() * count)
         .sum();
     let all = mesh.vertex_count();
-    let is_shared = ranges.len() * all <= 2 * needed;
+    let is_shared = ranges.len() * all <= (2 * needed).max(FEW_VERTICES);
     let is_apart = used.windows(2).all(|pair| pair[0].last() < pair[1].first());
     let (shared, mut end) = (Rc::new((0..all as u32).collect::<Vec<_>>()), 0);
     let last = used.len() - 1;

@@ -388,7 +388,7 @@ fn encoded(linear: f32) -> f32 {
     }
 }
 
-/// A number of a surface with six digits behind the point.
+/// A number of a surface with five digits behind the point.
 fn short(number: f32) -> f32 {
-    (number * 1e6).round() / 1e6
+    (number * 1e5).round() / 1e5
 }

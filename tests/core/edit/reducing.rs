@@ -93,7 +93,7 @@ fn a_dense_clip_keeps_a_part_of_its_keys() {
     let (model, _) = model_of(&swaying(12, 4.0));
     let keys = model.clips[0].key_count;
     let left_out = check(&model, 1e-2);
-    assert!(left_out * 3 > keys, "{left_out} of {keys} keys are left out");
+    assert!(left_out * 5 > keys, "{left_out} of {keys} keys are left out");
 }
 
 #[test]
