@@ -3,7 +3,6 @@
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use serde::Serialize;
 
@@ -56,7 +55,8 @@ pub(super) struct Arguments {
     close_loop: Option<f32>,
     /// Leave keys out while all joints and their tips stay within this fraction of the model's size.
     ///
-    /// The size is the diagonal of the bind pose; they are compared in the model's space at all old keys.
+    /// The size is the diagonal of the bind pose; they are compared in the model's space at all old keys and half-way between
+    /// them. 0.1 is the most.
     #[arg(long, value_name = "TOLERANCE", value_parser = number, allow_negative_numbers = true)]
     reduce: Option<f32>,
     /// Multiply all lengths.
@@ -80,6 +80,11 @@ pub(super) struct Arguments {
     /// bone from 0 s on; names of one word, and a clip Take1. Maps are written as DDS with mips into --textures-out.
     #[arg(long)]
     for_book: bool,
+    /// Leave bones without keys as they are; the books' programs stop at one.
+    ///
+    /// Without this each has a key at rest in every clip of a .m3d.
+    #[arg(long, conflicts_with = "for_book")]
+    keep_empty: bool,
     /// Look for maps in this folder and in those in it, links to folders included; may be given more than once.
     #[arg(long, value_name = "DIR")]
     textures: Vec<PathBuf>,
@@ -205,10 +210,21 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     let denied = arguments.denied(&plan);
     let is_denied = !denied.is_empty();
     if !is_denied {
+        let mut files: Vec<(PathBuf, &[u8])> = Vec::new();
+        let is_new = arguments.textures_out.as_ref().filter(|folder| !folder.exists());
         if let Some(folder) = &arguments.textures_out {
-            write_maps(folder, &map_files, arguments.force)?;
+            let unwritable = |reason| Failure::Unwritable {
+                path: folder.clone(),
+                reason,
+            };
+            fs::create_dir_all(folder).map_err(unwritable)?;
+            files.extend(map_files.iter().map(|(name, bytes)| (folder.join(name), &**bytes)));
         }
-        paths::write(&arguments.output, &bytes, arguments.force)?;
+        files.push((arguments.output.clone(), &bytes));
+        write_all(&files, arguments.force).inspect_err(|_| {
+            // One that was made for them goes as they do.
+            let _ = is_new.map(fs::remove_dir);
+        })?;
     }
     let converted = Converted {
         schema_version: SCHEMA_VERSION,
@@ -278,11 +294,15 @@ impl Arguments {
             clip_names: self.rename.clone(),
             bone_names: self.rename_bone.clone(),
             for_book: self.for_book,
+            keys_for_all: false,
         };
         // A .glb is brought into its one space as it is written.
         match format {
             ExportFormat::Glb => edits,
-            ExportFormat::D3d12 | ExportFormat::D3d11 => edits.in_space_of_the_books(model),
+            ExportFormat::D3d12 | ExportFormat::D3d11 => Edits {
+                keys_for_all: !self.keep_empty,
+                ..edits.in_space_of_the_books(model)
+            },
         }
     }
 }
@@ -304,6 +324,7 @@ fn check_use(arguments: &Arguments) -> Result<(), Failure> {
     let only_m3d = [
         (arguments.dialect.is_some(), "--dialect"),
         (arguments.for_book, "--for-book"),
+        (arguments.keep_empty, "--keep-empty"),
         (arguments.textures_out.is_some(), "--textures-out"),
         (arguments.up == Some(UpAxis::Z), "--up z"),
         (arguments.hand == Some(Handedness::Left), "--hand left"),
@@ -359,17 +380,23 @@ fn refuse_own_input<'a>(output: &Path, inputs: impl IntoIterator<Item = &'a Path
     Ok(())
 }
 
-fn write_maps(folder: &Path, files: &[(String, Arc<[u8]>)], force: bool) -> Result<(), Failure> {
+/// Writes files, each whole or not at all. Where one cannot be written, those go again that were made for it.
+fn write_all(files: &[(PathBuf, &[u8])], force: bool) -> Result<(), Failure> {
     files
         .iter()
-        .try_for_each(|(name, _)| paths::check_writable(&folder.join(name), force))?;
-    fs::create_dir_all(folder).map_err(|reason| Failure::Unwritable {
-        path: folder.to_owned(),
-        reason,
-    })?;
-    files
-        .iter()
-        .try_for_each(|(name, bytes)| paths::write(&folder.join(name), bytes, force))
+        .try_for_each(|(path, _)| paths::check_writable(path, force))?;
+    let mut made = Vec::new();
+    for (path, bytes) in files {
+        let is_new = !path.exists();
+        paths::write(path, bytes, force).inspect_err(|_| {
+            for path in &made {
+                // It may have gone meanwhile.
+                let _ = fs::remove_file(path);
+            }
+        })?;
+        made.extend(is_new.then_some(path));
+    }
+    Ok(())
 }
 
 impl<'a> From<&'a Change> for Told<'a> {

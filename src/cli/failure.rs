@@ -146,7 +146,7 @@ impl Failure {
                 match self {
                     Self::Overflows { .. }
                     | Self::Edit {
-                        error: EditError::Overflows | EditError::TooManyBones { .. } | EditError::TooManyVertices { .. },
+                        error: EditError::Overflows { .. } | EditError::TooLarge { .. },
                         ..
                     } => Outcome::FileHasErrors,
                     _ => Outcome::Failed,

@@ -90,6 +90,11 @@ pub const ALL: &[ExportCode] = &[
         "Use such names to keep them; the books' loaders end a name at a blank.",
     ),
     change(
+        "bones-folded",
+        "A bone that keeps still and moves nothing is taken out, where there are more than the books' demo has room for.",
+        "Nothing: the bone below does what it did.",
+    ),
+    change(
         "materials-edited",
         "Materials are written as they were edited on the page.",
         "Undo the edits to write them as in the file.",
@@ -103,6 +108,11 @@ pub const ALL: &[ExportCode] = &[
         "maps-added",
         "Materials without a map get a plain one, since the books' demo opens two for each.",
         "Nothing: they look the same.",
+    ),
+    change(
+        "metalness-from-picture",
+        "Metalness and roughness that pictures have are written as their means, or metalness into the diffuse map.",
+        "Write maps with `--textures-out`, and give metalness the texture coordinates of the base colour.",
     ),
     change(
         "normal-green-turned",
@@ -128,6 +138,11 @@ pub const ALL: &[ExportCode] = &[
         "maps-missing",
         "Maps without a picture are left out of a `.glb`.",
         "Give the folder of the pictures with `--textures`, or drop them on the page.",
+    ),
+    loss(
+        "maps-unreadable",
+        "Pictures of maps are there and cannot be read.",
+        "Write the pictures anew; `check --textures` says what is wrong with each.",
     ),
     loss(
         "texture-shear",
@@ -226,7 +241,7 @@ pub const ALL: &[ExportCode] = &[
     ),
     loss(
         "metallic-roughness-map",
-        "The format has no map of roughness and metalness (metallic-roughness, ORM).",
+        "The format has no map of roughness and metalness (metallic-roughness, ORM); what became of it is told by `metalness-from-picture`.",
         "Put 1 − roughness into the alpha of the normal map, which the D3D12 book reads as gloss.",
     ),
     loss(

@@ -29,7 +29,9 @@ pub(super) fn close_loops(edited: &mut Edited, secs: f32) -> Result<(), EditErro
                 secs,
             });
         }
-        let (closed, joints) = close(clip, secs).ok_or(EditError::Overflows)?;
+        let (closed, joints) = close(clip, secs).ok_or_else(|| EditError::Overflows {
+            what: format!("\"{}\" has keys that are too far apart.", clip.name),
+        })?;
         *clip = closed;
         if joints > 0 {
             let bones = counted(joints, "bone", "bones");

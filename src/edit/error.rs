@@ -1,5 +1,7 @@
 //! Why an edit cannot be made.
 
+use crate::model::ModelError;
+
 /// An edit that asks for what is not there, or that would come to no sound model.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -84,9 +86,36 @@ pub enum EditError {
         /// How many there may be.
         most: usize,
     },
+    /// More of something than the books' demo holds.
+    #[error("{}", .why.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "))]
+    TooLarge {
+        /// Each limit that does not hold.
+        why: Vec<Self>,
+    },
     /// Numbers that overflow.
-    #[error("Numbers of the model overflow when it is changed so.")]
-    Overflows,
+    #[error("Numbers of the model overflow when it is changed so: {what}")]
+    Overflows {
+        /// Which, as a sentence.
+        what: String,
+    },
+    /// A tolerance of reduced keys that is none, or leaves nothing of a motion.
+    #[error(
+        "The tolerance of reduced keys cannot be {tolerance}: it is a part of the model's size, above 0 and at most {most}."
+    )]
+    Tolerance {
+        /// What was asked for.
+        tolerance: f32,
+        /// What may be asked for.
+        most: f32,
+    },
+}
+
+impl From<ModelError> for EditError {
+    /// Of what was sound only numbers that grew are not.
+    fn from(error: ModelError) -> Self {
+        let what = error.to_string();
+        Self::Overflows { what }
+    }
 }
 
 /// `it has "Walk", "Run"`.

@@ -1,35 +1,166 @@
 //! What the books' demo needs of a model, beside its axes: see [`check::book`](crate::check::book).
 
-use std::collections::HashSet;
-
 use glam::Affine3A;
 
 use super::edited::{Change, Edited, counted, with_tracks};
 use super::error::EditError;
 use super::space;
-use crate::anim::{CompiledClip, PoseBuffers, skin_positions};
+use crate::anim::{CompiledClip, PoseBuffers, skin_positions, straight};
 use crate::check::book::{DEMO_CLIP, DEMO_MATERIALS, DEMO_SCALE, MOST_BONES, MOST_VERTICES, SEEN_HEIGHTS};
 use crate::diagnostic::codes;
-use crate::model::{Aabb, Clip, Influences, JointIndex, JointNames, LocalJoint, Model, ModelError, Skeleton, Track};
+use crate::model::{
+    Aabb, Clip, Influences, JointIndex, JointNames, LocalJoint, Model, ModelError, Skeleton, Track, unique_words,
+};
 
 /// The height of the books' soldier.
 const SOLDIER_HEIGHT: f32 = 72.0;
 
 /// What no edit makes small enough for the books' demo: [`EditError::TooManyVertices`] and [`EditError::TooManyBones`], where they hold.
-pub fn too_large_for_book(model: &Model) -> impl Iterator<Item = EditError> {
-    let vertices = model.mesh.vertex_count();
+pub fn too_large_for_book(model: &Model) -> Vec<EditError> {
+    if bone_count(model) <= MOST_BONES {
+        return too_large(model);
+    }
+    let mut edited = Edited {
+        model: model.clone(),
+        names: JointNames::default(),
+        changes: Vec::new(),
+    };
+    fold_still_roots(&mut edited).map_or_else(|_| too_large(model), |()| too_large(&edited.model))
+}
+
+/// Folds what keeps still above a model of too many bones into the bone below, and refuses what no edit makes small enough.
+pub(super) fn check_size(edited: &mut Edited) -> Result<(), EditError> {
+    fold_still_roots(edited)?;
+    let why = too_large(&edited.model);
+    if why.is_empty() {
+        Ok(())
+    } else {
+        Err(EditError::TooLarge { why })
+    }
+}
+
+fn too_large(model: &Model) -> Vec<EditError> {
+    let (bones, vertices) = (bone_count(model), model.mesh.vertex_count());
+    let of_bones = (bones > MOST_BONES).then_some(EditError::TooManyBones {
+        bones,
+        added: needs_root(model),
+        most: MOST_BONES,
+    });
     let of_vertices = (vertices > MOST_VERTICES).then_some(EditError::TooManyVertices {
         vertices,
         most: MOST_VERTICES,
     });
-    let added = needs_root(model);
-    let bones = model.skeleton.joint_count() + usize::from(added);
-    let of_bones = (bones > MOST_BONES).then_some(EditError::TooManyBones {
-        bones,
-        added,
-        most: MOST_BONES,
+    of_bones.into_iter().chain(of_vertices).collect()
+}
+
+/// How many bones it has for the demo, with the root that it may lack.
+fn bone_count(model: &Model) -> usize {
+    model.skeleton.joint_count() + usize::from(needs_root(model))
+}
+
+fn fold_still_roots(edited: &mut Edited) -> Result<(), ModelError> {
+    while bone_count(&edited.model) > MOST_BONES
+        && let Some(joint) = still_root(&edited.model)
+    {
+        fold(edited, joint)?;
+    }
+    Ok(())
+}
+
+/// A root with one child that moves no vertex and has no keys, such as the object of an armature. It scales evenly, so that the child can do
+/// what it does.
+fn still_root(model: &Model) -> Option<usize> {
+    let skeleton = &model.skeleton;
+    let mut children = vec![0; skeleton.joint_count()];
+    for parent in skeleton.parents().iter().flatten() {
+        children[parent.index()] += 1;
+    }
+    let mut moves = vec![false; skeleton.joint_count()];
+    for influences in &model.mesh.influences {
+        for (&joint, &weight) in influences.joints.iter().zip(&influences.weights) {
+            moves[joint as usize] |= weight > 0.0;
+        }
+    }
+    let mut joints = 0..skeleton.joint_count();
+    joints.find(|&joint| {
+        let scale = skeleton.rest()[joint].scale;
+        let is_still = model.clips.iter().all(|clip| !clip.tracks[joint].has_keys());
+        skeleton.parents()[joint].is_none()
+            && (children[joint], moves[joint], is_still) == (1, false, true)
+            && scale.min_element() > 0.0
+            && scale.max_element() - scale.min_element() <= 1e-6 * scale.max_element()
+    })
+}
+
+/// Takes a root out; its only child does what it did.
+fn fold(edited: &mut Edited, root: usize) -> Result<(), ModelError> {
+    let model = &mut edited.model;
+    let old = &model.skeleton;
+    let (bone, still) = (old.file_bones()[root], old.rest()[root]);
+    let folded = |joint: LocalJoint| LocalJoint {
+        rotation: still.rotation * joint.rotation,
+        translation: still.rotation * (still.scale * joint.translation) + still.translation,
+        scale: still.scale * joint.scale,
+    };
+    let is_child = |joint: usize| old.parents()[joint].is_some_and(|parent| parent.index() == root);
+    let kept: Vec<usize> = (0..old.joint_count()).filter(|&joint| joint != root).collect();
+    let place = |joint: u32| joint - u32::from(joint as usize > root);
+    let parents = kept.iter().map(|&joint| {
+        let parent = old.parents()[joint].filter(|_| !is_child(joint));
+        parent.map(|parent| JointIndex(place(parent.0)))
     });
-    of_vertices.into_iter().chain(of_bones)
+    let bones = kept.iter().map(|&joint| old.file_bones()[joint]);
+    let rest: Vec<LocalJoint> = kept
+        .iter()
+        .map(|&joint| {
+            if is_child(joint) {
+                folded(old.rest()[joint])
+            } else {
+                old.rest()[joint]
+            }
+        })
+        .collect();
+    let all_names: Vec<String> = space::names_of(old).collect();
+    let name = &all_names[root];
+    let new = Skeleton::new(
+        parents.collect(),
+        kept.iter().map(|&joint| old.joint_from_bind()[joint]).collect(),
+        bones.map(|other| other - u32::from(other > bone)).collect(),
+    )?;
+    let names = kept.iter().map(|&joint| all_names[joint].clone());
+    let new = space::rested(new, old, &rest).with_names(names.collect());
+    for clip in &mut model.clips {
+        let tracks = kept.iter().map(|&joint| {
+            let track = &clip.tracks[joint];
+            if !is_child(joint) {
+                return Ok(track.clone());
+            }
+            if !track.has_keys() {
+                return Ok(Track::at_rest(folded(track.key(0))));
+            }
+            let track = straight(track);
+            Track::new((0..track.key_count()).map(|key| (track.times_secs()[key], folded(track.key(key)))))
+        });
+        *clip = with_tracks(clip, tracks.collect::<Result<_, _>>()?);
+    }
+    for influences in &mut model.mesh.influences {
+        // A slot without weight names any joint.
+        influences.joints = influences.joints.map(place);
+    }
+    let name = if name.is_empty() {
+        String::new()
+    } else {
+        format!(", \"{name}\",")
+    };
+    let message = format!(
+        "Bone {bone}{name} keeps still and moves nothing: the one below does what it did, and bones have other numbers."
+    );
+    model.skeleton = new;
+    edited.names = renumbered(&edited.names, |other| {
+        (other != bone).then_some(other - u32::from(other > bone))
+    });
+    edited.changes.push(Change::new("bones-folded", message));
+    Ok(())
 }
 
 /// The factor that makes a model as high as the books' soldier, where it is too small or too large to be seen. Its y is up. The height is
@@ -58,11 +189,11 @@ pub(super) fn shape(edited: &mut Edited) -> Result<(), EditError> {
     name_clips(edited);
     name_materials(edited);
     if needs_root(&edited.model) {
-        add_root(edited).map_err(|_| EditError::Overflows)?;
+        add_root(edited)?;
     }
-    order_bones(edited).map_err(|_| EditError::Overflows)?;
-    give_keys(edited).map_err(|_| EditError::Overflows)?;
-    Ok(())
+    order_bones(edited)?;
+    add_clip(edited)?;
+    give_keys(edited, true)
 }
 
 /// Whether there are several roots, or vertices that no bone moves: the demo's shader gives these to bone 0.
@@ -98,7 +229,7 @@ fn add_root(edited: &mut Edited) -> Result<(), ModelError> {
         .collect();
     let names = [String::new()].into_iter().chain(space::names_of(old));
     let new = Skeleton::new(parents.collect(), joint_from_bind.collect(), file_bones.collect())?;
-    model.skeleton = new.with_rest(&rest).with_names(names.collect());
+    model.skeleton = space::rested(new, old, &rest).with_names(names.collect());
     for clip in &mut model.clips {
         let root = Track::at_rest(LocalJoint::IDENTITY);
         *clip = with_tracks(clip, [root].into_iter().chain(clip.tracks.iter().cloned()).collect());
@@ -152,7 +283,7 @@ fn order_bones(edited: &mut Edited) -> Result<(), ModelError> {
         old.joint_from_bind().to_vec(),
         (0..old.joint_count() as u32).collect(),
     )?;
-    let new = new.with_rest(old.rest()).with_names(space::names_of(old).collect());
+    let new = space::rested(new, old, old.rest()).with_names(space::names_of(old).collect());
     edited.names = renumbered(&edited.names, |bone| {
         joint_of_bone.get(bone as usize).map(|joint| joint.0)
     });
@@ -174,8 +305,8 @@ fn renumbered(names: &JointNames, new: impl Fn(u32) -> Option<u32>) -> JointName
     renumbered
 }
 
-/// At least one key for each bone, and the first at 0 s, where the demo begins. A model without clips gets one that keeps still.
-fn give_keys(edited: &mut Edited) -> Result<(), ModelError> {
+/// A model without clips gets one that keeps still.
+fn add_clip(edited: &mut Edited) -> Result<(), ModelError> {
     let model = &mut edited.model;
     if model.clips.is_empty() {
         let still = model.skeleton.rest().iter().map(|&rest| Track::new([(0.0, rest)]));
@@ -185,15 +316,21 @@ fn give_keys(edited: &mut Edited) -> Result<(), ModelError> {
             format!("There is a clip \"{DEMO_CLIP}\" now, in which it stands still; there was none."),
         ));
     }
-    for clip in &mut model.clips {
+    Ok(())
+}
+
+/// At least one key for each bone, without which the books' programs stop; where asked, the first at 0 s, where the demo begins.
+pub(super) fn give_keys(edited: &mut Edited, begins_at_zero: bool) -> Result<(), EditError> {
+    for clip in &mut edited.model.clips {
         let start_secs = clip.start_secs;
+        let shift_secs = if begins_at_zero { start_secs } else { 0.0 };
         let resting = clip.tracks.iter().filter(|track| !track.has_keys()).count();
-        if start_secs == 0.0 && resting == 0 {
+        if shift_secs == 0.0 && resting == 0 {
             continue;
         }
         let keyed = |track: &Track| match track.has_keys() {
-            true => track.sooner(start_secs),
-            false => Track::new([(0.0, track.key(0))]),
+            true => track.sooner(shift_secs),
+            false => Track::new([(start_secs - shift_secs, track.key(0))]),
         };
         let tracks = clip.tracks.iter().map(keyed).collect::<Result<_, _>>()?;
         *clip = with_tracks(clip, tracks);
@@ -207,7 +344,7 @@ fn give_keys(edited: &mut Edited) -> Result<(), ModelError> {
                 ),
             ));
         }
-        if start_secs != 0.0 {
+        if shift_secs != 0.0 {
             edited.changes.push(Change::new(
                 "clip-shifted",
                 format!("\"{}\" begins at 0 s, not at {start_secs} s.", clip.name),
@@ -220,7 +357,7 @@ fn give_keys(edited: &mut Edited) -> Result<(), ModelError> {
 /// A word for each clip, and the demo's for one of them.
 fn name_clips(edited: &mut Edited) {
     let clips = &mut edited.model.clips;
-    let mut names = words(clips.iter().map(|clip| clip.name.as_str()));
+    let mut names = unique_words(clips.iter().map(|clip| clip.name.as_str()));
     if let (false, Some(first)) = (names.iter().any(|name| name == DEMO_CLIP), names.first_mut()) {
         DEMO_CLIP.clone_into(first);
     }
@@ -238,7 +375,7 @@ fn name_materials(edited: &mut Edited) {
     // One of the demo's own names would take the place of its material.
     let free = |name: &str| format!("{name}{}", if DEMO_MATERIALS.contains(&name) { "_2" } else { "" });
     let free: Vec<String> = materials.iter().map(|material| free(&material.name)).collect();
-    let names = words(free.iter().map(String::as_str));
+    let names = unique_words(free.iter().map(String::as_str));
     for (material, name) in materials.iter_mut().zip(names) {
         if material.name != name {
             let message = format!("Material \"{}\" is named \"{name}\".", material.name);
@@ -246,31 +383,4 @@ fn name_materials(edited: &mut Edited) {
             material.name = name;
         }
     }
-}
-
-/// One word for each name, none twice: the loaders end a name at a blank. Names that are words already keep theirs.
-fn words<'a>(names: impl Iterator<Item = &'a str> + Clone) -> Vec<String> {
-    let word = |name: &str| -> String {
-        let is_end = |letter: char| letter.is_whitespace() || letter.is_control() || "{}".contains(letter);
-        let word = name.replace(is_end, "_");
-        if word.is_empty() { "_".to_owned() } else { word }
-    };
-    let mut taken: HashSet<String> = names
-        .clone()
-        .filter(|name| word(name) == **name)
-        .map(str::to_owned)
-        .collect();
-    let named = names.map(|name| {
-        let word = word(name);
-        if word == name || taken.insert(word.clone()) {
-            return word;
-        }
-        let free = (2..)
-            .map(|number| format!("{word}_{number}"))
-            .find(|word| !taken.contains(word));
-        let free = free.unwrap_or(word);
-        taken.insert(free.clone());
-        free
-    });
-    named.collect()
 }

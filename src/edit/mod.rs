@@ -47,13 +47,16 @@ pub struct Edits {
     pub clip_names: Vec<(String, String)>,
     /// New names of bones, by their numbers in the file.
     pub bone_names: Vec<(u32, String)>,
+    /// Gives each bone that a clip has no keys for one at rest, without which the books' programs stop.
+    pub keys_for_all: bool,
     /// Brings it into the shape that the books' demo shows: right-handed, y up, of a height that is seen, one root as bone 0, children
     /// after their parents, keys for each bone from 0 s on, names of one word and the demo's clip among them.
     pub for_book: bool,
 }
 
 impl Edits {
-    /// With what the books' programs expect, where nothing else is asked: y up, characters that face as theirs do, right-handed with bones.
+    /// With what the books' programs expect, where nothing else is asked: y up, characters that face as theirs do, right-handed with bones,
+    /// keys for each of them.
     #[must_use]
     pub fn in_space_of_the_books(mut self, model: &Model) -> Self {
         // The demo mirrors its character alone.
@@ -65,6 +68,7 @@ impl Edits {
         self.handedness.get_or_insert(handedness);
         self.up_axis.get_or_insert(UpAxis::Y);
         self.front.get_or_insert(Front::Negative);
+        self.keys_for_all = true;
         self
     }
 }
@@ -174,7 +178,7 @@ impl EditJob {
             close_loop::close_loops(edited, secs)?;
         }
         if edits.for_book {
-            too_large_for_book(&edited.model).next().map_or(Ok(()), Err)?;
+            for_book::check_size(edited)?;
         }
         Ok(())
     }
@@ -203,6 +207,8 @@ impl EditJob {
         rename::rename_bones(edited, &edits.bone_names)?;
         if edits.for_book {
             for_book::shape(edited)?;
+        } else if edits.keys_for_all {
+            for_book::give_keys(edited, false)?;
         }
         Ok(())
     }

@@ -30,7 +30,7 @@ pub(super) fn cut(edited: &mut Edited, range_secs: [f32; 2]) -> Result<(), EditE
     if from == clip.start_secs && to == clip.end_secs {
         return Ok(());
     }
-    *clip = part(clip, range_secs).map_err(|_| EditError::Overflows)?;
+    *clip = part(clip, range_secs)?;
     let begins = if from == 0.0 { "" } else { ", which begins at 0 s now" };
     edited.changes.push(Change::new(
         "range-cut",

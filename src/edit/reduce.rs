@@ -1,10 +1,10 @@
 //! Leaves keys out that say little.
 //!
 //! Each track is thinned by itself (Ramer–Douglas–Peucker) in a bound of its own: its share of what the joints of its chain may do
-//! together. Then the poses at all old keys are compared, in the model's space; chains that came too far off are thinned again in
+//! together. Then the poses at all old keys and between them are compared, in the model's space; chains that came too far off are thinned again in
 //! less, and what does not fit in the end keeps its keys. So the bound holds whatever the shares were.
 
-use glam::Affine3A;
+use glam::{Affine3A, Vec3A};
 
 use super::edited::{Change, Edited, with_tracks};
 use super::error::EditError;
@@ -14,11 +14,21 @@ use crate::model::{Aabb, Clip, LocalJoint, Model, Skeleton, Track};
 /// Errors of a chain's joints rarely point the same way, so shares begin greater than what is safe.
 const FIRST_SHARE: f32 = 8.0;
 
+/// A greater tolerance leaves nothing of a motion.
+const MOST_TOLERANCE: f32 = 0.1;
+
+/// Poses are compared at old keys and half-way between them. Elsewhere they may be so much further off.
+const BETWEEN: f32 = 1.05;
+
+/// Times that are looked at in each round, but for the last, and the most that are left out between two of them.
+const FEW_TIMES: usize = 1024;
+const MOST_STEP: usize = 32;
+
 /// So often is a chain thinned anew before it keeps its keys.
 const MOST_ROUNDS: usize = 8;
 
 /// The thinning of all clips, in steps, so that no joint and no tip is off by more than a tolerance of the bind pose's diagonal at any
-/// old key.
+/// old key, or between them.
 #[derive(Clone, Debug)]
 pub(super) struct Reducing {
     diagonal: f32,
@@ -31,16 +41,16 @@ pub(super) struct Reducing {
 
 impl Reducing {
     pub(super) fn new(edited: &Edited, tolerance: f32) -> Result<Self, EditError> {
-        if !(tolerance.is_finite() && tolerance > 0.0) {
-            return Err(EditError::Nonsense {
-                what: "The tolerance of reduced keys",
-                value: tolerance,
+        if !(tolerance > 0.0 && tolerance <= MOST_TOLERANCE) {
+            return Err(EditError::Tolerance {
+                tolerance,
+                most: MOST_TOLERANCE,
             });
         }
         let diagonal = diagonal(&edited.model);
         Ok(Self {
             diagonal,
-            bound: tolerance * diagonal,
+            bound: tolerance * diagonal / BETWEEN,
             tips: tip_distances(&edited.model),
             done: 0,
             thinning: None,
@@ -69,7 +79,7 @@ impl Reducing {
         self.done += 1;
         if new.key_count != old.key_count {
             let fraction = if self.diagonal > 0.0 {
-                reached / self.diagonal
+                BETWEEN * reached / self.diagonal
             } else {
                 0.0
             };
@@ -123,16 +133,20 @@ struct Thinning {
     shares: Vec<f32>,
     rounds: usize,
     times_secs: Vec<f32>,
+    /// Of the times one in so many is looked at, and all in the last round.
+    step: usize,
     old: CompiledClip,
 }
 
 impl Thinning {
     fn new(skeleton: &Skeleton, tips: &[f32], clip: &Clip, bound: f32) -> Self {
+        let times_secs = all_times(clip);
         Self {
             limits: Limits::new(skeleton, tips, clip, bound),
             shares: vec![FIRST_SHARE; clip.tracks.len()],
             rounds: 0,
-            times_secs: all_times(clip),
+            step: (times_secs.len() / FEW_TIMES).clamp(1, MOST_STEP),
+            times_secs,
             old: CompiledClip::new(clip),
         }
     }
@@ -141,11 +155,15 @@ impl Thinning {
     fn round(&mut self, skeleton: &Skeleton, tips: &[f32], clip: &Clip, bound: f32) -> Option<(Clip, f32)> {
         let shares = &mut self.shares;
         let new = with_tracks(clip, self.limits.thinned(clip, shares));
-        let off = greatest_errors(skeleton, tips, [&self.old, &CompiledClip::new(&new)], &self.times_secs);
+        let times_secs = self.times_secs.iter().copied().step_by(self.step);
+        let off = greatest_errors(skeleton, tips, [&self.old, &CompiledClip::new(&new)], times_secs);
         let reached = off.iter().copied().fold(0.0, f32::max);
         let is_over = |joint: usize| off[joint] > bound;
         if !(0..off.len()).any(is_over) || shares.iter().all(|&share| share == 0.0) {
-            return Some((new, reached));
+            return match std::mem::replace(&mut self.step, 1) {
+                1 => Some((new, reached)),
+                _ => None,
+            };
         }
         self.rounds += 1;
         let mut tightened = vec![1.0_f32; shares.len()];
@@ -169,20 +187,28 @@ impl Thinning {
     }
 }
 
-/// Every time at which some joint has a key, to the bit.
+/// Every time at which some joint has a key, to the bit, and those half-way between two.
 fn all_times(clip: &Clip) -> Vec<f32> {
     let keyed = clip.tracks.iter().filter(|track| track.has_keys());
     let mut times_secs: Vec<f32> = keyed.flat_map(Track::times_secs).copied().collect();
     times_secs.sort_by(f32::total_cmp);
     times_secs.dedup();
+    let between = times_secs.windows(2).map(|pair| pair[0].midpoint(pair[1]));
+    let between: Vec<f32> = between.collect();
+    times_secs.extend(between);
     times_secs
 }
 
 /// For each joint how far it, or a tip of it, is off at most.
-fn greatest_errors(skeleton: &Skeleton, tips: &[f32], [old, new]: [&CompiledClip; 2], times_secs: &[f32]) -> Vec<f32> {
+fn greatest_errors(
+    skeleton: &Skeleton,
+    tips: &[f32],
+    [old, new]: [&CompiledClip; 2],
+    times_secs: impl Iterator<Item = f32>,
+) -> Vec<f32> {
     let mut poses = [PoseBuffers::for_skeleton(skeleton), PoseBuffers::for_skeleton(skeleton)];
     let mut greatest = vec![0.0_f32; skeleton.joint_count()];
-    for &secs in times_secs {
+    for secs in times_secs {
         poses[0].evaluate(skeleton, old, secs);
         poses[1].evaluate(skeleton, new, secs);
         let joints = poses[0].model.0.iter().zip(&poses[1].model.0);
@@ -193,14 +219,17 @@ fn greatest_errors(skeleton: &Skeleton, tips: &[f32], [old, new]: [&CompiledClip
     greatest
 }
 
-/// How far apart two places of a joint are: its own, and what is `tip` away from it along each axis.
+/// How far apart two places of a joint are at most: its own, and all that is no more than `tip` away from it. A matrix lengthens nothing by
+/// more than the root of the squares of its numbers, nor by more than that of the greatest row of its product with itself.
 fn apart(old: &Affine3A, new: &Affine3A, tip: f32) -> f32 {
     let moved = new.translation - old.translation;
-    let turned = (new.matrix3 - old.matrix3) * tip;
-    let tips = [turned.x_axis, turned.y_axis, turned.z_axis];
-    tips.into_iter()
-        .map(|turned| (moved + turned).length())
-        .fold(moved.length(), f32::max)
+    let turned = new.matrix3 - old.matrix3;
+    let columns = [turned.x_axis, turned.y_axis, turned.z_axis];
+    let product = turned.transpose() * turned;
+    let rows = [product.x_axis, product.y_axis, product.z_axis].map(|row| row.abs().element_sum());
+    let all: f32 = columns.into_iter().map(Vec3A::length_squared).sum();
+    let greatest_row = rows.into_iter().fold(0.0, f32::max);
+    moved.length() + all.min(greatest_row).sqrt() * tip
 }
 
 /// How much each track may be off by itself.

@@ -93,9 +93,7 @@ pub(super) fn scale(edited: &mut Edited, factor: f32) -> Result<(), EditError> {
     if factor == 1.0 {
         return Ok(());
     }
-    Map::new(Mat3A::IDENTITY, factor)
-        .model(&mut edited.model)
-        .map_err(|_| EditError::Overflows)?;
+    Map::new(Mat3A::IDENTITY, factor).model(&mut edited.model)?;
     edited.changes.push(Change::new(
         "scaled",
         format!("All lengths are multiplied by {factor}."),
@@ -120,7 +118,7 @@ impl Map {
         }
     }
 
-    fn model(&self, model: &mut Model) -> Result<(), ModelError> {
+    fn model(&self, model: &mut Model) -> Result<(), EditError> {
         let mesh = &mut model.mesh;
         for position in &mut mesh.positions {
             *position = self.point(*position);
@@ -142,20 +140,24 @@ impl Map {
                     |value| self.scale(value),
                 )
             });
-            *clip = with_tracks(clip, tracks.collect::<Result<_, _>>()?);
+            *clip = with_tracks(clip, tracks.collect::<Result<_, ModelError>>()?);
         }
         Ok(())
     }
 
-    fn skeleton(&self, skeleton: &Skeleton) -> Result<Skeleton, ModelError> {
+    fn skeleton(&self, skeleton: &Skeleton) -> Result<Skeleton, EditError> {
         let joint_from_bind = skeleton.joint_from_bind().iter().map(|matrix| self.matrix(matrix));
         let rest: Vec<LocalJoint> = skeleton.rest().iter().map(|joint| self.joint(joint)).collect();
+        if let Some(joint) = rest.iter().position(|joint| !joint.is_finite()) {
+            let what = format!("Bone {} is too far away at rest.", skeleton.file_bones()[joint]);
+            return Err(EditError::Overflows { what });
+        }
         let turned = Skeleton::new(
             skeleton.parents().to_vec(),
             joint_from_bind.collect(),
             skeleton.file_bones().to_vec(),
         )?;
-        Ok(turned.with_rest(&rest).with_names(names_of(skeleton).collect()))
+        Ok(rested(turned, skeleton, &rest).with_names(names_of(skeleton).collect()))
     }
 
     /// A matrix of the old space, there and back.
@@ -194,6 +196,15 @@ impl Map {
             self.axes.y_axis.abs().into(),
             self.axes.z_axis.abs().into(),
         ) * scale
+    }
+}
+
+/// A skeleton made of an old one, at rest here, unless the old one rests in its bind pose.
+pub(super) fn rested(new: Skeleton, old: &Skeleton, rest: &[LocalJoint]) -> Skeleton {
+    if old.rests_in_bind_pose() {
+        new
+    } else {
+        new.with_rest(rest)
     }
 }
 

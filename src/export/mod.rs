@@ -14,7 +14,9 @@ use crate::model::{MapSlot, Skeleton};
 
 pub use directions::directions;
 pub use glb::{EncodedMaps, encode_map, glb, glb_losses, glb_with, turned_materials};
-pub use m3d::{m3d, m3d_losses, one_word};
+pub use m3d::{Bake, Look, looks, m3d, m3d_losses, m3d_with};
+
+pub use crate::model::one_word;
 
 /// A written file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -42,6 +44,12 @@ pub enum ExportError {
     /// A picture could not be written.
     #[error(transparent)]
     Picture(#[from] crate::image::EncodeError),
+    /// Something came out as no finite number.
+    #[error("A number overflows: `{place}` of the .glb would be none. Smaller lengths, by `--scale`, may do.")]
+    NotFinite {
+        /// JSON pointer.
+        place: String,
+    },
     /// The sizes of a file's parts are written in 32 bits.
     #[error("The file would have more than 4 GiB.")]
     TooLarge,

@@ -16,8 +16,8 @@ pub(crate) fn srgb_from_linear(linear: f32) -> u8 {
     BOUNDS.partition_point(|&bound| bound <= linear) as u8
 }
 
-/// IEC 61966-2-1.
-fn curve(srgb: f32) -> f32 {
+/// Linear light of an encoded value, 0 … 1 (IEC 61966-2-1).
+pub(crate) fn curve(srgb: f32) -> f32 {
     if srgb <= 0.040_45 {
         srgb / 12.92
     } else {

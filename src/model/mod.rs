@@ -35,8 +35,9 @@ pub use material::{AlphaMode, MapSlot, Material, MaterialMap, Reflectance, Sampl
 pub(crate) use mesh::out_of_range as index_out_of_range;
 pub use mesh::{Influences, Mesh, Submesh};
 pub use mirror::{MirrorPair, mirror_pairs};
-pub(crate) use names::unique as unique_names;
-pub use reflectance::{FresnelSurface, MetallicSurface, PhongSurface, roughness_from_power};
+pub use names::one_word;
+pub(crate) use names::{Taken, unique as unique_names, unique_words};
+pub use reflectance::{DIELECTRIC, FresnelSurface, MetallicSurface, roughness_from_power};
 pub use skeleton::{JointIndex, Skeleton};
 pub use space::{Front, Handedness, UpAxis, world_from_model};
 pub use track::Track;

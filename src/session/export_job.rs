@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::export_files::Archive;
-use super::export_maps::{KnownMaps, MapFiles, MapsAsked, plan_maps};
+use super::export_maps::{KnownMaps, MapFiles, MapsAsked, plan_maps, unreadable_maps};
 use super::export_plan::ExportPlan;
 use super::load::Progress;
 use super::maps::Maps;
@@ -172,7 +172,7 @@ impl ExportJob {
             asked: MapsAsked {
                 are_written: writes_maps,
                 for_book: edits.for_book,
-                only_dds: format == ExportFormat::D3d12,
+                dialect: format.dialect().unwrap_or(Dialect::D3d12),
                 turns_green,
             },
             state: State::Edit(
@@ -284,7 +284,7 @@ impl ExportJob {
 
     /// A step up to the model's file, but for those that pack it.
     fn write_next(&mut self) -> Result<Option<WrittenModel>, ExportRefusal> {
-        let images = lent(&self.maps);
+        let images = self.maps.lent();
         match &mut self.state {
             State::Edit(before, edits) => {
                 if !edits.step()? {
@@ -293,7 +293,7 @@ impl ExportJob {
                     plan.changes.append(&mut edited.changes);
                     self.state = match self.format.dialect() {
                         None => {
-                            plan_glb(&edited.model, &images, &mut plan);
+                            plan_glb(&edited.model, &self.maps, &mut plan);
                             let mut encoded = EncodedMaps::default();
                             for (place, image) in &self.maps.images {
                                 if let Some(file) = self.maps.pictures.get(place) {
@@ -330,7 +330,7 @@ impl ExportJob {
                     return Ok(None);
                 }
                 let dialect = self.format.dialect().unwrap_or(Dialect::D3d12);
-                let Exported { bytes, .. } = export::m3d(&edited.model, &edited.names, dialect)?;
+                let Exported { bytes, .. } = export::m3d_with(&edited.model, &edited.names, dialect, &files.looks)?;
                 Ok(Some(WrittenModel {
                     bytes,
                     maps: std::mem::take(&mut files.made),
@@ -353,7 +353,8 @@ fn stem_of(stem: &str, format: ExportFormat) -> String {
     format!("{}-{}", plain.unwrap_or(stem), format.name())
 }
 
-fn plan_glb(model: &Model, images: &export::MapImages<'_>, plan: &mut ExportPlan) {
+fn plan_glb(model: &Model, known: &KnownMaps, plan: &mut ExportPlan) {
+    let images = &known.lent();
     let turned = export::turned_materials(model, images);
     let count = turned.iter().filter(|turned| **turned).count();
     if count > 0 {
@@ -365,9 +366,7 @@ fn plan_glb(model: &Model, images: &export::MapImages<'_>, plan: &mut ExportPlan
             ),
         });
     }
-    plan.losses.extend(export::glb_losses(model, images));
-}
-
-fn lent(maps: &KnownMaps) -> export::MapImages<'_> {
-    maps.images.iter().map(|(&place, image)| (place, &**image)).collect()
+    let unreadable = known.unreadable(&MapSlot::ALL);
+    plan.losses.extend(export::glb_losses(model, images, &unreadable));
+    plan.losses.extend(unreadable_maps(unreadable.len()));
 }

@@ -1,6 +1,6 @@
 //! Pictures beside a file of the books: which there are, what they hold, and their names in its materials.
 
-use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, HashMap, VecDeque};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -9,13 +9,20 @@ use super::files::File;
 use crate::diagnostic::codes;
 use crate::diagnostic::collect::counted;
 use crate::edit::Change;
-use crate::export::{ExportError, Loss, directions, one_word};
+use crate::export::{self, Bake, ExportError, Look, Loss, MapImages, directions, one_word};
+use crate::format::Dialect;
 use crate::image::{Channels, Image, MapKind, encode_dds, encode_png};
-use crate::model::{Green, MapSlot, MaterialMap, Model};
+use crate::model::{Green, MapSlot, Material, MaterialMap, Model, Taken};
 use crate::scene::map_kind;
 
 /// Slots that the books' materials have names for.
 const SLOTS: [MapSlot; 2] = [MapSlot::Diffuse, MapSlot::Normal];
+
+/// Materials that one sentence names.
+const MOST_TOLD: usize = 5;
+
+/// Bytes of a name without its extension: systems take 255, of which a number, an extension and what is written beside need some.
+const LONGEST_STEM: usize = 120;
 
 /// What is known of the maps of a model that is to be written, by material and slot.
 #[derive(Debug, Default)]
@@ -26,6 +33,22 @@ pub(super) struct KnownMaps {
     pub(super) pictures: BTreeMap<(usize, MapSlot), File>,
 }
 
+impl KnownMaps {
+    /// The pictures that could be decoded.
+    pub(super) fn lent(&self) -> MapImages<'_> {
+        self.images.iter().map(|(&place, image)| (place, &**image)).collect()
+    }
+
+    /// Maps of these slots whose files are there and cannot be read.
+    pub(super) fn unreadable(&self, slots: &[MapSlot]) -> BTreeSet<(usize, MapSlot)> {
+        let places = self.pictures.keys().filter(|place| slots.contains(&place.1));
+        places
+            .filter(|place| !self.images.contains_key(place))
+            .copied()
+            .collect()
+    }
+}
+
 /// What becomes of the maps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MapsAsked {
@@ -33,8 +56,8 @@ pub(super) struct MapsAsked {
     pub(super) are_written: bool,
     /// As DDS with mips, and one for each map that the books' demo opens.
     pub(super) for_book: bool,
-    /// The demo is of the book that reads DDS alone.
-    pub(super) only_dds: bool,
+    /// Of the book.
+    pub(super) dialect: Dialect,
     /// Green may point up, as in glTF, and is turned where its picture is written.
     pub(super) turns_green: bool,
 }
@@ -44,6 +67,8 @@ pub(super) struct MapsAsked {
 pub(super) struct MapFiles {
     waiting: VecDeque<(String, Content)>,
     pub(super) made: Vec<(String, Arc<[u8]>)>,
+    /// What the materials look like, with the pictures that are written.
+    pub(super) looks: Vec<Look>,
 }
 
 /// What a file is made of.
@@ -53,6 +78,8 @@ enum Content {
     /// Directions with green the other way.
     TurnedPng(Arc<Image>),
     Dds(Arc<Image>, Texels, MapKind),
+    /// Base colours, if there are any, and metalness as one map: DDS, else PNG.
+    Baked(Box<Bake>, Option<Arc<Image>>, Arc<Image>, bool),
     /// One colour.
     Plain([u8; 4]),
 }
@@ -103,6 +130,17 @@ impl Content {
                 };
                 encode_dds(other.as_ref().unwrap_or(&image)).into()
             }
+            Self::Baked(bake, base, metallic, is_dds) => {
+                let (texels, width, height) = bake.texels(base.as_deref(), &metallic);
+                if is_dds {
+                    let image = Image::from_rgba8(width, height, texels, "baked");
+                    image
+                        .map_or_else(|_| Vec::new(), |image| encode_dds(&image.with_mips(MapKind::Diffuse)))
+                        .into()
+                } else {
+                    encode_png(&texels, width, height)?.into()
+                }
+            }
             Self::Plain(texel) => {
                 let image = Image::from_rgba8(4, 4, texel.repeat(16), "plain");
                 let bytes = image.map_or_else(|_| Vec::new(), |image| encode_dds(&image.with_mips(MapKind::Data)));
@@ -117,18 +155,37 @@ impl Content {
 /// has no picture keeps its name otherwise.
 pub(super) fn plan_maps(model: &mut Model, known: &KnownMaps, asked: MapsAsked, plan: &mut ExportPlan) -> MapFiles {
     let turned = turn(model, known, asked, plan);
-    if !asked.are_written {
-        say_unwritten(model, known, asked, plan);
-        return MapFiles::default();
-    }
+    let mut looks = export::looks(model, &known.lent());
     let mut files = Names::default();
-    let (mut missing, mut added) = (0, 0);
+    let (mut missing, mut added, mut is_flat) = (0, 0, vec![false; turned.len()]);
     for (material, &is_turned) in turned.iter().enumerate() {
         for slot in SLOTS {
             let named = model.materials[material].map_name(slot);
             let place = (material, slot);
-            let name = match (named, known.pictures.get(&place), known.images.get(&place)) {
-                (Some(named), Some(file), image) if image.is_some() || !asked.for_book => {
+            let bake = match slot {
+                MapSlot::Diffuse if asked.are_written => looks[material].bake(asked.dialect),
+                _ => None,
+            };
+            let found = (named, known.pictures.get(&place), known.images.get(&place));
+            let is_missing = named.is_none() || asked.are_written && found.2.is_none();
+            let has_plain = asked.are_written || asked.dialect == Dialect::D3d12;
+            let is_plain = asked.for_book && bake.is_none() && is_missing && has_plain;
+            is_flat[material] |= slot == MapSlot::Normal && (named.is_none() || is_plain);
+            let mut sampling = model.materials[material]
+                .map(slot)
+                .map(|map| map.sampling)
+                .unwrap_or_default();
+            let name = match (bake, found) {
+                (Some(bake), _) => {
+                    sampling = bake.sampling;
+                    files.baked((material, &model.materials[material]), bake, (known, asked))
+                }
+                _ if is_plain => {
+                    missing += usize::from(named.is_some());
+                    added += usize::from(named.is_none());
+                    plain(slot, asked, &mut files)
+                }
+                (None, (Some(named), Some(file), image)) if asked.are_written => {
                     let texels = if is_turned && slot == MapSlot::Normal {
                         Texels::Turned
                     } else {
@@ -137,15 +194,6 @@ pub(super) fn plan_maps(model: &mut Model, known: &KnownMaps, asked: MapsAsked, 
                     let (extension, content) = content(file, image, (slot, texels), asked.for_book);
                     files.name((&file.path, slot, texels), stem(named), &extension, content)
                 }
-                (named, ..) if asked.for_book => {
-                    missing += usize::from(named.is_some());
-                    added += usize::from(named.is_none());
-                    let (stem, texel) = match slot {
-                        MapSlot::Normal => ("flat_normal", [128, 128, 255, 255]),
-                        _ => ("white", [255; 4]),
-                    };
-                    files.name((stem, slot, Texels::Same), stem, "dds", Content::Plain(texel))
-                }
                 _ => continue,
             };
             let material = &mut model.materials[material];
@@ -153,15 +201,95 @@ pub(super) fn plan_maps(model: &mut Model, known: &KnownMaps, asked: MapsAsked, 
                 MapSlot::Normal => &mut material.normal_map,
                 _ => &mut material.diffuse_map,
             };
-            let sampling = map.as_ref().map(|map| map.sampling).unwrap_or_default();
             *map = Some(MaterialMap { name, sampling });
         }
     }
-    say_written(files.files.len(), [added, missing], asked, plan);
+    if asked.for_book {
+        straighten(model, &is_flat);
+    }
+    let unreadable = known.unreadable(&SLOTS);
+    say_written(
+        files.files.len(),
+        [added, missing - unreadable.len().min(missing)],
+        asked,
+        plan,
+    );
+    if asked.are_written {
+        plan.losses.extend(unreadable_maps(unreadable.len()));
+    } else {
+        say_unwritten(model, known, asked, plan);
+    }
+    say_looks(model, &looks, known, plan);
     MapFiles {
         waiting: files.files,
         made: Vec::new(),
+        looks,
     }
+}
+
+/// The name of a map of one colour that changes nothing: one that is written, else the one beside the DirectX 12 book's demo.
+fn plain(slot: MapSlot, asked: MapsAsked, files: &mut Names) -> String {
+    let (stem, texel, of_demo) = match slot {
+        MapSlot::Normal => ("flat_normal", [128, 128, 255, 255], "default_nmap.dds"),
+        _ => ("white", [255; 4], "white1x1.dds"),
+    };
+    if asked.are_written {
+        files.name((stem, slot, Texels::Same), stem, "dds", Content::Plain(texel))
+    } else {
+        of_demo.to_owned()
+    }
+}
+
+/// Gives vertices of materials without bumps the sign of tangents that the demo takes all to have.
+fn straighten(model: &mut Model, is_flat: &[bool]) {
+    let are_flat = model.vertices_of(|material| is_flat[material]);
+    let mut tangents = model.mesh.tangents_or_computed().into_owned();
+    for (tangent, is_flat) in tangents.iter_mut().zip(are_flat) {
+        if is_flat {
+            tangent.w = -1.0;
+        }
+    }
+    model.mesh.tangents = tangents;
+}
+
+/// Says which materials have numbers that are means of pictures.
+fn say_looks(model: &Model, looks: &[Look], known: &KnownMaps, plan: &mut ExportPlan) {
+    let mapped = model.materials.iter().zip(looks).enumerate();
+    let mapped = mapped.filter(|(_, (material, _))| material.metallic_roughness_map.is_some());
+    let told: Vec<String> = mapped
+        .map(|(index, (material, look))| {
+            let is_there = known.images.contains_key(&(index, MapSlot::MetallicRoughness));
+            let metallic = match (is_there, look.is_baked()) {
+                (false, _) => "its picture cannot be read, so it is taken for no metal".to_owned(),
+                (_, true) => "metalness is multiplied into its diffuse map".to_owned(),
+                _ => format!("metalness is {:.2}", look.metallic),
+            };
+            format!("\"{}\": {metallic}, roughness is {:.2}", material.name, look.roughness)
+        })
+        .collect();
+    let Some(first) = told.get(..told.len().min(MOST_TOLD)).filter(|first| !first.is_empty()) else {
+        return;
+    };
+    let more = match told.len() - first.len() {
+        0 => String::new(),
+        more => format!("; and {} like these", counted(more, "material", "materials")),
+    };
+    plan.changes.push(Change {
+        code: "metalness-from-picture",
+        message: format!("Means of pictures are written. {}{more}.", first.join("; ")),
+    });
+}
+
+/// The loss of maps whose pictures are there and cannot be read.
+pub(super) fn unreadable_maps(count: usize) -> Option<Loss> {
+    (count > 0).then(|| Loss {
+        code: "maps-unreadable",
+        message: format!(
+            "{} there and cannot be read; `check --textures` says why.",
+            counted(count, "map is", "maps are")
+        ),
+        count,
+    })
 }
 
 /// Turns the bitangents of materials whose green points up, where no picture that is left as it is says otherwise. Whether each is turned.
@@ -253,12 +381,24 @@ fn say_unwritten(model: &Model, known: &KnownMaps, asked: MapsAsked, plan: &mut 
             .extension()
             .is_none_or(|extension| !extension.eq_ignore_ascii_case("dds"))
     };
-    let others = names.flatten().filter(is_other).count();
-    if asked.for_book && asked.only_dds && others > 0 {
+    let (count, message) = match asked.dialect {
+        Dialect::D3d12 => {
+            let others = names.flatten().filter(is_other).count();
+            (others, "Maps are not named as DDS, which the demo needs.")
+        }
+        _ => {
+            let none = names.filter(Option::is_none).count();
+            (
+                none,
+                "Materials lack maps, and the demo opens two for each; `--textures-out` writes plain ones.",
+            )
+        }
+    };
+    if asked.for_book && count > 0 {
         plan.losses.push(Loss {
             code: codes::BOOK_MAP_FORMAT.name,
-            message: "Maps are not named as DDS, which the demo needs.".to_owned(),
-            count: others,
+            message: message.to_owned(),
+            count,
         });
     }
 }
@@ -302,7 +442,7 @@ struct Names {
     files: VecDeque<(String, Content)>,
     /// Names by the picture that they stand for, its use and its texels.
     names: HashMap<(String, MapSlot, Texels), String>,
-    taken: HashSet<String>,
+    taken: Taken,
 }
 
 impl Names {
@@ -318,25 +458,69 @@ impl Names {
         if let Some(name) = self.names.get(&key) {
             return name.clone();
         }
-        // A name of dots is a folder.
-        let word = match one_word(&stem.replace(':', "_")).trim_matches('.') {
-            "" => "map".to_owned(),
-            word => word.to_owned(),
+        let word = file_word(stem);
+        let ending = match file_word(extension).as_str() {
+            _ if extension.is_empty() => String::new(),
+            extension => format!(".{extension}"),
         };
-        let ending = if extension.is_empty() {
-            String::new()
-        } else {
-            format!(".{extension}")
+        let named = |number: u32| match number {
+            1 => format!("{word}{ending}"),
+            _ => format!("{word}_{number}{ending}"),
         };
-        let mut name = format!("{word}{ending}");
-        let mut number = 2;
         // Files are told apart without case on some systems.
-        while !self.taken.insert(name.to_lowercase()) {
-            name = format!("{word}_{number}{ending}");
-            number += 1;
-        }
+        let name = named(self.taken.free(|number| named(number).to_lowercase()));
         self.files.push_back((name.clone(), content));
         self.names.insert(key, name.clone());
         name
+    }
+}
+
+impl Names {
+    /// The name of a diffuse map that is made of base colours and metalness.
+    fn baked(
+        &mut self,
+        (index, material): (usize, &Material),
+        bake: Bake,
+        (known, asked): (&KnownMaps, MapsAsked),
+    ) -> String {
+        let slots = [MapSlot::Diffuse, MapSlot::MetallicRoughness];
+        let [of_color, of_metal] = slots.map(|slot| known.pictures.get(&(index, slot)).map_or("", |file| &file.path));
+        let picture = format!("{of_color}\n{of_metal}\n{bake:?}");
+        let name = slots
+            .into_iter()
+            .find_map(|slot| material.map_name(slot))
+            .unwrap_or_default();
+        let [base, metallic] = slots.map(|slot| known.images.get(&(index, slot)).cloned());
+        let Some(metallic) = metallic else { return String::new() };
+        let extension = if asked.for_book { "dds" } else { "png" };
+        let content = Content::Baked(Box::new(bake), base, metallic, asked.for_book);
+        self.name(
+            (&picture, MapSlot::Diffuse, Texels::Same),
+            stem(name),
+            extension,
+            content,
+        )
+    }
+}
+
+/// A word that every system takes as a file's name.
+fn file_word(stem: &str) -> String {
+    let is_kept = |letter: char| !letter.is_control() && !"<>:|?*/\\\u{22}".contains(letter);
+    let word = one_word(&stem.replace(|letter| !is_kept(letter), "_"));
+    let end = (0..=LONGEST_STEM.min(word.len()))
+        .rev()
+        .find(|&end| word.is_char_boundary(end));
+    // A name of dots is a folder.
+    let word = word[..end.unwrap_or_default()].trim_matches('.');
+    let first = word.split('.').next().unwrap_or_default().to_ascii_lowercase();
+    let is_device = match first.as_bytes() {
+        b"con" | b"prn" | b"aux" | b"nul" => true,
+        [b'c', b'o', b'm', b'0'..=b'9'] | [b'l', b'p', b't', b'0'..=b'9'] => true,
+        _ => false,
+    };
+    match word {
+        "" => "map".to_owned(),
+        word if is_device => format!("_{word}"),
+        word => word.to_owned(),
     }
 }

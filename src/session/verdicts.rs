@@ -59,7 +59,7 @@ impl Verdicts {
 /// What a model of another format exceeds in the demos of these books even when it is converted for them: what the export for the book
 /// refuses, and more materials than the demo has room for. Each submesh becomes a material there.
 pub fn limits_once_converted(model: &Model, books: &[Book]) -> Vec<Limit> {
-    let of_edits = too_large_for_book(model).map(|error| {
+    let of_edits = too_large_for_book(model).into_iter().map(|error| {
         let code = match error {
             EditError::TooManyBones { .. } => &codes::MANY_BONES,
             _ => &codes::MANY_VERTICES,

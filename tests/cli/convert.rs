@@ -303,15 +303,19 @@ fn what_was_mended_is_a_change() {
 }
 
 #[test]
-fn a_bone_without_keys_is_told_or_mended_for_the_book() {
+fn a_bone_without_keys_gets_one_unless_it_is_to_stay_so() {
     let empty = fixture("check/track-empty.m3d");
-    let told = convert(&empty, &out("empty", "as_it_is.m3d"), &[]);
+    let told = convert(&empty, &out("empty", "kept.m3d"), &["--keep-empty"]);
     assert!(codes(&told["losses"]).contains(&"track-empty"), "{told}");
-    let text = run(["convert", &empty, &out("empty", "text.m3d")]).fine();
+    let text = run(["convert", &empty, &out("empty", "text.m3d"), "--keep-empty"]).fine();
     assert!(
-        text.contains("track-empty") && text.contains("for the book's demo"),
+        text.contains("track-empty") && text.contains("`--keep-empty`"),
         "{text}"
     );
+    let told = convert(&empty, &out("empty", "filled.m3d"), &[]);
+    assert!(!codes(&told["losses"]).contains(&"track-empty"), "{told}");
+    assert!(codes(&told["changes"]).contains(&"track-empty"), "{told}");
+    assert_book_shows(&out("empty", "filled.m3d"), true);
     let told = convert(&empty, &out("empty", "for_book.m3d"), &["--for-book"]);
     assert!(!codes(&told["losses"]).contains(&"track-empty"), "{told}");
     assert!(codes(&told["changes"]).contains(&"track-empty"), "{told}");
@@ -557,11 +561,13 @@ fn wrong_use_says_what_is_wrong_and_writes_nothing() {
     let glb = out("wrong", "out.glb");
     let none = out("wrong", "out.obj");
     let lost = format!("{m3d}/no/such/out.m3d");
-    let cases: [(&str, &[&str], &str); 22] = [
+    let cases: [(&str, &[&str], &str); 24] = [
         (&none, &[], "OUT ends in .m3d or .glb"),
         (&glb, &["--dialect", "d3d11"], "--dialect is for .m3d"),
         (&glb, &["--for-book"], "--for-book is for .m3d"),
         (&glb, &["--textures-out", "x"], "--textures-out is for .m3d"),
+        (&glb, &["--keep-empty"], "--keep-empty is for .m3d"),
+        (&m3d, &["--reduce", "2"], "at most 0.1"),
         (&glb, &["--hand", "left"], "--hand left is for .m3d"),
         (
             &m3d,
@@ -643,6 +649,32 @@ fn maps_are_written_as_png_and_named() {
         folder_name,
     ]);
     assert_eq!(twice.code, Some(2), "maps that are read are not overwritten: {twice:?}");
+}
+
+/// The maps are written first, and nothing stays of them where the rest cannot be.
+#[test]
+fn maps_go_again_where_the_file_cannot_be_written() {
+    let sample = Path::new(FIGURE).parent().expect("a folder").to_str().expect("UTF-8");
+    let beside = scratch("convert_half");
+    let (new, old) = (beside.join("new"), beside.join("old"));
+    std::fs::create_dir_all(&old).expect("can be made");
+    let _ = std::fs::remove_dir_all(&new);
+    let output = beside.join("missing/o.m3d");
+    for folder in [&new, &old] {
+        let [folder_name, output] = [folder, &output].map(|path| path.to_str().expect("UTF-8"));
+        let failed = run([
+            "convert",
+            FIGURE,
+            output,
+            "--textures",
+            sample,
+            "--textures-out",
+            folder_name,
+        ]);
+        assert_eq!(failed.code, Some(2), "{failed:?}");
+    }
+    assert!(!new.exists(), "it was made for the maps");
+    assert_eq!(std::fs::read_dir(&old).expect("it was there").count(), 0);
 }
 
 #[test]

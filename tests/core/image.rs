@@ -3,6 +3,7 @@
 mod blocks;
 mod damage;
 mod dds;
+mod encode;
 mod errors;
 mod finding;
 mod layouts;

@@ -38,6 +38,7 @@ mod gpu;
 mod kept_maps;
 mod light;
 mod lines;
+mod looks;
 mod map_uploads;
 mod maps;
 mod normal_maps;

@@ -1,5 +1,7 @@
 //! The one buffer, and the views and accessors of it.
 
+use std::ops::Range;
+
 use serde_json::{Value, json};
 
 use super::number::number;
@@ -50,7 +52,20 @@ impl Binary {
 
     /// Floats in rows of `N`, with their bounds where `bounded`.
     pub(super) fn floats<const N: usize>(&mut self, rows: &[[f32; N]], target: Target, bounded: bool) -> usize {
+        self.slices(rows, target, bounded, &[0..rows.len()]);
+        self.accessors.len() - 1
+    }
+
+    /// Floats in rows of `N` as one view, and an accessor for each part of the rows, with its bounds where `bounded`.
+    pub(super) fn slices<const N: usize>(
+        &mut self,
+        rows: &[[f32; N]],
+        target: Target,
+        bounded: bool,
+        parts: &[Range<usize>],
+    ) -> Vec<usize> {
         let view = self.view(bytemuck::cast_slice(rows.as_flattened()), target);
+        self.set_stride(view, 4 * N, parts.len());
         let kind = match N {
             1 => "SCALAR",
             2 => "VEC2",
@@ -58,21 +73,28 @@ impl Binary {
             4 => "VEC4",
             _ => "MAT4",
         };
-        let accessor = self.accessor(view, 0, rows.len(), FLOAT, kind);
-        if bounded {
-            let bound = |pick: fn(f32, f32) -> f32| -> Vec<Value> {
-                let columns = 0..N;
-                columns
-                    .map(|column| {
-                        let values = rows.iter().map(|row| row[column]);
-                        number(values.reduce(pick).unwrap_or_default())
-                    })
-                    .collect()
-            };
-            self.accessors[accessor]["min"] = json!(bound(f32::min));
-            self.accessors[accessor]["max"] = json!(bound(f32::max));
+        let accessors = parts.iter().map(|part| {
+            let accessor = self.accessor(view, 4 * N * part.start, part.len(), FLOAT, kind);
+            if bounded {
+                let bound = |pick: fn(f32, f32) -> f32| -> Vec<Value> {
+                    let of_column = |column: usize| rows[part.clone()].iter().map(move |row| row[column]).reduce(pick);
+                    (0..N)
+                        .map(|column| number(of_column(column).unwrap_or_default()))
+                        .collect()
+                };
+                self.accessors[accessor]["min"] = json!(bound(f32::min));
+                self.accessors[accessor]["max"] = json!(bound(f32::max));
+            }
+            accessor
+        });
+        accessors.collect()
+    }
+
+    /// Bytes from row to row, which a view of several accessors must say.
+    pub(super) fn set_stride(&mut self, view: usize, stride: usize, accessors: usize) {
+        if accessors > 1 {
+            self.views[view]["byteStride"] = json!(stride);
         }
-        accessor
     }
 }
 

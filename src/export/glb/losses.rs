@@ -1,6 +1,6 @@
 //! What glTF does not hold.
 
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 
 use super::animation::has_keys;
 use super::skeleton::is_unweighted;
@@ -12,12 +12,11 @@ use crate::model::{Clip, MapSlot, Model, Sampling};
 /// The cosine between two axes up to which they are square to each other but for rounding.
 const SQUARE: f32 = 1e-5;
 
-/// What a `.glb` file does not hold of a model, or holds otherwise.
-pub fn glb_losses(model: &Model, maps: &MapImages<'_>) -> Vec<Loss> {
+/// What a `.glb` file does not hold of a model, or holds otherwise. Maps that are there and cannot be read, `unreadable`, are not missing.
+pub fn glb_losses(model: &Model, maps: &MapImages<'_>, unreadable: &BTreeSet<(usize, MapSlot)>) -> Vec<Loss> {
     let mut losses = Losses::default();
     let mesh = &model.mesh;
-    let drawn = drawn_triangles(model);
-    let undrawn = drawn.iter().filter(|drawn| !**drawn).count();
+    let undrawn = mesh.triangle_count() - model.triangles_of(|_| true).count();
     losses.add(
         "triangles-undrawn",
         undrawn,
@@ -84,7 +83,7 @@ pub fn glb_losses(model: &Model, maps: &MapImages<'_>) -> Vec<Loss> {
                 .into_iter()
                 .filter_map(move |slot| Some(((index, slot), material.map_name(slot)?)))
         })
-        .filter(|(place, _)| !maps.contains_key(place))
+        .filter(|(place, _)| !maps.contains_key(place) && !unreadable.contains(place))
         .map(|(_, name)| name)
         .collect();
     let mut missing: Vec<&str> = missing.into_iter().collect();
@@ -121,14 +120,4 @@ fn is_sheared(sampling: &Sampling) -> bool {
         sampling.map_from_mesh.matrix2.y_axis,
     ];
     x.dot(y).abs() > SQUARE * x.length() * y.length()
-}
-
-/// Whether a submesh draws each triangle.
-fn drawn_triangles(model: &Model) -> Vec<bool> {
-    let mut drawn = vec![false; model.mesh.triangle_count()];
-    for submesh in &model.mesh.submeshes {
-        let first = submesh.triangle_start as usize;
-        drawn[first..first + submesh.triangle_count as usize].fill(true);
-    }
-    drawn
 }

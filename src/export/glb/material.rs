@@ -1,6 +1,6 @@
 //! Materials, textures and samplers.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use serde_json::{Value, json};
 
@@ -76,6 +76,8 @@ pub(super) fn materials(
         pictures: Pictures::new(encoded),
         maps,
         turned,
+        samplers: Places::default(),
+        textures: Places::default(),
         has_second: !model.mesh.second_tex_coords.is_empty(),
         double_sided: model.needs_both_sides(&model.turned_submeshes()),
         binary,
@@ -95,6 +97,8 @@ struct Writer<'a> {
     pictures: Pictures,
     maps: &'a MapImages<'a>,
     turned: &'a [bool],
+    samplers: Places,
+    textures: Places,
     has_second: bool,
     /// Of each material.
     double_sided: Vec<bool>,
@@ -206,9 +210,9 @@ impl Writer<'_> {
             return Ok(None);
         };
         let source = self.pictures.picture(image, purpose, name, self.binary)?;
-        let sampler = listed(&mut self.written.samplers, sampler(&map.sampling));
+        let sampler = self.samplers.place(&mut self.written.samplers, sampler(&map.sampling));
         let texture = json!({ "source": source, "sampler": sampler });
-        let mut info = json!({ "index": listed(&mut self.written.textures, texture) });
+        let mut info = json!({ "index": self.textures.place(&mut self.written.textures, texture) });
         if map.sampling.second_tex_coords && self.has_second {
             info["texCoord"] = json!(1);
         }
@@ -220,12 +224,18 @@ impl Writer<'_> {
     }
 }
 
-/// The place of a value in a list, at the end of which it is put if it is not there.
-fn listed(list: &mut Vec<Value>, value: Value) -> usize {
-    list.iter().position(|other| *other == value).unwrap_or_else(|| {
-        list.push(value);
-        list.len() - 1
-    })
+/// Places of values in a list, by their text.
+#[derive(Default)]
+struct Places(HashMap<String, usize>);
+
+impl Places {
+    /// The place of a value, which is put at the end of the list if it is not there.
+    fn place(&mut self, list: &mut Vec<Value>, value: Value) -> usize {
+        *self.0.entry(value.to_string()).or_insert_with(|| {
+            list.push(value);
+            list.len() - 1
+        })
+    }
 }
 
 fn sampler(sampling: &Sampling) -> Value {

@@ -18,6 +18,9 @@ mod pictures;
 mod skeleton;
 mod space;
 
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
 use serde_json::{Value, json};
 
 use super::{ExportError, Exported, MapImages};
@@ -35,7 +38,7 @@ const BINARY_CHUNK: u32 = 0x004e_4942;
 /// Writes a model as a `.glb` file, right-handed and y up, facing +z; lengths stay. `names` are names that a person gave to bones.
 ///
 /// # Errors
-/// When a picture cannot be written, there are more joints than a vertex can name, or the file would have more than 4 GiB.
+/// When a picture cannot be written, a number overflows, there are more joints than a vertex can name, or the file would have more than 4 GiB.
 pub fn glb(model: &Model, names: &JointNames, maps: &MapImages<'_>) -> Result<Exported, ExportError> {
     glb_with(model, names, maps, EncodedMaps::default())
 }
@@ -45,7 +48,11 @@ pub fn glb(model: &Model, names: &JointNames, maps: &MapImages<'_>) -> Result<Ex
 /// # Errors
 /// When a picture cannot be written.
 pub fn encode_map(model: &Model, maps: &MapImages<'_>, encoded: &mut EncodedMaps) -> Result<bool, ExportError> {
-    let turned = turned_materials(model, maps);
+    let turned = Arc::clone(
+        encoded
+            .turned
+            .get_or_insert_with(|| turned_materials(model, maps).into()),
+    );
     for (place, purpose) in material::pictures(model, maps, &turned) {
         if encoded.encode(maps[&place], purpose)? {
             return Ok(true);
@@ -81,7 +88,7 @@ pub fn glb_with(
     let mut nodes = bones.nodes;
     let mut scene_nodes = bones.roots;
     let turned = turned_materials(model, maps);
-    let mesh = geometry::mesh(model, &space, &turned, bones.unmoving, &mut binary);
+    let mesh = geometry::mesh(model, &space, (&turned, !maps.is_empty()), bones.unmoving, &mut binary);
     if let Some(mesh) = mesh {
         root["meshes"] = json!([mesh]);
         let mut node = json!({ "mesh": 0 });
@@ -125,9 +132,12 @@ pub fn glb_with(
     if !binary.bytes.is_empty() {
         root["buffers"] = json!([{ "byteLength": binary.bytes.len() }]);
     }
+    if let Some(place) = no_number(&root) {
+        return Err(ExportError::NotFinite { place });
+    }
     Ok(Exported {
         bytes: container(&root, binary.bytes)?,
-        losses: glb_losses(model, maps),
+        losses: glb_losses(model, maps, &BTreeSet::new()),
     })
 }
 
@@ -145,6 +155,23 @@ pub fn turned_materials(model: &Model, maps: &MapImages<'_>) -> Vec<bool> {
     greens
         .map(|(material, green)| green == Some(Green::Down) && has_picture(material))
         .collect()
+}
+
+/// A JSON pointer to what is no number, if anything is. Among extras are values that are none on purpose.
+fn no_number(value: &Value) -> Option<String> {
+    let inner = |(key, value): (String, &Value)| Some(format!("/{key}{}", no_number(value)?));
+    match value {
+        Value::Null => Some(String::new()),
+        Value::Array(values) => values
+            .iter()
+            .enumerate()
+            .find_map(|(index, value)| inner((index.to_string(), value))),
+        Value::Object(values) => {
+            let mut values = values.iter().filter(|(key, _)| *key != "extras");
+            values.find_map(|(key, value)| inner((key.clone(), value)))
+        }
+        _ => None,
+    }
 }
 
 /// The chunks of a `.glb` file.

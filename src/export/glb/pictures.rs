@@ -35,12 +35,14 @@ pub struct EncodedMaps {
     encoded: HashMap<(usize, Use), Arc<[u8]>>,
     /// Files that glTF takes as they are.
     files: HashMap<usize, Arc<[u8]>>,
+    /// Which materials' normal maps are turned, once it is known.
+    pub(super) turned: Option<Arc<[bool]>>,
 }
 
 impl EncodedMaps {
-    /// The file that a map was read from. A PNG or JPEG is written as it is where its texels are.
+    /// The file that a map was read from. A PNG is written as it is where its texels are, and a JPEG that has nothing to forgive.
     pub fn add_file(&mut self, image: &Image, bytes: Arc<[u8]>) {
-        if is_jpeg(&bytes) || bytes.starts_with(b"\x89PNG") {
+        if is_strict_jpeg(&bytes).unwrap_or_default() || bytes.starts_with(b"\x89PNG") {
             self.files.insert(place(image), bytes);
         }
     }
@@ -68,6 +70,67 @@ impl EncodedMaps {
 
 fn is_jpeg(bytes: &[u8]) -> bool {
     bytes.starts_with(b"\xFF\xD8\xFF")
+}
+
+/// Whether a strict reader takes a JPEG: it is grey or has three components, all of its segments have the lengths that their tables need,
+/// and it ends where it says so. `None` where it is cut.
+fn is_strict_jpeg(bytes: &[u8]) -> Option<bool> {
+    let mut rest = bytes.strip_prefix(b"\xFF\xD8")?;
+    let mut is_framed = false;
+    loop {
+        rest = rest.strip_prefix(b"\xFF")?;
+        let (&marker, after) = rest.split_first()?;
+        rest = match marker {
+            0xD9 => return Some(is_framed),
+            // Padding.
+            0xFF => continue,
+            0x01 | 0xD0..=0xD7 => after,
+            _ => {
+                let length = usize::from(u16::from_be_bytes(*after.first_chunk()?));
+                let mut segment = after.get(2..length)?;
+                let is_whole = match marker {
+                    // Baseline, extended and progressive: eight bits, and a size.
+                    0xC0..=0xC2 => {
+                        is_framed = true;
+                        segment.first() == Some(&8)
+                            && matches!(segment.get(5)?, 1 | 3)
+                            && segment.len() == 6 + 3 * usize::from(*segment.get(5)?)
+                    }
+                    // Tables of Huffman codes: sixteen counts, and so many values.
+                    0xC4 => {
+                        while !segment.is_empty() {
+                            let counts = segment.get(1..17)?.iter().map(|&count| usize::from(count));
+                            segment = segment.get(17 + counts.sum::<usize>()..)?;
+                        }
+                        true
+                    }
+                    // Other ways to code, which no reader of pages has.
+                    0xC3 | 0xC5..=0xCF => false,
+                    // Tables of quantisation.
+                    0xDB => {
+                        while let Some(&kind) = segment.first() {
+                            segment = segment.get(if kind >= 16 { 129 } else { 65 }..)?;
+                        }
+                        true
+                    }
+                    0xDA => is_framed,
+                    _ => true,
+                };
+                if !is_whole {
+                    return Some(false);
+                }
+                let after = &after[length..];
+                // Behind the head of a scan comes what it codes, up to the next marker.
+                let is_end = |pair: &[u8]| pair[0] == 0xFF && !matches!(pair[1], 0 | 0xD0..=0xD7 | 0xFF);
+                let coded = if marker == 0xDA {
+                    after.windows(2).position(is_end)?
+                } else {
+                    0
+                };
+                &after[coded..]
+            }
+        };
+    }
 }
 
 fn place(image: &Image) -> usize {
@@ -139,21 +202,5 @@ fn texels(image: &Image, purpose: Use) -> Vec<u8> {
             }
             texels
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn gloss_becomes_roughness() {
-        let image = Image::from_rgba8(3, 1, vec![1, 2, 3, 0, 1, 2, 3, 255, 1, 2, 3, 128], "test");
-        let purpose = Use::Roughness {
-            roughness: 0.5_f32.to_bits(),
-            metal: false,
-        };
-        let found = texels(&image.expect("a sound picture"), purpose);
-        assert_eq!(found, [255, 255, 0, 255, 255, 128, 0, 255, 255, 191, 0, 255]);
     }
 }

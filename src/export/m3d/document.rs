@@ -1,52 +1,17 @@
 //! What a file of the books' format says of a model.
 
-use std::collections::HashSet;
-
 use glam::Vec4;
 
+use super::look::Look;
 use crate::anim::straight;
-use crate::format::{self, AnimationClip, BoneAnimation, Dialect, Document, Keyframe, Reflectance, Subset, Vertex};
-use crate::model::{FresnelSurface, JointIndex, LocalJoint, MapSlot, Material, Model, PhongSurface, Submesh, Track};
+use crate::format::{self, AnimationClip, BoneAnimation, Dialect, Document, Keyframe, Subset, Vertex};
+use crate::model::{JointIndex, LocalJoint, MapSlot, Material, Model, Track, one_word, unique_words};
 
 /// A joint this near to its place in the bind pose, in sizes of the model, is there: matrices lose as much.
 const REST_TOLERANCE: f32 = 1e-5;
 
-/// A name as the loaders read it: up to the first blank.
-pub fn one_word(name: &str) -> String {
-    let words: Vec<&str> = name
-        .split(char::is_whitespace)
-        .filter(|word| !word.is_empty())
-        .collect();
-    let word = words.join("_");
-    // The brace would be taken for the one that opens a clip.
-    match word.strip_suffix('{') {
-        Some(start) => format!("{start}_"),
-        None => word,
-    }
-}
-
-/// Names as single words, told apart.
-fn words<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
-    let mut taken = HashSet::new();
-    names
-        .map(|name| {
-            let wish = match one_word(name) {
-                word if word.is_empty() => "_".to_owned(),
-                word => word,
-            };
-            let mut free = wish.clone();
-            let mut number = 2;
-            while !taken.insert(free.clone()) {
-                free = format!("{wish}_{number}");
-                number += 1;
-            }
-            free
-        })
-        .collect()
-}
-
 /// The materials in the order of the subsets, since subset i is drawn with material i.
-pub(super) fn of_subsets(model: &Model) -> impl Iterator<Item = &Material> {
+pub(super) fn of_subsets(model: &Model) -> impl Iterator<Item = &Material> + Clone {
     let materials = model.mesh.submeshes.iter().map(|submesh| submesh.material as usize);
     materials.map(|material| &model.materials[material])
 }
@@ -56,20 +21,22 @@ pub(super) fn names_materials(dialect: Dialect) -> bool {
     dialect == Dialect::D3d12
 }
 
-pub(super) fn document(model: &Model, dialect: Dialect) -> Document {
+/// `looks` are those of the model's materials.
+pub(super) fn document(model: &Model, dialect: Dialect, looks: &[Look]) -> Document {
     let skinned = model.skeleton.joint_count() > 0;
     let tangents = model.mesh.tangents_or_computed();
     let rests = rests_apart(model);
-    let material_names = words(of_subsets(model).map(|material| material.name.as_str()));
-    let clip_names = words(model.clips.iter().map(|clip| clip.name.as_str()));
-    let materials = of_subsets(model).zip(material_names);
-    let subsets = (0u32..).zip(&model.mesh.submeshes);
+    let material_names = unique_words(of_subsets(model).map(|material| material.name.as_str()));
+    let clip_names = unique_words(model.clips.iter().map(|clip| clip.name.as_str()));
+    let of_subsets = model.mesh.submeshes.iter().map(|submesh| submesh.material as usize);
+    let materials = of_subsets.map(|material| (&model.materials[material], &looks[material]));
     Document {
         dialect,
         materials: materials
+            .zip(material_names)
             .map(|(of_model, name)| material(of_model, name, dialect, skinned))
             .collect(),
-        subsets: subsets.map(|(id, submesh)| subset(model, id, submesh)).collect(),
+        subsets: subsets(model).collect(),
         vertices: (0..model.mesh.vertex_count())
             .map(|index| vertex(model, &tangents, index))
             .collect(),
@@ -109,33 +76,8 @@ fn offset(model: &Model, joint: JointIndex) -> [f32; 16] {
     glam::Mat4::from(model.skeleton.joint_from_bind()[joint.index()]).to_cols_array()
 }
 
-fn material(material: &Material, name: String, dialect: Dialect, skinned: bool) -> format::Material {
-    let (diffuse, reflectance) = match dialect {
-        Dialect::D3d12 => {
-            let FresnelSurface {
-                diffuse,
-                fresnel0,
-                roughness,
-            } = material.fresnel_surface();
-            (diffuse, Reflectance::Fresnel { fresnel0, roughness })
-        }
-        Dialect::D3d11 | Dialect::Imm => {
-            let PhongSurface {
-                diffuse,
-                ambient,
-                specular,
-                spec_power,
-                reflectivity,
-            } = material.phong_surface();
-            let reflectance = Reflectance::Phong {
-                ambient,
-                specular,
-                spec_power,
-                reflectivity,
-            };
-            (diffuse, reflectance)
-        }
-    };
+fn material((material, look): (&Material, &Look), name: String, dialect: Dialect, skinned: bool) -> format::Material {
+    let (diffuse, reflectance) = look.told(material, dialect);
     let map = |slot| material.map_name(slot).map(one_word);
     format::Material {
         name: if names_materials(dialect) { name } else { String::new() },
@@ -148,18 +90,39 @@ fn material(material: &Material, name: String, dialect: Dialect, skinned: bool) 
     }
 }
 
-fn subset(model: &Model, id: u32, submesh: &Submesh) -> Subset {
-    let corners = 3 * submesh.triangle_start as usize..3 * (submesh.triangle_start + submesh.triangle_count) as usize;
-    let corners = &model.mesh.indices[corners];
-    let first = corners.iter().min().copied().unwrap_or_default();
-    let end = corners.iter().max().map_or(first, |last| last + 1);
-    Subset {
-        id,
-        vertex_start: first,
-        vertex_count: end - first,
-        face_start: submesh.triangle_start,
-        face_count: submesh.triangle_count,
-    }
+/// The least and the greatest vertex of some corners.
+fn ends<'a>(corners: impl Iterator<Item = &'a [u32; 2]>) -> [u32; 2] {
+    let wider = |[least, most]: [u32; 2], &[start, end]: &[u32; 2]| [least.min(start), most.max(end)];
+    corners.fold([u32::MAX, 0], wider)
+}
+
+/// Subsets may overlap, so the ends of whole blocks of triangles are found once.
+fn subsets(model: &Model) -> impl Iterator<Item = Subset> {
+    const BLOCK: usize = 1024;
+    let (triangles, _) = model.mesh.indices.as_chunks::<3>();
+    let of_triangle = |corners: &[u32; 3]| ends(corners.map(|corner| [corner; 2]).iter());
+    let of_triangles: Vec<[u32; 2]> = triangles.iter().map(of_triangle).collect();
+    let of_blocks: Vec<[u32; 2]> = of_triangles.chunks(BLOCK).map(|block| ends(block.iter())).collect();
+    let submeshes = (0u32..).zip(&model.mesh.submeshes);
+    submeshes.map(move |(id, submesh)| {
+        let start = submesh.triangle_start as usize;
+        let end = start + submesh.triangle_count as usize;
+        let (first, last) = (start.div_ceil(BLOCK), end / BLOCK);
+        let [least, most] = if first < last {
+            let sides = [start..first * BLOCK, last * BLOCK..end].map(|side| ends(of_triangles[side].iter()));
+            ends(sides.iter().chain(&of_blocks[first..last]))
+        } else {
+            ends(of_triangles[start..end].iter())
+        };
+        let is_empty = start == end;
+        Subset {
+            id,
+            vertex_start: if is_empty { 0 } else { least },
+            vertex_count: if is_empty { 0 } else { most - least + 1 },
+            face_start: submesh.triangle_start,
+            face_count: submesh.triangle_count,
+        }
+    })
 }
 
 fn vertex(model: &Model, tangents: &[Vec4], index: usize) -> Vertex {

@@ -1,6 +1,6 @@
 //! What the books' format does not hold.
 
-use super::document::{names_materials, of_subsets, one_word, rests_apart};
+use super::document::{names_materials, of_subsets, rests_apart};
 use crate::anim::STRAIGHT_ERROR;
 use crate::diagnostic::codes;
 use crate::diagnostic::collect::{counted, few, named, quoted};
@@ -9,8 +9,8 @@ use crate::export::Loss;
 use crate::export::losses::Losses;
 use crate::format::Dialect;
 use crate::model::{
-    AlphaMode, Front, JointIndex, JointNames, LocalJoint, MapSlot, Material, Model, Reflectance, Sampling, Track,
-    UpAxis,
+    AlphaMode, Front, JointIndex, JointNames, LocalJoint, MapSlot, Material, MaterialMap, Model, Reflectance, Sampling,
+    Track, UpAxis, one_word,
 };
 
 /// What a file of this dialect does not hold of a model, or holds otherwise. `names` are names that a person gave to bones.
@@ -172,7 +172,7 @@ fn keys(model: &Model, losses: &mut Losses) {
         codes::TRACK_EMPTY.name,
         empty,
         format!(
-            "{} no keys in a clip and {} none; the books' demos need one. Written for the book's demo, each has one at rest.",
+            "{} no keys in a clip and {} none; the books' demos need one. Without `--keep-empty` each gets one at rest.",
             counted(empty, "bone has", "bones have"),
             if empty == 1 { "gets" } else { "get" }
         ),
@@ -288,8 +288,8 @@ fn surfaces(materials: &[&Material], dialect: Dialect, losses: &mut Losses) {
             "fresnel-to-phong",
             fresnel,
             format!(
-                "{} not of the DirectX 11 book: Specular is twenty times Fresnel0, with Reflectivity for what is above 1; SpecPower is 2 / \
-                 Roughness^4 − 2 (Walter and others 2007); Ambient is Diffuse.",
+                "{} not of the DirectX 11 book: Diffuse, Specular and SpecPower are those with which its light comes nearest to the other \
+                 book's; Ambient is what was Diffuse.",
                 are(fresnel)
             ),
         );

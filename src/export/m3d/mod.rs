@@ -1,14 +1,15 @@
 //! A model in the books' format.
 
 mod document;
+mod look;
 mod losses;
 
-use super::{ExportError, Exported};
+use super::{ExportError, Exported, MapImages};
 use crate::format::{self, Dialect};
 use crate::model::{JointNames, Model};
 use document::document;
 
-pub use document::one_word;
+pub use look::{Bake, Look, looks};
 pub use losses::m3d_losses;
 
 /// Writes a model as a `.m3d` file that the loaders of the books read, in the model's own space. `names` are names that a person gave
@@ -20,8 +21,16 @@ pub use losses::m3d_losses;
 /// # Errors
 /// None at present.
 pub fn m3d(model: &Model, names: &JointNames, dialect: Dialect) -> Result<Exported, ExportError> {
+    m3d_with(model, names, dialect, &looks(model, &MapImages::default()))
+}
+
+/// The same file, of materials that look so.
+///
+/// # Errors
+/// As [`m3d`].
+pub fn m3d_with(model: &Model, names: &JointNames, dialect: Dialect, looks: &[Look]) -> Result<Exported, ExportError> {
     Ok(Exported {
         losses: m3d_losses(model, names, dialect),
-        bytes: format::write(&document(model, dialect)).into_bytes(),
+        bytes: format::write(&document(model, dialect, looks)).into_bytes(),
     })
 }

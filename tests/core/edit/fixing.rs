@@ -24,6 +24,7 @@ const FIX: Edits = Edits {
     front: None,
     clip_names: Vec::new(),
     bone_names: Vec::new(),
+    keys_for_all: false,
     for_book: false,
 };
 

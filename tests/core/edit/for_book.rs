@@ -1,7 +1,8 @@
 //! What the books' demo needs.
 
 use bindpose::edit::{EditError, Edits, apply};
-use bindpose::model::{Handedness, JointNames, Model, UpAxis};
+use bindpose::model::{Clip, Handedness, JointIndex, JointNames, LocalJoint, Model, Skeleton, Track, UpAxis};
+use glam::{Quat, Vec3};
 
 use super::{apart, edit, seen, size, spread, swaying, try_edit};
 use crate::documents::{model_of, reordered};
@@ -147,7 +148,7 @@ fn a_static_model_keeps_the_hand_of_the_books() {
 }
 
 #[test]
-fn what_is_too_large_for_the_demo_is_refused() {
+fn what_is_too_large_for_the_demo_is_refused_with_all_that_is() {
     let refused = try_edit(&model_of(&swaying(97, 0.1)).0, &for_book()).expect_err("too many bones");
     assert_eq!(
         refused.to_string(),
@@ -156,12 +157,128 @@ fn what_is_too_large_for_the_demo_is_refused() {
     let mut document = swaying(96, 0.1);
     document.bone_parents[5] = -1;
     let refused = try_edit(&model_of(&document).0, &for_book()).expect_err("no room for a root");
-    assert!(matches!(
-        refused,
-        EditError::TooManyBones {
-            bones: 97,
-            added: true,
-            ..
+    assert!(matches!(refused, EditError::TooLarge { .. }));
+    let mut model = model_of(&document).0;
+    let more = 66_000 - model.mesh.vertex_count();
+    let mesh = &mut model.mesh;
+    mesh.positions.extend(vec![mesh.positions[0]; more]);
+    mesh.normals.extend(vec![mesh.normals[0]; more]);
+    mesh.tangents.clear();
+    mesh.tex_coords.extend(vec![mesh.tex_coords[0]; more]);
+    mesh.influences.extend(vec![mesh.influences[0]; more]);
+    let refused = try_edit(&model, &for_book()).expect_err("too much of both");
+    assert_eq!(
+        refused.to_string(),
+        "The model has 97 bones with the root that all hang from; the books' demo has room for 96. The model has 66000 vertices; the books' \
+         demo can number 65536."
+    );
+}
+
+/// The same figure on a bone that is turned, placed and scaled, moves no vertex and has no keys, as the object of an armature is.
+fn on_a_still_bone(model: &Model) -> Model {
+    let still = LocalJoint {
+        rotation: Quat::from_rotation_x(1.5),
+        translation: Vec3::new(1.0, 2.0, -3.0),
+        scale: Vec3::splat(0.01),
+    };
+    let above = still.parent_from_joint();
+    let mut model = model.clone();
+    let old = &model.skeleton;
+    let parents = old
+        .parents()
+        .iter()
+        .map(|parent| Some(JointIndex(parent.map_or(0, |parent| parent.0 + 1))));
+    // The figure stays where it was: only its root hangs from the new one, which is taken out of its own place.
+    let taken_out = |joint: LocalJoint| {
+        let matrix = above.inverse() * joint.parent_from_joint();
+        let (scale, rotation, translation) = matrix.to_scale_rotation_translation();
+        LocalJoint {
+            rotation,
+            translation,
+            scale,
         }
-    ));
+    };
+    let rest = old.rest().iter().zip(old.parents());
+    let rest: Vec<LocalJoint> = [still]
+        .into_iter()
+        .chain(rest.map(|(&rest, parent)| if parent.is_none() { taken_out(rest) } else { rest }))
+        .collect();
+    let matrices = [above.inverse()]
+        .into_iter()
+        .chain(old.joint_from_bind().iter().copied());
+    let bones = (0..=old.joint_count() as u32).collect();
+    let names = ["Armature".to_owned()]
+        .into_iter()
+        .chain((0..old.joint_count()).map(|bone| format!("bone {bone}")));
+    let roots: Vec<bool> = old.parents().iter().map(Option::is_none).collect();
+    let new = Skeleton::new([None].into_iter().chain(parents).collect(), matrices.collect(), bones).expect("sound");
+    model.skeleton = new.with_rest(&rest).with_names(names.collect());
+    for clip in &mut model.clips {
+        let tracks = clip.tracks.iter().zip(&roots).map(|(track, is_root)| {
+            if !is_root {
+                return track.clone();
+            }
+            let keys = (0..track.key_count()).map(|key| (track.times_secs()[key], taken_out(track.key(key))));
+            Track::new(keys).expect("sound keys")
+        });
+        let tracks = [Track::at_rest(still)].into_iter().chain(tracks).collect();
+        *clip = Clip::new(clip.name.clone(), tracks);
+    }
+    for influences in &mut model.mesh.influences {
+        influences.joints = influences.joints.map(|joint| joint + 1);
+    }
+    model.checked().expect("it is sound")
+}
+
+#[test]
+fn ninety_six_bones_on_a_still_one_fit() {
+    let model = on_a_still_bone(&model_of(&swaying(96, 0.1)).0);
+    assert_eq!(model.skeleton.joint_count(), 97);
+    let edited = edit(&model, &for_book());
+    assert_shape(&edited.model);
+    assert_eq!(edited.model.skeleton.joint_count(), 96);
+    assert_eq!(edited.model.skeleton.name(JointIndex(3)), Some("bone 3"));
+    let told = edited.changes.iter().find(|change| change.code == "bones-folded");
+    assert!(
+        told.is_some_and(|told| told.message.contains("Bone 0, \"Armature\",")),
+        "{told:?}"
+    );
+    assert_seen_alike(&model, &edited.model);
+
+    // One that fits stays as it is, and one that moves is no still one.
+    let small = on_a_still_bone(&model_of(&swaying(95, 0.1)).0);
+    assert_eq!(edit(&small, &for_book()).model.skeleton.joint_count(), 96);
+    let mut moving = model;
+    let mut tracks = moving.clips[0].tracks.clone();
+    tracks[0] = Track::new([(0.0, tracks[0].key(0)), (1.0, LocalJoint::IDENTITY)]).expect("sound keys");
+    moving.clips[0] = Clip::new("Take1", tracks);
+    let refused = try_edit(&moving, &for_book()).expect_err("it moves");
+    assert!(refused.to_string().contains("97 bones"), "{refused}");
+}
+
+/// The books' programs stop at a bone without keys.
+#[test]
+fn each_bone_gets_a_key_in_what_is_written_for_the_books() {
+    let mut model = model_of(&swaying(5, 0.5)).0;
+    let rest = model.skeleton.rest()[3];
+    let mut tracks = model.clips[0].tracks.clone();
+    tracks[3] = Track::at_rest(rest);
+    model.clips[0] = Clip::new("Walk", tracks);
+    let (start_secs, end_secs) = (model.clips[0].start_secs, model.clips[0].end_secs);
+    let edited = edit(&model, &Edits::default().in_space_of_the_books(&model));
+    let clip = &edited.model.clips[0];
+    let told = edited.changes.iter().find(|change| change.code == "track-empty");
+    assert_eq!(
+        told.map(|told| told.message.as_str()),
+        Some("1 bone gets a key at rest in \"Walk\".")
+    );
+    assert!(clip.tracks.iter().all(Track::has_keys));
+    assert_eq!(
+        (clip.start_secs, clip.end_secs),
+        (start_secs, end_secs),
+        "as long as before"
+    );
+    assert_eq!(clip.tracks[3].key_count(), 1);
+    let kept = edit(&model, &Edits::default());
+    assert!(!kept.model.clips[0].tracks[3].has_keys(), "nothing comes in unasked");
 }

@@ -3,7 +3,8 @@
 use bindpose::edit::{EditError, Edits};
 use bindpose::model::{Front, Handedness, Model, UpAxis};
 
-use super::{apart, curved, edit, figure, key_times, seen, size, try_edit};
+use super::{apart, curved, edit, figure, key_times, seen, size, swaying, try_edit};
+use crate::documents::model_of;
 use crate::rigs;
 
 fn models() -> [(&'static str, Model); 3] {
@@ -166,10 +167,8 @@ fn a_scale_that_is_none_is_refused() {
         scale: Some(f32::MAX),
         ..Edits::default()
     };
-    assert_eq!(
-        try_edit(&figure(), &edits).expect_err("too large"),
-        EditError::Overflows
-    );
+    let refused = try_edit(&figure(), &edits).expect_err("too large");
+    assert!(matches!(refused, EditError::Overflows { .. }), "{refused}");
 }
 
 #[test]
@@ -188,4 +187,35 @@ fn triangles_of_gltf_wind_as_the_hand_that_is_asked_for() {
         assert_eq!(new, [old[0], old[2], old[1]]);
     }
     assert_eq!(edit(&edited.model, &asked).changes, []);
+}
+
+/// A bone that is flat in the bind pose, and rests far away.
+#[test]
+fn lengths_that_overflow_at_rest_are_refused_with_their_bone() {
+    let (mut model, _) = model_of(&swaying(3, 1.0));
+    let mut rest = model.skeleton.rest().to_vec();
+    rest[2].translation = glam::Vec3::splat(1e12);
+    model.skeleton = model.skeleton.with_rest(&rest);
+    let scaled = Edits {
+        scale: Some(1e28),
+        ..Edits::default()
+    };
+    let refused = try_edit(&model, &scaled).expect_err("it overflows");
+    assert_eq!(
+        refused.to_string(),
+        "Numbers of the model overflow when it is changed so: Bone 2 is too far away at rest."
+    );
+}
+
+/// Where no rest is told of, none is told of afterwards.
+#[test]
+fn a_rest_in_the_bind_pose_stays_one() {
+    let (model, _) = model_of(&swaying(3, 1.0));
+    assert!(model.skeleton.rests_in_bind_pose());
+    for edits in spaces().chain([Edits {
+        scale: Some(3.0),
+        ..Edits::default()
+    }]) {
+        assert!(edit(&model, &edits).model.skeleton.rests_in_bind_pose(), "{edits:?}");
+    }
 }

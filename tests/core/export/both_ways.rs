@@ -69,7 +69,7 @@ fn weights(model: &Model, influences: &Influences, bones: usize) -> Vec<(u32, f3
 
 /// Asserts that all came back but what `.glb` says that it loses.
 fn assert_came_back(name: &str, old: &Model, new: &Model) {
-    let lost: Vec<_> = glb_losses(old, &MapImages::new())
+    let lost: Vec<_> = glb_losses(old, &MapImages::new(), &Default::default())
         .iter()
         .map(|loss| loss.code)
         .collect();

@@ -323,7 +323,7 @@ fn what_gltf_does_not_hold_is_said() {
         ("arm-unweighted", "vertices-unweighted"),
         ("arm-rich", "maps-missing"),
     ] {
-        let losses = glb_losses(&by_name(name), &MapImages::default());
+        let losses = glb_losses(&by_name(name), &MapImages::default(), &Default::default());
         let codes: Vec<_> = losses.iter().map(|loss| loss.code).collect();
         assert_eq!(codes, [code]);
         assert!(
@@ -332,7 +332,10 @@ fn what_gltf_does_not_hold_is_said() {
             losses[0].message
         );
     }
-    assert_eq!(glb_losses(&by_name("arm"), &MapImages::default()), []);
+    assert_eq!(
+        glb_losses(&by_name("arm"), &MapImages::default(), &Default::default()),
+        []
+    );
 }
 
 #[test]
@@ -346,7 +349,7 @@ fn texture_coordinates_that_are_sheared_are_a_loss_and_turned_ones_are_none() {
             let map = map.as_mut().expect("it has the map");
             map.sampling.map_from_mesh = Affine2::from_mat2(matrix2);
         }
-        glb_losses(&model, &maps)
+        glb_losses(&model, &maps, &Default::default())
     };
     let turned = Mat2::from_angle(0.7) * Mat2::from_diagonal(Vec2::new(2.0, -0.5));
     assert_eq!(losses(turned), [], "turned, mirrored and of two sizes");
@@ -372,7 +375,7 @@ fn a_missing_picture_that_two_materials_name_is_one_map() {
             ..one.clone()
         })
         .into();
-    let losses = glb_losses(&model, &MapImages::default());
+    let losses = glb_losses(&model, &MapImages::default(), &Default::default());
     let found: Vec<_> = losses.iter().map(|loss| (loss.code, loss.count)).collect();
     assert_eq!(found, [("maps-missing", 2)], "as the list of maps counts them");
     assert!(

@@ -1,7 +1,7 @@
 //! Materials and the ranges drawn with them.
 
 use bindpose::format::{Document, Subset};
-use bindpose::model::{Reflectance, Submesh};
+use bindpose::model::{Material, Reflectance, Submesh, roughness_from_power};
 
 use crate::documents::{arm, material, message_of, model_of, quad, subset};
 
@@ -192,4 +192,35 @@ fn an_empty_document_is_an_empty_model() {
     );
     assert!(model.bind_bounds().is_empty());
     assert_eq!(codes, Vec::<&str>::new());
+}
+
+#[test]
+fn a_higher_power_is_smoother() {
+    assert_eq!(roughness_from_power(0.0), 1.0);
+    assert!(roughness_from_power(8.0) > roughness_from_power(64.0));
+    assert!(roughness_from_power(1e6) > 0.0);
+}
+
+#[test]
+fn gold_is_a_metal_in_each_of_the_words() {
+    let gold = [1.0, 0.77, 0.34];
+    let material = Material {
+        diffuse: gold,
+        reflectance: Reflectance::MetallicRoughness {
+            metallic: 1.0,
+            roughness: 0.3,
+        },
+        ..Material::default()
+    };
+    let surface = material.fresnel_surface();
+    assert_eq!((surface.diffuse, surface.fresnel0), ([0.0; 3], gold));
+    let of_book = Material {
+        diffuse: surface.diffuse,
+        reflectance: Reflectance::Fresnel {
+            fresnel0: surface.fresnel0,
+            roughness: surface.roughness,
+        },
+        ..Material::default()
+    };
+    assert_eq!(of_book.metallic_surface(), material.metallic_surface());
 }

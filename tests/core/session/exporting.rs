@@ -547,3 +547,249 @@ fn what_is_told_of_one_clip_does_not_speak_of_others() {
     assert!(told(Some(&["C", "D", "Fine"])).is_some_and(|words| words.ends_with("It is so in 2 clips.")));
     assert_eq!(told(Some(&["Fine"])), None);
 }
+
+/// A box with maps of these names in a `.gltf`, whose pictures are inside; damaged where they have no bytes.
+fn with_pictures(pictures: &[(&str, Vec<u8>)]) -> Session {
+    let mut file = Gltf::new(&json!({
+        "scenes": [{ "nodes": [0] }],
+        "nodes": [{ "mesh": 0 }],
+    }));
+    let positions = file.floats(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    let tex_coords = file.floats(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+    let primitive = |material: usize| {
+        json!({
+            "attributes": { "POSITION": positions, "TEXCOORD_0": tex_coords }, "material": material,
+        })
+    };
+    file.json["meshes"] = json!([{ "primitives": (0..pictures.len()).map(primitive).collect::<Vec<_>>() }]);
+    let numbers = 0..pictures.len();
+    let material =
+        |number| json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": number }, "metallicFactor": 0.0 } });
+    file.json["materials"] = numbers.clone().map(material).collect();
+    file.json["textures"] = numbers.map(|number| json!({ "source": number })).collect();
+    let images: Vec<_> = pictures
+        .iter()
+        .map(|(name, bytes)| {
+            let mime = if bytes.starts_with(b"\xFF\xD8") {
+                "image/jpeg"
+            } else {
+                "image/png"
+            };
+            json!({ "bufferView": file.view(bytes, None), "mimeType": mime, "name": name })
+        })
+        .collect();
+    file.json["images"] = json!(images);
+    opened(File::new("box.glb", file.glb()))
+}
+
+fn red() -> Vec<u8> {
+    encode_png(&[255, 0, 0, 255], 1, 1).expect("a picture")
+}
+
+fn for_book(format: ExportFormat) -> ExportOptions {
+    ExportOptions {
+        for_book: true,
+        ..options(format)
+    }
+}
+
+#[test]
+fn names_of_pictures_become_names_that_every_system_takes() {
+    let long = "ü".repeat(300);
+    let names = [
+        "nul",
+        "CON.png",
+        "a\0b",
+        "c\u{1b}[2Jd",
+        long.as_str(),
+        "com1",
+        "what?",
+        "x<y>|z",
+        "..",
+        "Nul",
+        "../../up",
+        "lpt9.color",
+    ];
+    let mut blue = 0;
+    let pictures = names.map(|name| {
+        blue += 10;
+        (name, encode_png(&[0, 0, blue, 255], 1, 1).expect("a picture"))
+    });
+    let session = with_pictures(&pictures);
+    for asked in [options(ExportFormat::D3d12), for_book(ExportFormat::D3d12)] {
+        let job = session.export_job(&asked).expect("a model is open");
+        let written = job.run_apart().expect("it can be written");
+        let text = String::from_utf8(written.bytes).expect("text");
+        let found: Vec<&str> = written.maps.iter().map(|(name, _)| name.as_str()).collect();
+        assert!(found.len() >= names.len(), "{found:?}");
+        let mut seen = std::collections::HashSet::new();
+        for name in found {
+            let stem = name.split('.').next().expect("a first part").to_lowercase();
+            let is_device = ["con", "prn", "aux", "nul"].contains(&stem.as_str())
+                || (stem.len() == 4 && (stem.starts_with("com") || stem.starts_with("lpt")));
+            assert!(!is_device, "{name}");
+            assert!(name.len() <= 200 && !name.starts_with('.'), "{name}");
+            assert!(
+                !name.contains(|letter: char| letter.is_control() || "<>:\"|?*/\\".contains(letter)),
+                "{name:?}"
+            );
+            assert!(seen.insert(name.to_lowercase()), "{name} is there twice");
+            assert!(
+                text.contains(&format!("DiffuseMap: {name}")) || name == "flat_normal.dds",
+                "{name}"
+            );
+        }
+        assert!(!text.contains(|letter: char| letter.is_control() && !"\r\n\t".contains(letter)));
+    }
+}
+
+#[test]
+fn a_damaged_picture_is_not_told_as_missing() {
+    let session = with_pictures(&[("red", red()), ("torn", red()[..40].to_vec())]);
+    for asked in [
+        options(ExportFormat::Glb),
+        options(ExportFormat::D3d12),
+        for_book(ExportFormat::D3d12),
+    ] {
+        let job = session.export_job(&asked).expect("a model is open");
+        let plan = job.run_apart().expect("it can be written").plan;
+        let told: Vec<_> = plan.losses.iter().map(|loss| (loss.code, loss.count)).collect();
+        assert!(told.contains(&("maps-unreadable", 1)), "{told:?}");
+        let is_missing = |(code, _): &(&str, usize)| ["map-missing", "maps-missing"].contains(code);
+        assert!(!told.iter().any(is_missing), "{told:?}");
+    }
+}
+
+fn jpeg(picture: image::DynamicImage) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    picture.write_to(&mut bytes, ImageFormat::Jpeg).expect("a picture");
+    bytes.into_inner()
+}
+
+#[test]
+fn only_a_jpeg_that_a_strict_reader_takes_goes_into_a_glb_as_it_is() {
+    let color = jpeg(RgbImage::from_pixel(8, 8, Rgb([200, 30, 10])).into());
+    let grey = jpeg(image::GrayImage::from_pixel(8, 8, image::Luma([90])).into());
+    // Bytes between two segments, which decoders pass over.
+    let mut stray = color.clone();
+    stray.splice(20..20, [1, 2, 3]);
+    // A comment is no harm.
+    let mut commented = color.clone();
+    commented.splice(2..2, [0xFF, 0xFE, 0, 4, b'h', b'i']);
+    for (name, bytes, is_kept) in [
+        ("color", color, true),
+        ("grey", grey, true),
+        ("commented", commented, true),
+        ("stray", stray, false),
+    ] {
+        let session = with_pictures(&[(name, bytes.clone())]);
+        assert_eq!(session.maps().used().count(), 1, "{name} can be decoded");
+        let glb = written(&session, &options(ExportFormat::Glb)).bytes;
+        let has = |wanted: &[u8]| glb.windows(wanted.len()).any(|window| window == wanted);
+        assert_eq!(has(&bytes), is_kept, "{name}");
+        assert_eq!(has(b"\x89PNG"), !is_kept, "{name}");
+    }
+}
+
+/// The demo opens two maps for each material, and has plain ones of its own.
+#[test]
+fn without_pictures_the_demos_plain_maps_are_named() {
+    let session = opened(file("box.m3d", &document()));
+    let maps = bindpose::session::Maps::without_mips();
+    let job = |format, for_book| {
+        let model = session.open_model().expect("a model is open").model.clone();
+        let what = bindpose::session::ToExport {
+            model,
+            names: &JointNames::default(),
+            changes: Vec::new(),
+            losses: Vec::new(),
+            edits: Edits {
+                for_book,
+                ..Edits::default()
+            },
+            maps: &maps,
+            format,
+            writes_maps: false,
+            turns_green: false,
+        };
+        bindpose::session::ExportJob::new("box", what)
+            .run_apart()
+            .expect("it can be written")
+    };
+    let written = job(ExportFormat::D3d12, true);
+    let material = &bindpose::format::parse(&written.bytes)
+        .expect("it is sound")
+        .document
+        .materials[0];
+    let named = [&material.diffuse_map, &material.normal_map].map(|name| name.as_deref());
+    assert_eq!(named, [Some("white1x1.dds"), Some("default_nmap.dds")]);
+    assert!(written.plan.changes.iter().any(|change| change.code == "maps-added"));
+    assert_eq!(written.maps, [], "they lie beside the demo");
+    let reading = bindpose::check::book::read(bindpose::check::book::Book::D3d12, &written.bytes);
+    assert!(
+        reading.document.vertices.iter().all(|vertex| vertex.tangent[3] < 0.0),
+        "the sign that the demo takes all to have"
+    );
+    // The other demo has none; without the option nothing is named.
+    let told = job(ExportFormat::D3d11, true).plan.losses;
+    assert!(
+        told.iter()
+            .any(|loss| loss.code == "book-map-format" && loss.count == 2),
+        "{told:?}"
+    );
+    let plain = job(ExportFormat::D3d12, false);
+    let material = &bindpose::format::parse(&plain.bytes)
+        .expect("it is sound")
+        .document
+        .materials[0];
+    assert_eq!((&material.diffuse_map, &material.normal_map), (&None, &None));
+}
+
+#[test]
+fn metalness_of_a_picture_comes_along_in_the_diffuse_map_and_is_told() {
+    let mut file = Gltf::new(&json!({
+        "scenes": [{ "nodes": [0] }],
+        "nodes": [{ "mesh": 0 }],
+        "materials": [{ "name": "Full", "pbrMetallicRoughness": { "metallicRoughnessTexture": { "index": 0 } } }],
+        "textures": [{ "source": 0 }],
+    }));
+    let positions = file.floats(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    let tex_coords = file.floats(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+    file.json["meshes"] = json!([{ "primitives": [{
+        "attributes": { "POSITION": positions, "TEXCOORD_0": tex_coords }, "material": 0,
+    }] }]);
+    let texels = [[0, 128, 0, 255], [0, 128, 255, 255]];
+    let png = encode_png(texels.as_flattened(), 2, 1).expect("a picture");
+    let view = file.view(&png, None);
+    file.json["images"] = json!([{ "bufferView": view, "mimeType": "image/png", "name": "shine" }]);
+    let session = opened(File::new("box.glb", file.glb()));
+    for (asked, name) in [
+        (options(ExportFormat::D3d12), "shine.png"),
+        (for_book(ExportFormat::D3d12), "shine.dds"),
+        (options(ExportFormat::D3d11), "shine.png"),
+    ] {
+        let written = session
+            .export_job(&asked)
+            .expect("a model is open")
+            .run_apart()
+            .expect("it can be written");
+        let told = written
+            .plan
+            .changes
+            .iter()
+            .find(|change| change.code == "metalness-from-picture");
+        assert_eq!(
+            told.map(|told| told.message.as_str()),
+            Some(
+                "Means of pictures are written. \"Full\": metalness is multiplied into its diffuse map, roughness is 0.50."
+            )
+        );
+        let (_, bytes) = written.maps.iter().find(|(map, _)| map == name).expect("it is written");
+        let image = bindpose::image::decode(bytes, name).expect("a picture");
+        let texels = image.to_rgba8(0, 0).expect("texels");
+        assert_eq!(texels[..4], [255; 4], "what is no metal keeps its colour");
+        if asked.format == ExportFormat::D3d12 {
+            assert_eq!(texels[4..], [0, 0, 0, 255]);
+        }
+    }
+}
