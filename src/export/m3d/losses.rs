@@ -9,8 +9,8 @@ use crate::export::Loss;
 use crate::export::losses::Losses;
 use crate::format::Dialect;
 use crate::model::{
-    AlphaMode, Front, JointIndex, JointNames, LocalJoint, MapSlot, Material, MaterialMap, Model, Reflectance, Sampling,
-    Track, UpAxis, one_word,
+    AlphaMode, Front, JointIndex, JointNames, LocalJoint, MapSlot, Material, Model, Reflectance, Sampling, Track,
+    UpAxis, one_word,
 };
 
 /// What a file of this dialect does not hold of a model, or holds otherwise. `names` are names that a person gave to bones.
