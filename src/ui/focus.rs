@@ -10,7 +10,7 @@ use egui::{Context, Event, FocusDirection, Id, Key, LayerId, Modifiers, Order, P
 
 use super::mirror::MirrorAction;
 use super::panel;
-use super::widgets::paint_focus_ring;
+use super::widgets::{in_force, paint_focus_ring};
 
 /// Panels in reading order. The view comes before the panels at its right.
 const BEFORE_VIEW: [&str; 5] = ["title", "toolbar", "model", "legend", "frame"];
@@ -309,21 +309,6 @@ fn open_now(ctx: &Context) -> Vec<(Id, Id)> {
             .map(|(_, key, first)| (key, first)),
     );
     open
-}
-
-/// Notes that this is the choice in force of a menu: the focus begins with it when the menu opens.
-pub(super) fn note_in_force(ui: &Ui, id: Id) {
-    let pass = ui.ctx().cumulative_pass_nr();
-    ui.data_mut(|data| data.insert_temp(in_force_id(), (pass, ui.layer_id().id, id)));
-}
-
-fn in_force(ctx: &Context, key: Id) -> Option<Id> {
-    let (pass, layer, id) = ctx.data(|data| data.get_temp::<(u64, Id, Id)>(in_force_id()))?;
-    (pass == ctx.cumulative_pass_nr() && layer == key).then_some(id)
-}
-
-fn in_force_id() -> Id {
-    Id::unique("the choice in force")
 }
 
 fn first_of(ctx: &Context, key: Id) -> Option<Id> {

@@ -509,8 +509,8 @@ fn of_gltf_it_is_said_whether_it_fits_once_it_is_converted() {
     let told = run(arguments);
     assert_eq!(told.code, Some(0), "{told:?}");
     for words in [
-        "does not fit. The model has 65538 vertices; ",
-        "The model has 120 bones; ",
+        "does not fit. The model has 120 bones; ",
+        "The model has 65538 vertices; ",
     ] {
         assert!(told.out.contains(words), "{words} is not in {}", told.out);
     }

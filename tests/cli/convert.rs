@@ -312,10 +312,11 @@ fn a_bone_without_keys_gets_one_unless_it_is_to_stay_so() {
         text.contains("track-empty") && text.contains("`--keep-empty`"),
         "{text}"
     );
-    let told = convert(&empty, &out("empty", "filled.m3d"), &[]);
+    let filled = out("empty", "filled.m3d");
+    let told = convert(&empty, &filled, &[]);
     assert!(!codes(&told["losses"]).contains(&"track-empty"), "{told}");
     assert!(codes(&told["changes"]).contains(&"track-empty"), "{told}");
-    assert_book_shows(&out("empty", "filled.m3d"), true);
+    assert_book_shows(&filled, true);
     let told = convert(&empty, &out("empty", "for_book.m3d"), &["--for-book"]);
     assert!(!codes(&told["losses"]).contains(&"track-empty"), "{told}");
     assert!(codes(&told["changes"]).contains(&"track-empty"), "{told}");
@@ -500,9 +501,16 @@ fn an_interrupt_leaves_nothing_half_written() {
         };
         assert_eq!(parts(), [""; 0].map(PathBuf::from), "something is left");
         if status.code() == Some(130) {
-            assert_eq!(std::fs::read(&output).expect("is there"), b"kept");
-            interrupted += 1;
-            break;
+            let bytes = std::fs::read(&output).expect("is there");
+            if bytes == b"kept" {
+                interrupted += 1;
+                break;
+            }
+            assert!(
+                bytes.ends_with(b"\n2 1 0\n"),
+                "it came after the last step, and the file is whole"
+            );
+            continue;
         }
         assert!(status.success(), "{status}");
     }

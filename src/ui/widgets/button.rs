@@ -7,11 +7,10 @@ use egui::{
 
 use super::control::{
     MOUSE_CONTROL, TOUCH_CONTROL, arrow_steps, control_size, explained, focus_ring, hint_of_name, is_touch, key_hint,
-    paint_ground, paint_name, paint_row_ground, tell_push,
+    note_in_force, paint_ground, paint_name, paint_row_ground, tell_push,
 };
 use crate::actions::Action;
 use crate::session::{Command, Session};
-use crate::ui::focus::note_in_force;
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 

@@ -464,3 +464,19 @@ pub(crate) fn paint_chip(
 fn layout(painter: &Painter, text: &str, color: Color32) -> std::sync::Arc<egui::Galley> {
     painter.layout_no_wrap(text.to_owned(), FontId::proportional(11.5), color)
 }
+
+/// Notes that this is the choice in force of a menu: the focus begins with it when the menu opens.
+pub(super) fn note_in_force(ui: &Ui, id: Id) {
+    let pass = ui.ctx().cumulative_pass_nr();
+    ui.data_mut(|data| data.insert_temp(in_force_id(), (pass, ui.layer_id().id, id)));
+}
+
+/// The choice in force of a menu that is shown in this pass.
+pub(crate) fn in_force(ctx: &egui::Context, key: Id) -> Option<Id> {
+    let (pass, layer, id) = ctx.data(|data| data.get_temp::<(u64, Id, Id)>(in_force_id()))?;
+    (pass == ctx.cumulative_pass_nr() && layer == key).then_some(id)
+}
+
+fn in_force_id() -> Id {
+    Id::unique("the choice in force")
+}

@@ -14,9 +14,9 @@ pub(super) use button::{
 pub(super) use color::{color_button, color_picker, gradient_shape, paint_swatch};
 pub(super) use control::{
     SliderNode, arrow_steps, by_finger, chip, chip_size, control_size, elided_name, explained, focus_ring,
-    focused_keys, hint_beside, hint_of_name, is_touch, paint_chip, paint_elided, paint_ends, paint_focus_ring,
-    paint_fold_mark, paint_name, paint_row_ground, pressed_chip, pressed_row_height, retain_plain_keys, size_for_touch,
-    slider_keys, tell_open, tell_popup, tell_push, walked,
+    focused_keys, hint_beside, hint_of_name, in_force, is_touch, paint_chip, paint_elided, paint_ends,
+    paint_focus_ring, paint_fold_mark, paint_name, paint_row_ground, pressed_chip, pressed_row_height,
+    retain_plain_keys, size_for_touch, slider_keys, tell_open, tell_popup, tell_push, walked,
 };
 pub(super) use number::{Slider, TypedValue, leading_number, number_field, number_within};
 pub(super) use row::{
