@@ -69,7 +69,7 @@ pub(crate) fn unique_words<'a>(names: impl Iterator<Item = &'a str> + Clone) -> 
         };
         named(taken.free(named))
     };
-    names.map(|name| unique(name)).collect()
+    names.map(unique).collect()
 }
 
 /// Names that are given already.

@@ -513,11 +513,10 @@ fn file_word(stem: &str) -> String {
     // A name of dots is a folder.
     let word = word[..end.unwrap_or_default()].trim_matches('.');
     let first = word.split('.').next().unwrap_or_default().to_ascii_lowercase();
-    let is_device = match first.as_bytes() {
-        b"con" | b"prn" | b"aux" | b"nul" => true,
-        [b'c', b'o', b'm', b'0'..=b'9'] | [b'l', b'p', b't', b'0'..=b'9'] => true,
-        _ => false,
-    };
+    let is_device = matches!(
+        first.as_bytes(),
+        b"con" | b"prn" | b"aux" | b"nul" | [b'c', b'o', b'm', b'0'..=b'9'] | [b'l', b'p', b't', b'0'..=b'9']
+    );
     match word {
         "" => "map".to_owned(),
         word if is_device => format!("_{word}"),

@@ -513,7 +513,7 @@ fn a_book_that_reads_the_file_tells_its_limits() {
         verdict.reads() && !verdict.ends && !verdict.limits.is_empty(),
         "{verdict:?}"
     );
-    window.click("D3D12 demo: shows it · ");
+    window.click("D3D12 demo: shows it, if these 2 maps lie beside it · ");
     for limit in &verdict.limits {
         assert!(window.shows(&limit.message) && window.shows(limit.code), "{limit:?}");
     }

@@ -156,7 +156,7 @@ impl Checked {
         let is_shown = |verdict: &Verdict| verdict.is_shown() && !lacks_maps(verdict);
         let of_books = |diagnostic: Diagnostic| is_named(diagnostic.code);
         let exceeded = || self.converted.iter().flatten().map(|limit| limit.code);
-        let book_fails = deny.contains(&BOOK) && !(self.verdicts.iter().all(is_shown) && !exceeded().any(counts));
+        let book_fails = deny.contains(&BOOK) && (exceeded().any(counts) || !self.verdicts.iter().all(is_shown));
         if book_fails
             || self.diagnostics.iter().any(is_denied)
             || self.verdicts.iter().flat_map(Verdict::diagnostics).any(of_books)

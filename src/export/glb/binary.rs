@@ -52,7 +52,7 @@ impl Binary {
 
     /// Floats in rows of `N`, with their bounds where `bounded`.
     pub(super) fn floats<const N: usize>(&mut self, rows: &[[f32; N]], target: Target, bounded: bool) -> usize {
-        self.slices(rows, target, bounded, &[0..rows.len()]);
+        self.slices(rows, target, bounded, std::slice::from_ref(&(0..rows.len())));
         self.accessors.len() - 1
     }
 
