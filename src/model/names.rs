@@ -57,7 +57,7 @@ pub(crate) fn unique_words<'a>(names: impl Iterator<Item = &'a str> + Clone) -> 
             .filter(|name| one_word(name) == **name && !name.is_empty()),
     );
     let mut seen = HashSet::new();
-    let mut unique = |name: &str| {
+    let unique = |name: &str| {
         let word = one_word(name);
         if word == name && !word.is_empty() && seen.insert(word.clone()) {
             return word;

@@ -453,7 +453,7 @@ fn each_limit_is_found_and_nothing_else() {
         }),
         ("book-many-materials", |document| with_materials(document, 22)),
         ("book-material-name", |document| {
-            document.materials[0].name = "mirror0".into()
+            document.materials[0].name = "mirror0".into();
         }),
         ("duplicate-material-name", |document| {
             with_materials(document, 2);

@@ -76,7 +76,7 @@ fn on_box(scene: &Scene, picture: &Picture) -> [[u8; 4]; 3] {
 }
 
 /// A file of a box on some nodes, skinned or not.
-fn boxes(nodes: Value, material: Value, skin: Option<Value>) -> Vec<File> {
+fn boxes(nodes: &Value, material: &Value, skin: Option<Value>) -> Vec<File> {
     let mesh = plates(&walls(1.0)).mesh;
     let mut file = Gltf::new(&json!({ "scenes": [{ "nodes": [0] }], "nodes": nodes, "materials": [material] }));
     // The same numbers are right-handed and wound against the clock.
@@ -325,7 +325,7 @@ on_both_backends! {
         for (nodes, skin) in files {
             let drawn = |double_sided: bool, hand: Option<Handedness>, preset| {
                 let material = json!({ "doubleSided": double_sided, "pbrMetallicRoughness": { "metallicFactor": 0.0, "baseColorFactor": [0.6, 0.1, 0.1, 1.0] } });
-                let mut session = opened(boxes(nodes.clone(), material, skin.clone()));
+                let mut session = opened(boxes(&nodes, &material, skin.clone()));
                 session.apply(Command::SetHandedness(hand));
                 seen(gpu, &mut session, preset)
             };
@@ -342,10 +342,10 @@ on_both_backends! {
     fn both_sides_can_be_asked_for(gpu) {
         let single = json!({ "pbrMetallicRoughness": { "baseColorFactor": [0.6, 0.1, 0.1, 1.0] } });
         let nodes = json!([{ "mesh": 0 }]);
-        let mut files = boxes(nodes, single, None);
+        let mut files = boxes(&nodes, &single, None);
         // Its triangles are turned: corners 1 and 2 of each change places.
         let Some(file) = files.pop() else { return };
-        let mut session = opened(vec![turned(file)]);
+        let mut session = opened(vec![turned(&file)]);
         session.apply(LookCommand::SetViewMode(ViewMode::Depth));
         let holed = seen(gpu, &mut session, ViewPreset::Front);
         session.apply(MaterialCommand::DrawBothSides(true));
@@ -386,7 +386,7 @@ on_both_backends! {
 }
 
 /// The same file with its indices, which come last, in another order.
-fn turned(file: File) -> File {
+fn turned(file: &File) -> File {
     let mut bytes = file.bytes.to_vec();
     let start = bytes.len() - 2 * 36;
     let (triangles, _) = bytes[start..].as_chunks_mut::<6>();

@@ -75,7 +75,7 @@ fn vertices_of_their_own_stay_in_their_order() {
     let mut document = quad();
     let (first, count) = (document.vertices.clone(), document.vertices.len() as u32);
     for part in 1..40 {
-        document.vertices.extend(first.iter().cloned());
+        document.vertices.extend(first.iter().copied());
         document
             .triangles
             .extend([[0, 1, 2], [0, 2, 3]].map(|corners| corners.map(|corner| corner + part * count)));

@@ -66,7 +66,7 @@ fn backs_are_seen_through_an_opening_and_where_triangles_are_turned() {
     type Change = (&'static str, fn(&mut Model));
     let changes: [Change; 8] = [
         ("a triangle is missing", |model| {
-            model.mesh.submeshes[0].triangle_count = 11
+            model.mesh.submeshes[0].triangle_count = 11;
         }),
         ("a triangle is turned", |model| turn(model, 3..4)),
         ("a triangle is there twice", |model| {
@@ -75,14 +75,14 @@ fn backs_are_seen_through_an_opening_and_where_triangles_are_turned() {
             model.mesh.submeshes[0].triangle_count = 13;
         }),
         ("a submesh is there twice", |model| {
-            model.mesh.submeshes.extend_from_within(..)
+            model.mesh.submeshes.extend_from_within(..);
         }),
         ("its fronts are inside", |model| {
             turn(model, 0..12);
             model.mesh.normals.iter_mut().for_each(|normal| *normal = -*normal);
         }),
         ("alpha cuts it", |model| {
-            model.materials[0].alpha = AlphaMode::clipped(true)
+            model.materials[0].alpha = AlphaMode::clipped(true);
         }),
         ("an edge tears open when it moves", |model| {
             let by = |joint| Influences {

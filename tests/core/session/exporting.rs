@@ -660,7 +660,7 @@ fn a_damaged_picture_is_not_told_as_missing() {
     }
 }
 
-fn jpeg(picture: image::DynamicImage) -> Vec<u8> {
+fn jpeg(picture: &image::DynamicImage) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
     picture.write_to(&mut bytes, ImageFormat::Jpeg).expect("a picture");
     bytes.into_inner()
@@ -668,8 +668,8 @@ fn jpeg(picture: image::DynamicImage) -> Vec<u8> {
 
 #[test]
 fn only_a_jpeg_that_a_strict_reader_takes_goes_into_a_glb_as_it_is() {
-    let color = jpeg(RgbImage::from_pixel(8, 8, Rgb([200, 30, 10])).into());
-    let grey = jpeg(image::GrayImage::from_pixel(8, 8, image::Luma([90])).into());
+    let color = jpeg(&RgbImage::from_pixel(8, 8, Rgb([200, 30, 10])).into());
+    let grey = jpeg(&image::GrayImage::from_pixel(8, 8, image::Luma([90])).into());
     // Bytes between two segments, which decoders pass over.
     let mut stray = color.clone();
     stray.splice(20..20, [1, 2, 3]);
