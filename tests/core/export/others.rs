@@ -54,12 +54,23 @@ fn images(maps: &Maps) -> MapImages<'_> {
         .collect()
 }
 
-/// Positions of some vertices at some times of each clip, in glTF's space.
+/// Positions of some triangles' first corners at some times of each clip, in glTF's space. A triangle is told by its primitive and its place
+/// there: a primitive may have vertices of its own.
 fn posed(model: &Model) -> serde_json::Value {
     let gltf_from_model = world_from_model(model.handedness, model.up_axis, model.front);
     let in_gltf = |position: Vec3| (gltf_from_model.transform_point3(position) * Vec3::new(1.0, 1.0, -1.0)).to_array();
-    let step = model.mesh.vertex_count().div_ceil(MOST_VERTICES).max(1);
-    let vertices: Vec<usize> = (0..model.mesh.vertex_count()).step_by(step).collect();
+    let drawn = model.mesh.submeshes.iter().filter(|submesh| submesh.triangle_count > 0);
+    let all = drawn.enumerate().flat_map(|(primitive, submesh)| {
+        let triangles = submesh.triangle_start as usize..(submesh.triangle_start + submesh.triangle_count) as usize;
+        let place = move |(place, triangle): (usize, usize)| ([primitive, place], triangle);
+        triangles.enumerate().map(place)
+    });
+    let all: Vec<_> = all.collect();
+    let step = all.len().div_ceil(MOST_VERTICES).max(1);
+    let some = all.into_iter().step_by(step);
+    let (triangles, vertices): (Vec<_>, Vec<_>) = some
+        .map(|(place, triangle)| (place, model.mesh.indices[3 * triangle] as usize))
+        .unzip();
     let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
     let mut positions = Vec::new();
     let clips: Vec<_> = model
@@ -83,7 +94,7 @@ fn posed(model: &Model) -> serde_json::Value {
         .collect();
     json!({
         "size": model.bind_bounds().size().length(),
-        "vertices": vertices,
+        "triangles": triangles,
         "bones": model.skeleton.joint_count(),
         "clips": clips,
     })
