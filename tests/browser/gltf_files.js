@@ -7,8 +7,8 @@ export function loaded(bytes) {
   return new GLTFLoader().parseAsync(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), "");
 }
 
-/** Each vertex of a file in our order, which is that of the file's meshes and nodes: the mesh that has it, and its number there. */
-export function verticesOf({ scene, parser }) {
+/** Its primitives in our order, which is that of the file's meshes and nodes. `shares` is the same for those that share their vertices. */
+function primitivesOf({ scene, parser }) {
   const parts = [];
   scene.traverse((object) => {
     if (!object.isMesh) return;
@@ -16,7 +16,20 @@ export function verticesOf({ scene, parser }) {
     const { nodes } = { ...parser.associations.get(object.parent), ...parser.associations.get(object) };
     parts.push({ object, order: [meshes, nodes, primitives], shares: JSON.stringify([nodes, parser.json.meshes[meshes].primitives[primitives].attributes]) });
   });
-  parts.sort((a, b) => a.order.map((number, index) => number - b.order[index]).find((apart) => apart !== 0) ?? 0);
+  return parts.sort((a, b) => a.order.map((number, index) => number - b.order[index]).find((apart) => apart !== 0) ?? 0);
+}
+
+/** The first corner of each triangle of a file in our order: the mesh that has it, and its number there. */
+export function cornersOf(gltf) {
+  return primitivesOf(gltf).flatMap(({ object: { geometry }, object }) => {
+    const count = (geometry.index ?? geometry.attributes.position).count / 3;
+    return Array.from({ length: count }, (_, triangle) => ({ object, vertex: geometry.index?.getX(3 * triangle) ?? 3 * triangle }));
+  });
+}
+
+/** Each vertex of a file in our order: the mesh that has it, and its number there. */
+export function verticesOf(gltf) {
+  const parts = primitivesOf(gltf);
   // Primitives that share their attributes share their vertices.
   const own = parts.filter(({ shares }, index) => parts.findIndex((other) => other.shares === shares) === index);
   return own.flatMap(({ object }) => Array.from({ length: object.geometry.attributes.position.count }, (_, vertex) => ({ object, vertex })));
