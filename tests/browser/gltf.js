@@ -5,7 +5,7 @@ import { copyFileSync, mkdtempSync, readFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 import { AnimationMixer, Vector3 } from "three";
-import { cornersOf, loaded, withoutPictures } from "./gltf_files.js";
+import { loaded, trianglesOf, withoutPictures } from "./gltf_files.js";
 import { FIXTURES, SAMPLE, SHARED, call, dropAndWait, keep, settled, state, test, unless, until } from "./harness.js";
 import { assertGolden, difference, picture } from "./picture.js";
 import { MODEL_PAGE, SKELETON_PAGE } from "./widgets.js";
@@ -33,14 +33,17 @@ async function exported(page, options) {
   return { name, bytes: Buffer.from(base64, "base64"), ...told };
 }
 
-/** Where three.js has the first corner of each triangle of a file at a time of a clip. */
+/** Where three.js has the middle of each triangle of a file at a time of a clip: strips may begin with another corner. */
 function posed(gltf, clip, secs) {
   const mixer = new AnimationMixer(gltf.scene);
   mixer.clipAction(gltf.animations.find(({ name }) => name === clip)).play();
   mixer.setTime(secs);
   gltf.scene.updateMatrixWorld(true);
   gltf.scene.traverse((object) => object.skeleton?.update());
-  return cornersOf(gltf).map(({ object, vertex }) => object.localToWorld(object.getVertexPosition(vertex, new Vector3())));
+  return trianglesOf(gltf).map(({ object, corners }) => {
+    const places = corners.map((vertex) => object.localToWorld(object.getVertexPosition(vertex, new Vector3())));
+    return places[0].add(places[1]).add(places[2]).divideScalar(3);
+  });
 }
 
 /** The view at a time of a clip. */

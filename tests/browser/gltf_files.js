@@ -19,11 +19,12 @@ function primitivesOf({ scene, parser }) {
   return parts.sort((a, b) => a.order.map((number, index) => number - b.order[index]).find((apart) => apart !== 0) ?? 0);
 }
 
-/** The first corner of each triangle of a file in our order: the mesh that has it, and its number there. */
-export function cornersOf(gltf) {
+/** The triangles of a file in our order: the mesh that has each, and the numbers of its corners there. */
+export function trianglesOf(gltf) {
   return primitivesOf(gltf).flatMap(({ object: { geometry }, object }) => {
     const count = (geometry.index ?? geometry.attributes.position).count / 3;
-    return Array.from({ length: count }, (_, triangle) => ({ object, vertex: geometry.index?.getX(3 * triangle) ?? 3 * triangle }));
+    const corner = (place) => geometry.index?.getX(place) ?? place;
+    return Array.from({ length: count }, (_, triangle) => ({ object, corners: [0, 1, 2].map((place) => corner(3 * triangle + place)) }));
   });
 }
 
