@@ -47,11 +47,12 @@ pub(super) fn mesh(
     let mut bytes = Vec::new();
     // Of submeshes that overlap the first one decides.
     let turned_round = model.turned_submeshes();
-    let submeshes = model.mesh.submeshes.iter().zip(turned_round);
-    let turned_at: HashMap<usize, bool> = submeshes
-        .filter(|(submesh, _)| submesh.triangle_count > 0)
-        .map(|(submesh, is_turned)| (submesh.triangle_start as usize, is_turned))
-        .collect();
+    let mut turned_at: HashMap<usize, bool> = HashMap::new();
+    for (submesh, is_turned) in model.mesh.submeshes.iter().zip(turned_round) {
+        if submesh.triangle_count > 0 {
+            turned_at.entry(submesh.triangle_start as usize).or_insert(is_turned);
+        }
+    }
     let mut starts = Vec::with_capacity(parts.len());
     for part in &parts {
         bytes.resize(bytes.len().next_multiple_of(size), 0);

@@ -7,12 +7,9 @@ use serde_json::Value;
 
 use super::nodes::Nodes;
 use super::skeleton::{MeshUse, Rig};
-use crate::diagnostic::collect::{Diagnostics, Place, counted};
+use crate::diagnostic::collect::{Diagnostics, Place, counted, few};
 use crate::diagnostic::{Code, codes};
 use crate::gltf::{Node, Root, is_attribute};
-
-/// More names than this are not listed in a message.
-const MOST_NAMES: usize = 8;
 
 /// Notes what is left out of a scene whose meshes are used so. `second_tex_coords`: a map takes them.
 pub(super) fn note(
@@ -141,15 +138,4 @@ fn extras(root: &Root) -> Vec<String> {
     }
     look_into!(scenes, nodes, meshes, skins, animations, materials);
     found
-}
-
-/// All names, or the first few of many.
-fn few(names: &[String]) -> String {
-    let (first, more) = names.split_at(names.len().min(MOST_NAMES));
-    let more = if more.is_empty() {
-        String::new()
-    } else {
-        format!(" and {} more", more.len())
-    };
-    first.join(", ") + &more
 }

@@ -256,6 +256,18 @@ fn ninety_six_bones_on_a_still_one_fit() {
     assert!(refused.to_string().contains("97 bones"), "{refused}");
 }
 
+/// Each takes a pass over the model, so a file of thousands is refused at once.
+#[test]
+fn only_a_few_still_bones_are_folded() {
+    let on_bones = |count: u32| {
+        let figure = model_of(&swaying(96, 0.1)).0;
+        (0..count).fold(figure, |model, _| on_a_still_bone(&model))
+    };
+    assert_eq!(edit(&on_bones(8), &for_book()).model.skeleton.joint_count(), 96);
+    let refused = try_edit(&on_bones(9), &for_book()).expect_err("too many");
+    assert!(refused.to_string().contains("105 bones"), "{refused}");
+}
+
 /// The books' programs stop at a bone without keys.
 #[test]
 fn each_bone_gets_a_key_in_what_is_written_for_the_books() {
