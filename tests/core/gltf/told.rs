@@ -56,7 +56,7 @@ fn objects_that_become_one_mesh_are_named() {
         |_| json!({}),
     );
     let message = &told(&read(&file), "gltf-objects-merged").message.clone();
-    assert!(message.ends_with("node 6, node 7 and 4 more."), "{message}");
+    assert!(message.ends_with("node 1, node 2 and 9 more."), "{message}");
     assert!(is_silent(
         &read(&triangle(&json!({}), |_| json!({}))),
         "gltf-objects-merged"
