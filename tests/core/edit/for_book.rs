@@ -218,6 +218,9 @@ fn on_a_still_bone(model: &Model) -> Model {
             if !is_root {
                 return track.clone();
             }
+            if !track.has_keys() {
+                return Track::at_rest(taken_out(track.key(0)));
+            }
             let keys = (0..track.key_count()).map(|key| (track.times_secs()[key], taken_out(track.key(key))));
             Track::new(keys).expect("sound keys")
         });
