@@ -70,6 +70,7 @@ export function mirrorOf(viewer, canvas, pick) {
   let answers = 0;
   let lost = null; // The element with the focus is gone, and it is not known yet which one has it next.
   let returning = 0; // The timer after which the viewer is told where the focus of the page is.
+  let tabbing = false; // Tab went down, and moves the focus.
   let pressing = false; // A pointer went down on the canvas, and takes the focus there by itself.
   const held = new Set(); // Keys that the viewer was told of and that are not up again.
   const turned = new Set(); // Keys that are down and that the browser turns into clicks and values.
@@ -376,13 +377,23 @@ export function mirrorOf(viewer, canvas, pick) {
 
   // Tab leaves the canvas for the element that the viewer's focus is at, and goes on from there.
   const onTab = (event) => {
-    if (event.key !== "Tab" || ![canvas, input].includes(active())) return;
+    if (event.key !== "Tab") return;
+    tabbing = true;
+    setTimeout(() => (tabbing = false));
+    if (![canvas, input].includes(active())) return;
     event.stopImmediatePropagation();
     const from = elementOf(asked === undefined ? focus : asked);
     if (from) giveFocus(from);
     else if (!event.shiftKey && active() !== canvas) canvas.focus({ preventScroll: true });
   };
+  /** Who comes by Tab sees that the view has the focus; eframe takes the browser's own outline away. */
+  const outline = (shown) => {
+    canvas.style.outline = shown ? "2px solid var(--accent, Highlight)" : "none";
+    canvas.style.outlineOffset = "-2px";
+  };
+  const onBlur = () => outline(false);
   const onPointer = () => {
+    outline(false);
     pressing = true;
     setTimeout(() => (pressing = false));
   };
@@ -390,10 +401,12 @@ export function mirrorOf(viewer, canvas, pick) {
     // The keyboard came here from a control, perhaps by way of the browser's own, and the viewer still has it in its focus.
     if (!pressing && left) askFocus(null);
     left = false;
+    outline(tabbing);
   };
   globalThis.addEventListener("keydown", onTab, true);
   canvas.addEventListener("pointerdown", onPointer, true);
   canvas.addEventListener("focus", leavesForCanvas);
+  canvas.addEventListener("blur", onBlur);
 
   return {
     take,
@@ -404,6 +417,7 @@ export function mirrorOf(viewer, canvas, pick) {
       globalThis.removeEventListener("keydown", onTab, true);
       canvas.removeEventListener("pointerdown", onPointer, true);
       canvas.removeEventListener("focus", leavesForCanvas);
+      canvas.removeEventListener("blur", onBlur);
       root.remove();
     },
   };

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Subject, codes};
 use crate::format::LineMap;
-use crate::model::{Aabb, Mesh, Model, Submesh};
+use crate::model::{Aabb, Mesh, Model};
 
 /// A triangle lower than this fraction of the mesh's diagonal has no area: positions have about seven digits in a file and in an
 /// `f32`, so a lesser height is a rounding error.
@@ -68,7 +68,8 @@ pub(super) fn note_useless(mesh: &Mesh, lines: &LineMap, diagnostics: &mut Diagn
     }
 }
 
-/// Notes triangles that are drawn from one side, which is not the one to which the normals of all their corners point.
+/// Notes triangles whose front is not the side to which the normals of all their corners point: those that are drawn from their front
+/// alone, and of submeshes that are drawn from both sides those where most are so.
 pub(super) fn note_turned_away(model: &Model, lines: &LineMap, diagnostics: &mut Diagnostics) {
     let mesh = &model.mesh;
     let is_turned = |corners: [u32; 3]| {
@@ -77,25 +78,39 @@ pub(super) fn note_turned_away(model: &Model, lines: &LineMap, diagnostics: &mut
         normals.into_iter().all(|normal| side.dot(normal) < 0.0)
     };
     let is_flat = flatness(mesh);
-    let mut tally = Tally::default();
-    let single_sided = |submesh: &&Submesh| !model.materials[submesh.material as usize].double_sided;
-    for submesh in mesh.submeshes.iter().filter(single_sided) {
-        for (triangle, &corners) in (submesh.triangle_start..).zip(mesh.triangles_of(submesh)) {
-            if is_turned(corners) && !is_flat(corners) {
-                tally.add(triangle);
-            }
+    let (mut unseen, mut dark) = (Tally::default(), Tally::default());
+    for submesh in &mesh.submeshes {
+        let material = &model.materials[submesh.material as usize];
+        if !material.faces_as_wound() {
+            continue;
+        }
+        let numbered = (submesh.triangle_start..).zip(mesh.triangles_of(submesh));
+        let turned = numbered.filter(|&(_, &corners)| is_turned(corners) && !is_flat(corners));
+        if !material.double_sided {
+            turned.for_each(|(triangle, _)| unseen.add(triangle));
+        } else if 2 * turned.clone().count() > submesh.triangle_count as usize {
+            turned.for_each(|(triangle, _)| dark.add(triangle));
         }
     }
-    if tally.count == 0 {
-        return;
-    }
-    diagnostics.add(
+    let mut note = |code, tally: &Tally, what| {
+        if tally.count > 0 {
+            let place = Place::of_rows(tally, Subject::Triangle, &lines.triangles);
+            diagnostics.add(
+                code,
+                place,
+                format!("{} {what}", counted(tally.count, "triangle is", "triangles are")),
+            );
+        }
+    };
+    note(
         &codes::TRIANGLES_TURNED_AWAY,
-        Place::of_rows(&tally, Subject::Triangle, &lines.triangles),
-        format!(
-            "{} drawn from the side that normals point away from, and not from the other.",
-            counted(tally.count, "triangle is", "triangles are")
-        ),
+        &unseen,
+        "drawn from the side that normals point away from, and not from the other.",
+    );
+    note(
+        &codes::TRIANGLES_LIT_FROM_BEHIND,
+        &dark,
+        "wound against the normals, so that light falls on the other side.",
     );
 }
 

@@ -71,7 +71,8 @@ pub(super) fn note_shears(model: &Model, compiled: &[CompiledClip], lines: &Line
                 &codes::SCALE_SHEARS,
                 Place::on(Subject::Clip(clip as u32), lines.track(clip as u32, bone)).at([Moment::new(time_secs, bone)]),
                 format!(
-                    "At {time_secs} s of \"{}\" bone {bone} is sheared: it is turned, and a bone above it is scaled by different factors.",
+                    "At {} s of \"{}\" bone {bone} is sheared: it is turned, and a bone above it is scaled by different factors.",
+                    (time_secs * 1e3).round() / 1e3,
                     model.clips[clip].name
                 ),
             );

@@ -614,6 +614,11 @@ table! {
             "The file says that its material has one side. Turned triangles leave holes; the outline of a drawn character may be meant so.",
             "It is drawn from the side that its corners wind round. On the page, `Draw both sides` closes the holes.",
             "Turn its corners round where they were mirrored or flipped, or give the material two sides (`doubleSided`).";
+        TRIANGLES_LIT_FROM_BEHIND = "triangles-lit-from-behind", Warning,
+            "Most triangles of a part that is drawn from both sides wind the other way round than their normals say.",
+            "A glTF file is lit on the side that the corners wind round, so the part looks dark, as if the light came from inside. It comes of objects that are mirrored (a negative scale) and then exported.",
+            "It is drawn as the file has it, as other viewers do. A `.m3d` that is written of it goes by the normals.",
+            "Blender: apply the scale (Ctrl+A), then Mesh > Normals > Recalculate Outside, and export again.";
         VERTICES_UNUSED = "vertices-unused", Note,
             "A vertex is a corner of no triangle.",
             "It is loose: not seen, but it counts for the model's size and is moved with the others. It can be left out.",

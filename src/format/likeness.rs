@@ -47,7 +47,7 @@ impl fmt::Display for Stranger {
             Self::Other(name) => write!(f, "This is {name}, not an .m3d file."),
             Self::Model3d(kind) => write!(
                 f,
-                "This is {} \"Model 3D\" file by bzt. It shares the extension .m3d, but is another format.",
+                "This is {} \"Model 3D\" file by bzt. It has a similar name, but is another format.",
                 if *kind == "binary" { "a binary" } else { "an ASCII" }
             ),
             Self::Relative(mark) => {

@@ -1,4 +1,4 @@
-//! Surface parameters, colours linear unless named `_srgb`.
+//! Surface parameters. Colours are linear where nothing else is said.
 
 use glam::{Affine2, Vec2};
 
@@ -9,7 +9,8 @@ use crate::modes::modes;
 pub struct Material {
     /// Name to show, unique in the model.
     pub name: String,
-    /// Diffuse colour as the file has it, linear. Of a metal its reflectance.
+    /// Diffuse colour as the file has it: linear in glTF's words, where it is a metal's reflectance; as it is shown, sRGB, in the books',
+    /// whose light is summed without a curve. [`Material::base_color`] is linear in both.
     pub diffuse: [f32; 3],
     /// Alpha beside `diffuse`, 0…1, which the map's alpha multiplies.
     pub opacity: f32,
@@ -45,7 +46,7 @@ impl Default for Material {
     fn default() -> Self {
         Self {
             name: String::new(),
-            diffuse: [0.8; 3],
+            diffuse: [0.906; 3],
             opacity: 1.0,
             reflectance: Reflectance::Fresnel {
                 fresnel0: [0.05; 3],

@@ -1,6 +1,7 @@
 //! One way to reflect in the words of another.
 
 use super::{Material, Reflectance};
+use crate::image::srgb;
 
 /// The DirectX 11 book's specular colours multiply a lobe that peaks at 1. A twentieth of them is the Fresnel reflectance of the
 /// dielectrics that they stand for.
@@ -35,11 +36,19 @@ pub struct MetallicSurface {
 }
 
 impl Material {
+    /// The diffuse colour, linear; of a metal its reflectance.
+    pub fn base_color(&self) -> [f32; 3] {
+        match self.reflectance {
+            Reflectance::MetallicRoughness { .. } => self.diffuse,
+            Reflectance::Fresnel { .. } | Reflectance::Phong { .. } => self.diffuse.map(srgb::curve),
+        }
+    }
+
     /// The surface in the words of the DirectX 12 book. A metal by glTF 2.0, appendix B: Fresnel0 is mix(0.04, diffuse, metallic), and
     /// what it reflects so is not diffuse. Of a Phong lobe Fresnel0 is a twentieth of the specular colour, to which the mirrored sky
     /// comes, and the roughness is [`roughness_from_power`].
     pub fn fresnel_surface(&self) -> FresnelSurface {
-        let diffuse = self.diffuse;
+        let diffuse = self.base_color();
         match self.reflectance {
             Reflectance::Fresnel { fresnel0, roughness } => FresnelSurface {
                 diffuse,
@@ -72,7 +81,7 @@ impl Material {
     pub fn metallic_surface(&self) -> MetallicSurface {
         if let Reflectance::MetallicRoughness { metallic, roughness } = self.reflectance {
             return MetallicSurface {
-                base_color: self.diffuse,
+                base_color: self.base_color(),
                 metallic,
                 roughness,
             };

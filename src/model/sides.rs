@@ -16,7 +16,7 @@ impl Handedness {
 impl Material {
     /// Whether its triangles face as they are wound: in glTF, and wherever one side alone is drawn. A book's material that is drawn from
     /// both sides leaves it to the normals.
-    fn faces_as_wound(&self) -> bool {
+    pub(crate) fn faces_as_wound(&self) -> bool {
         !self.double_sided || matches!(self.reflectance, Reflectance::MetallicRoughness { .. })
     }
 }

@@ -305,7 +305,7 @@ fn material_uniform(index: usize, material: &Material, maps: MapFacts, has_color
     let varies = maps.has_alpha || has_colors;
     let least_alpha = material.least_alpha();
     let common = shaders::Material {
-        albedo: stand_in.unwrap_or(unit(material.diffuse)),
+        albedo: stand_in.unwrap_or(unit(material.base_color())),
         alpha_clip: if varies || material.opacity < least_alpha {
             least_alpha
         } else {

@@ -47,12 +47,12 @@ const WHITE_SPREAD: f32 = 0.1;
 /// The colour in which a material is shown without its maps, linear: its diffuse colour; where that is a plain white to
 /// be multiplied with a map, a quiet tint. A material that names no map keeps its white.
 pub fn display_color(material_index: usize, material: &Material) -> [f32; 3] {
-    stand_in_color(material_index, material).unwrap_or(material.diffuse.map(|channel| channel.clamp(0.0, 1.0)))
+    stand_in_color(material_index, material).unwrap_or(material.base_color().map(|channel| channel.clamp(0.0, 1.0)))
 }
 
 /// The quiet tint, linear, of a material whose diffuse colour is a plain white to be multiplied with a map.
 pub fn stand_in_color(material_index: usize, material: &Material) -> Option<[f32; 3]> {
-    let [red, green, blue] = material.diffuse;
+    let [red, green, blue] = material.base_color();
     let least = red.min(green).min(blue);
     let greatest = red.max(green).max(blue);
     let is_placeholder = material.diffuse_map.is_some() && least >= WHITE_FROM && greatest - least <= WHITE_SPREAD;
@@ -125,7 +125,7 @@ mod tests {
             ([0.8, 0.2, 0.1], Some("a.dds")),
             ([0.3; 3], Some("a.dds")),
         ] {
-            assert_eq!(display_color(0, &material(diffuse, map)), diffuse);
+            assert_eq!(display_color(0, &material(diffuse, map)), diffuse.map(srgb::curve));
         }
     }
 

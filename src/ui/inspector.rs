@@ -106,12 +106,12 @@ fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
     let mut edited = material.clone();
     match &mut edited.reflectance {
         Reflectance::Fresnel { fresnel0, roughness } => {
-            color_row(ui, "Diffuse", &mut edited.diffuse);
-            color_row(ui, "Fresnel R0", fresnel0);
+            color_row(ui, "Diffuse", &mut edited.diffuse, ENCODED);
+            color_row(ui, "Fresnel R0", fresnel0, LINEAR);
             part_row(ui, "Roughness", roughness);
         }
         Reflectance::MetallicRoughness { metallic, roughness } => {
-            color_row(ui, "Diffuse", &mut edited.diffuse);
+            color_row(ui, "Diffuse", &mut edited.diffuse, LINEAR);
             part_row(ui, "Metallic", metallic);
             part_row(ui, "Roughness", roughness);
             return of_gltf(ui, material, edited);
@@ -122,12 +122,12 @@ fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
             spec_power,
             reflectivity,
         } => {
-            color_row(ui, "Ambient", ambient);
-            color_row(ui, "Diffuse", &mut edited.diffuse);
-            color_row(ui, "Specular", specular);
+            color_row(ui, "Ambient", ambient, ENCODED);
+            color_row(ui, "Diffuse", &mut edited.diffuse, ENCODED);
+            color_row(ui, "Specular", specular, ENCODED);
             let speed = 0.25 + *spec_power * 0.01;
             number_row(ui, "Power", spec_power, 0.0..=MAX_SPEC_POWER, (speed, 1));
-            color_row(ui, "Reflectivity", reflectivity);
+            color_row(ui, "Reflectivity", reflectivity, LINEAR);
         }
     }
     if switch_row(ui, "Alpha clip", "", material.is_cut()).clicked() {
@@ -138,7 +138,7 @@ fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
 
 /// The values that a glTF file has and the books have not, as far as they do something here, for a material that is being edited.
 fn of_gltf(ui: &mut Ui, material: &Material, mut edited: Material) -> Option<Material> {
-    color_row(ui, "Emissive", &mut edited.emissive);
+    color_row(ui, "Emissive", &mut edited.emissive, LINEAR);
     if material.normal_map.is_some() {
         number_row(ui, "Normal scale", &mut edited.normal_scale, -8.0..=8.0, (0.01, 2));
     }
@@ -182,15 +182,23 @@ fn part_row(ui: &mut Ui, label: &str, part: &mut f32) {
 }
 
 /// A linear colour: a button with a picker, and three numbers.
-fn color_row(ui: &mut Ui, label: &str, color: &mut [f32; 3]) {
+/// From a colour's numbers to the bytes of its swatch, and back.
+type Swatch = (fn(f32) -> u8, fn(u8) -> f32);
+
+const LINEAR: Swatch = (srgb8_from_linear, linear_from_srgb8);
+
+/// Of numbers that are sRGB-encoded themselves.
+const ENCODED: Swatch = (|number| (number * 255.0).round() as u8, |byte| f32::from(byte) / 255.0);
+
+fn color_row(ui: &mut Ui, label: &str, color: &mut [f32; 3], (byte, number): Swatch) {
     row(ui, label, |ui, height| {
         let side = Vec2::splat(height);
-        let shown = color.map(srgb8_from_linear);
+        let shown = color.map(byte);
         if let Some(chosen) = color_button(ui, label, side, shown) {
             // Set only the channels that changed. 8 bits would round the others.
             for channel in 0..3 {
                 if chosen[channel] != shown[channel] {
-                    color[channel] = linear_from_srgb8(chosen[channel]);
+                    color[channel] = number(chosen[channel]);
                 }
             }
         }

@@ -198,7 +198,7 @@ pub(super) fn shown_color(session: &Session, material: usize) -> [f32; 3] {
         return [0.0; 3];
     };
     match session.maps().image(material, MapSlot::Diffuse) {
-        Some(_) => values.diffuse,
+        Some(_) => values.base_color(),
         None => display_color(material, values),
     }
 }

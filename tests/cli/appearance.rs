@@ -94,7 +94,8 @@ fn the_background_is_the_one_that_was_asked_for() {
         "no-shadow",
         &["--transparent", "--without", "shadow", "--without", "contact"],
     ));
-    assert!(kept > 50 && without == 0, "{kept} pixels of shadow, {without} without");
+    // A pixel of the model may be black too.
+    assert!(kept > 50 && without < 5, "{kept} pixels of shadow, {without} without");
     let (sky, backdrop) = (draw("sky", &["--background", "sky"]), draw("backdrop", &[]));
     assert!(differs(&sky, &backdrop) > 0.3);
 }

@@ -48,7 +48,8 @@ fn phong_material(values: Phong) -> Material {
             spec_power: values.spec_power,
             reflectivity: values.reflectivity,
         },
-        ..material("old", [0.5, 0.4, 0.3])
+        diffuse: [0.5, 0.4, 0.3],
+        ..material("old", WHITE)
     }
 }
 
@@ -87,7 +88,8 @@ on_both_backends! {
             let (albedo, fresnel0) = (Vec3::new(0.5, 0.4, 0.3), Vec3::new(0.02, 0.1, 0.3));
             let mut scene = leaning(Material {
                 reflectance: Reflectance::Fresnel { fresnel0: fresnel0.to_array(), roughness },
-                ..material("new", albedo.to_array())
+                diffuse: albedo.to_array(),
+                ..material("new", WHITE)
             });
             scene.options.book_lights_turn_radians = turn_radians;
             let surface = BookSurface {
@@ -107,7 +109,8 @@ on_both_backends! {
         let texel = [100_u8, 150, 200];
         let scene = leaning(Material {
             reflectance: Reflectance::Fresnel { fresnel0: [0.0; 3], roughness: 1.0 },
-            ..material("new", [0.5, 1.0, 1.0])
+            diffuse: [0.5, 1.0, 1.0],
+            ..material("new", WHITE)
         });
         let map = plain([100, 150, 200, 255]);
         let found = gpu.draw_with_maps(&scene, &diffuse(&map), WIDTH, HEIGHT).middle();

@@ -34,7 +34,7 @@ fn draw_map(gpu: &Gpu, scene: &Scene, map: &Arc<Image>) -> Picture {
 /// A grey card, so that nothing is too bright to compare.
 fn grey_card() -> Scene {
     let mut scene = card_once();
-    scene.model.materials[0].diffuse = [0.3; 3];
+    scene.model.materials[0].diffuse = [0.58; 3];
     scene
 }
 

@@ -141,10 +141,15 @@ impl Scene {
     }
 }
 
+/// Of a diffuse colour that is linear; the books write it sRGB-encoded (IEC 61966-2-1).
 pub(crate) fn material(name: &str, diffuse: [f32; 3]) -> Material {
+    let encoded = |linear: f32| match linear {
+        0.0..=0.003_130_8 => linear * 12.92,
+        _ => 1.055 * linear.powf(1.0 / 2.4) - 0.055,
+    };
     Material {
         name: name.into(),
-        diffuse,
+        diffuse: diffuse.map(encoded),
         reflectance: Reflectance::Fresnel {
             fresnel0: [0.04; 3],
             roughness: 0.7,

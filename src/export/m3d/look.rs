@@ -192,11 +192,9 @@ impl Look {
         match (dialect, material.reflectance) {
             (Dialect::D3d12, Reflectance::Fresnel { .. } | Reflectance::Phong { .. }) => {
                 let FresnelSurface {
-                    diffuse,
-                    fresnel0,
-                    roughness,
+                    fresnel0, roughness, ..
                 } = material.fresnel_surface();
-                return (diffuse, format::Reflectance::Fresnel { fresnel0, roughness });
+                return (material.diffuse, format::Reflectance::Fresnel { fresnel0, roughness });
             }
             (
                 _,

@@ -195,7 +195,7 @@ fn subsets(model: &Model, dialect: Dialect, losses: &mut Losses) {
         "materials-shared",
         shared,
         format!(
-            "{} a material with another one and gets a copy of it, since the format has one material for each subset.",
+            "{} a material with another one: each gets its own copy, since the format has one material for each subset.",
             counted(shared, "subset shares", "subsets share")
         ),
     );

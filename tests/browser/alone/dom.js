@@ -79,6 +79,7 @@ class Element {
   focus() {
     const before = this.page.focused;
     if (before === this) return;
+    before?.dispatchEvent({ type: "blur", relatedTarget: this });
     before?.dispatchEvent({ type: "focusout", bubbles: true, relatedTarget: this });
     this.page.focused = this;
     this.dispatchEvent({ type: "focus", relatedTarget: before });

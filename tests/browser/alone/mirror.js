@@ -184,3 +184,18 @@ test("Shift and Tab go from the canvas to where Tab would come from, also after 
   down("Tab");
   assert.equal(at("first").page.focused, at("first"));
 });
+
+test("who comes to the view by Tab sees that it has the focus; a script or a click shows nothing", async () => {
+  const { at, canvas, down } = mirrorWith([button("first")]);
+  canvas.focus();
+  assert.ok(["none", undefined].includes(canvas.style.outline), canvas.style.outline);
+  at("first").focus();
+  down("Tab", { shiftKey: true });
+  assert.match(canvas.style.outline, /^2px solid/);
+  canvas.dispatchEvent({ type: "pointerdown" });
+  assert.equal(canvas.style.outline, "none");
+  at("first").focus();
+  down("Tab", { shiftKey: true });
+  at("first").focus();
+  assert.equal(canvas.style.outline, "none", "the focus went on");
+});

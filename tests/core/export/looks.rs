@@ -1,11 +1,13 @@
 //! What materials of glTF look like in the books' words: by the formulas of both books' lights, and by their pictures.
 
-use bindpose::export::{Look, MapImages, looks, m3d, m3d_with};
+use bindpose::export::{Look, MapImages, glb, looks, m3d, m3d_with};
 use bindpose::format::{self, Dialect, parse};
 use bindpose::image::Image;
+use bindpose::import::import;
 use bindpose::model::{JointNames, MapSlot, Material, Model, Reflectance};
 use glam::{Vec2, Vec3};
 
+use super::glb::chunks;
 use crate::documents::{model_of, quad};
 use crate::twins::book::{BookSurface, PhongSurface, book_light, phong_light};
 
@@ -172,6 +174,23 @@ fn factors_are_written_as_the_books_multiply_them() {
         told.diffuse
     );
     assert_eq!(fresnel(&told), ([0.04; 3], 0.7));
+}
+
+/// The books add up what is shown, glTF adds up light: a colour that goes to the books and back is the same.
+#[test]
+fn colours_come_back_from_the_books() {
+    for dialect in [Dialect::D3d11, Dialect::D3d12] {
+        let rough = square(metallic([0.8, 0.25, 0.01], 0.0, 0.7));
+        let written = m3d(&rough, &JointNames::default(), dialect).expect("it can be written");
+        let of_book = import(&written.bytes).expect("it is sound").model;
+        let surface = of_book.materials[0].metallic_surface();
+        assert!(is_near(surface.base_color, [0.8, 0.25, 0.01], 1e-4), "{surface:?}");
+        let again = glb(&of_book, &JointNames::default(), &MapImages::new()).expect("it can be written");
+        let (root, _) = chunks(&again.bytes);
+        let factor = &root["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"];
+        let factor = [0, 1, 2].map(|channel: usize| factor[channel].as_f64().expect("a number") as f32);
+        assert!(is_near(factor, [0.8, 0.25, 0.01], 1e-4), "{factor:?}");
+    }
 }
 
 /// Blender writes no factor where a picture has it, so that the factor is 1.

@@ -169,14 +169,14 @@ impl Material {
         Material::Visor,
     ];
 
-    /// The file's words; colours are linear. They are right without the maps too, which stay near white.
+    /// The file's words; diffuse colours are as they are shown, sRGB. They are right without the maps too, which stay near white.
     pub(crate) fn entry(self) -> format::Material {
         let (name, diffuse, fresnel0, roughness, [diffuse_map, normal_map]) = match self {
-            Material::Suit => ("Suit", [0.69, 0.66, 0.61], [0.04; 3], 0.62, maps::SUIT),
-            Material::Shell => ("Shell", [0.68, 0.69, 0.69], [0.05; 3], 0.28, maps::TRIM),
-            Material::Trim => ("Trim", [0.82, 0.235, 0.045], [0.04; 3], 0.45, maps::TRIM),
-            Material::Rubber => ("Rubber", [0.065, 0.07, 0.08], [0.04; 3], 0.6, maps::RUBBER),
-            Material::Visor => ("Visor", [0.012, 0.02, 0.034], [0.09, 0.1, 0.12], 0.12, maps::VISOR),
+            Material::Suit => ("Suit", [0.8489, 0.8323, 0.8036], [0.04; 3], 0.62, maps::SUIT),
+            Material::Shell => ("Shell", [0.8434, 0.8489, 0.8489], [0.05; 3], 0.28, maps::TRIM),
+            Material::Trim => ("Trim", [0.9163, 0.522, 0.2348], [0.04; 3], 0.45, maps::TRIM),
+            Material::Rubber => ("Rubber", [0.2828, 0.2934, 0.3133], [0.04; 3], 0.6, maps::RUBBER),
+            Material::Visor => ("Visor", [0.1121, 0.1517, 0.2029], [0.09, 0.1, 0.12], 0.12, maps::VISOR),
         };
         format::Material {
             name: name.into(),
