@@ -8,6 +8,7 @@ use super::space;
 use crate::anim::{CompiledClip, PoseBuffers, skin_positions, straight};
 use crate::check::book::{DEMO_CLIP, DEMO_MATERIALS, DEMO_SCALE, MOST_BONES, MOST_VERTICES, SEEN_HEIGHTS};
 use crate::diagnostic::codes;
+use crate::diagnostic::collect::{few, quoted};
 use crate::model::{
     Aabb, Clip, Influences, JointIndex, JointNames, LocalJoint, Model, ModelError, Skeleton, Track, unique_words,
 };
@@ -328,6 +329,7 @@ fn add_clip(edited: &mut Edited) -> Result<(), ModelError> {
 
 /// At least one key for each bone, without which the books' programs stop; where asked, the first at 0 s, where the demo begins.
 pub(super) fn give_keys(edited: &mut Edited, begins_at_zero: bool) -> Result<(), EditError> {
+    let (mut least, mut most, mut names) = (usize::MAX, 0, Vec::new());
     for clip in &mut edited.model.clips {
         let start_secs = clip.start_secs;
         let shift_secs = if begins_at_zero { start_secs } else { 0.0 };
@@ -342,14 +344,8 @@ pub(super) fn give_keys(edited: &mut Edited, begins_at_zero: bool) -> Result<(),
         let tracks = clip.tracks.iter().map(keyed).collect::<Result<_, _>>()?;
         *clip = with_tracks(clip, tracks);
         if resting > 0 {
-            edited.changes.push(Change::new(
-                codes::TRACK_EMPTY.name,
-                format!(
-                    "{} a key at rest in \"{}\".",
-                    counted(resting, "bone gets", "bones get"),
-                    clip.name
-                ),
-            ));
+            (least, most) = (least.min(resting), most.max(resting));
+            names.push(quoted(&clip.name));
         }
         if shift_secs != 0.0 {
             edited.changes.push(Change::new(
@@ -357,6 +353,14 @@ pub(super) fn give_keys(edited: &mut Edited, begins_at_zero: bool) -> Result<(),
                 format!("\"{}\" begins at 0 s, not at {start_secs} s.", clip.name),
             ));
         }
+    }
+    if most > 0 {
+        let who = counted(most, "bone gets", "bones get");
+        let who = if least < most { format!("Up to {who}") } else { who };
+        edited.changes.push(Change::new(
+            codes::TRACK_EMPTY.name,
+            format!("{who} a key at rest in {}.", few(&names)),
+        ));
     }
     Ok(())
 }

@@ -276,7 +276,7 @@ fn say_looks(model: &Model, looks: &[Look], known: &KnownMaps, plan: &mut Export
     };
     plan.changes.push(Change {
         code: "metalness-from-picture",
-        message: format!("Means of pictures are written. {}{more}.", first.join("; ")),
+        message: format!("Averages of pictures are written. {}{more}.", first.join("; ")),
     });
 }
 

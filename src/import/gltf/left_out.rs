@@ -104,8 +104,8 @@ pub(super) fn note(
 
     let extras = extras(root);
     let what = [
-        "part of the file has extras, which are left out",
-        "parts of the file have extras, which are left out",
+        "part of the file has extras (custom properties), which are left out",
+        "parts of the file have extras (custom properties), which are left out",
     ];
     let first = extras.first().cloned().unwrap_or_default();
     tell(&codes::GLTF_EXTRAS_LEFT_OUT, extras.len(), &first, what, extras);

@@ -50,8 +50,11 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     let below = if at_end { 0.0 } else { control_size(ui) + 2.0 * GAP };
     let most = (ui.available_height() - below).max(LEAST_SCROLLED);
     scrolled("findings", most).auto_shrink([false, true]).show(ui, |ui| {
-        books::show(ui, session, open, state);
-        rule(ui, MARGIN);
+        // The books' programs read no glTF.
+        if !session.verdicts().is_empty() {
+            books::show(ui, session, open, state);
+            rule(ui, MARGIN);
+        }
         found(ui, session, open, state, commands);
         if at_end {
             take_along(ui, session, state);

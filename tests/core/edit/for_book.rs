@@ -288,6 +288,17 @@ fn each_bone_gets_a_key_in_what_is_written_for_the_books() {
         Some("1 bone gets a key at rest in \"Walk\".")
     );
     assert!(clip.tracks.iter().all(Track::has_keys));
+    let mut several = model.clone();
+    for (index, resting) in [(1, 2), (2, 2), (3, 2), (4, 3)] {
+        let mut tracks = model.clips[0].tracks.clone();
+        tracks[..resting].fill(Track::at_rest(rest));
+        several.clips.push(Clip::new(format!("Step {index}"), tracks));
+    }
+    let told = edit(&several, &Edits::default().in_space_of_the_books(&several)).changes;
+    let told: Vec<_> = told.iter().filter(|change| change.code == "track-empty").collect();
+    assert_eq!(told.len(), 1, "one line, however many clips");
+    let words = "Up to 4 bones get a key at rest in \"Walk\", \"Step 1\", \"Step 2\" and 2 more.";
+    assert_eq!(told[0].message, words);
     assert_eq!(
         (clip.start_secs, clip.end_secs),
         (start_secs, end_secs),

@@ -112,7 +112,7 @@ fn extras_are_told_but_for_those_that_are_read() {
     let finding = told(&imported, "gltf-extras-left-out");
     assert_eq!(
         finding.message,
-        "3 parts of the file have extras, which are left out: /extras, /nodes/0/extras, /materials/0/extras."
+        "3 parts of the file have extras (custom properties), which are left out: /extras, /nodes/0/extras, /materials/0/extras."
     );
     assert_eq!((finding.pointer.as_deref(), finding.count), (Some("/extras"), 3));
 }

@@ -781,7 +781,7 @@ fn metalness_of_a_picture_comes_along_in_the_diffuse_map_and_is_told() {
         assert_eq!(
             told.map(|told| told.message.as_str()),
             Some(
-                "Means of pictures are written. \"Full\": metalness is multiplied into its diffuse map, roughness is 0.50."
+                "Averages of pictures are written. \"Full\": metalness is multiplied into its diffuse map, roughness is 0.50."
             )
         );
         let (_, bytes) = written.maps.iter().find(|(map, _)| map == name).expect("it is written");
