@@ -60,7 +60,7 @@ fn without_its_maps_each_material_keeps_its_colour() {
     for (index, material) in model.materials.iter().enumerate() {
         assert_eq!(
             scene::display_color(index, material),
-            material.diffuse,
+            material.base_color(),
             "{}",
             material.name
         );
