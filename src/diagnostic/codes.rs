@@ -617,7 +617,7 @@ table! {
         TRIANGLES_LIT_FROM_BEHIND = "triangles-lit-from-behind", Warning,
             "Most triangles of a part that is drawn from both sides wind the other way round than their normals say.",
             "A glTF file is lit on the side that the corners wind round, so the part looks dark, as if the light came from inside. It comes of objects that are mirrored (a negative scale) and then exported.",
-            "It is drawn as the file has it, as other viewers do. A `.m3d` that is written of it goes by the normals.",
+            "It is drawn as the file has it, which is what glTF asks for. A `.m3d` that is written of it goes by the normals.",
             "Blender: apply the scale (Ctrl+A), then Mesh > Normals > Recalculate Outside, and export again.";
         VERTICES_UNUSED = "vertices-unused", Note,
             "A vertex is a corner of no triangle.",

@@ -46,6 +46,7 @@ impl Default for Material {
     fn default() -> Self {
         Self {
             name: String::new(),
+            // 0.8 of the light.
             diffuse: [0.906; 3],
             opacity: 1.0,
             reflectance: Reflectance::Fresnel {

@@ -181,8 +181,7 @@ fn part_row(ui: &mut Ui, label: &str, part: &mut f32) {
     }
 }
 
-/// A linear colour: a button with a picker, and three numbers.
-/// From a colour's numbers to the bytes of its swatch, and back.
+/// From a colour's numbers to the bytes of its swatch, sRGB, and back.
 type Swatch = (fn(f32) -> u8, fn(u8) -> f32);
 
 const LINEAR: Swatch = (srgb8_from_linear, linear_from_srgb8);
@@ -190,6 +189,7 @@ const LINEAR: Swatch = (srgb8_from_linear, linear_from_srgb8);
 /// Of numbers that are sRGB-encoded themselves.
 const ENCODED: Swatch = (|number| (number * 255.0).round() as u8, |byte| f32::from(byte) / 255.0);
 
+/// A colour: a button with a picker, and three numbers.
 fn color_row(ui: &mut Ui, label: &str, color: &mut [f32; 3], (byte, number): Swatch) {
     row(ui, label, |ui, height| {
         let side = Vec2::splat(height);

@@ -185,7 +185,7 @@ test("Shift and Tab go from the canvas to where Tab would come from, also after 
   assert.equal(at("first").page.focused, at("first"));
 });
 
-test("who comes to the view by Tab sees that it has the focus; a script or a click shows nothing", async () => {
+test("who comes to the view by Tab sees that it has the focus; a script or a click shows nothing", () => {
   const { at, canvas, down } = mirrorWith([button("first")]);
   canvas.focus();
   assert.ok(["none", undefined].includes(canvas.style.outline), canvas.style.outline);
