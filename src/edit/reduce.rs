@@ -24,7 +24,8 @@ const BETWEEN: f32 = 1.05;
 const FEW_TIMES: usize = 1024;
 const MOST_STEP: usize = 32;
 
-/// So often is a chain thinned anew before it keeps its keys.
+/// So often is a chain thinned anew before it keeps its keys. Where that does not help, all tracks keep theirs: tracks are sampled
+/// together, so that beside huge numbers those of one chain are rounded by what is left out of another.
 const MOST_ROUNDS: usize = 8;
 
 /// The thinning of all clips, in steps, so that no joint and no tip is off by more than a tolerance of the bind pose's diagonal at any
@@ -34,7 +35,6 @@ pub(super) struct Reducing {
     diagonal: f32,
     bound: f32,
     tips: Vec<f32>,
-    /// Clips that are done.
     done: usize,
     thinning: Option<Thinning>,
 }
@@ -57,7 +57,6 @@ impl Reducing {
         })
     }
 
-    /// Clips that are done.
     pub(super) fn done(&self) -> usize {
         self.done
     }
@@ -181,7 +180,7 @@ impl Thinning {
             }
         }
         for (share, factor) in shares.iter_mut().zip(tightened) {
-            *share *= factor;
+            *share *= if self.rounds <= MOST_ROUNDS + 1 { factor } else { 0.0 };
         }
         None
     }

@@ -1,8 +1,8 @@
 //! Keys that are left out.
 
 use bindpose::anim::{CompiledClip, PoseBuffers};
-use bindpose::edit::{EditError, Edits};
-use bindpose::model::{Clip, Influences, LocalJoint, Model, Track};
+use bindpose::edit::{EditError, EditJob, Edits};
+use bindpose::model::{Clip, Influences, JointNames, LocalJoint, Model, Track};
 use glam::{Quat, Vec3, Vec3A};
 use proptest::prelude::*;
 
@@ -136,6 +136,26 @@ fn a_tolerance_that_is_none_or_leaves_nothing_is_refused() {
         "The tolerance of reduced keys cannot be 2: it is a part of the model's size, above 0 and at most 0.1."
     );
     assert!(try_edit(&curved(), &reduce(0.1)).is_ok());
+}
+
+/// Tracks are sampled in groups. What is left out of one moves the numbers of another by their rounding, which no share of its own helps.
+#[test]
+fn a_joint_that_is_far_away_does_not_keep_the_others_at_it() {
+    let document = rigs::rig(11, vec![rigs::even("way", 11, 0.0, 40, 30.0)]);
+    let (mut model, _) = model_of(&document);
+    let rest = model.skeleton.rest()[10];
+    let far = LocalJoint {
+        translation: Vec3::splat(1e30),
+        ..rest
+    };
+    let last_secs = model.clips[0].end_secs;
+    let mut tracks = model.clips[0].tracks.clone();
+    tracks[10] = Track::new([(0.0, rest), (last_secs, far)]).expect("sound keys");
+    model.clips = vec![Clip::new("way", tracks)];
+    let mut job = EditJob::new(model.clone(), &JointNames::default(), reduce(1e-2));
+    let steps = (0..).take_while(|_| job.step().expect("sound edits")).take(100).count();
+    assert!(steps < 20, "it ends");
+    assert_eq!(job.finish().model.clips, model.clips, "it keeps its keys");
 }
 
 /// A joint that turns one way while it moves the other: what hangs from it against its axes is off by both.
