@@ -33,7 +33,6 @@ const SMALL_SHADOW_MAP_SIDE: u32 = 1024;
 /// What an app is told of where it runs.
 #[derive(Clone, Copy, Debug)]
 pub struct AppOptions {
-    /// Fingers are the device's pointer.
     pub coarse_pointer: bool,
     /// Seconds since some moment.
     pub now_secs: fn() -> f64,
@@ -44,7 +43,6 @@ pub struct App {
     session: Rc<RefCell<Session>>,
     state: Rc<RefCell<UiState>>,
     painter: SessionPainter,
-    /// The picture covers the panels.
     picture_alone: bool,
     /// When the last part of an export ended, if there is more of it.
     exported_secs: Option<f64>,
@@ -257,7 +255,6 @@ impl App {
     }
 }
 
-/// What a drawn picture showed.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Drawn {
     picture: u64,
@@ -499,7 +496,6 @@ impl SessionPainter {
     }
 }
 
-/// Paints the target behind the panels.
 struct ShowTarget;
 
 impl CallbackTrait for ShowTarget {

@@ -35,11 +35,13 @@
 pub mod actions;
 pub mod anim;
 #[cfg(feature = "viewer")]
+#[allow(missing_docs, reason = "used by this package alone, where a name says it")]
 pub mod app;
 pub mod check;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 pub mod cli;
 #[cfg(feature = "render")]
+#[allow(missing_docs, reason = "used by this package alone, where a name says it")]
 pub mod contact_sheet;
 pub mod diagnostic;
 pub mod edit;
@@ -52,12 +54,16 @@ pub mod light;
 pub mod model;
 mod modes;
 #[cfg(feature = "render")]
+#[allow(missing_docs, reason = "used by this package alone, where a name says it")]
 pub mod render;
 pub mod scene;
 pub mod script;
+#[allow(missing_docs, reason = "used by this package alone, where a name says it")]
 pub mod session;
+#[allow(missing_docs, reason = "used by this package alone, where a name says it")]
 pub mod shaders;
 #[cfg(feature = "viewer")]
+#[allow(missing_docs, reason = "used by this package alone, where a name says it")]
 pub mod ui;
 #[cfg(all(feature = "viewer", target_arch = "wasm32"))]
 mod web;

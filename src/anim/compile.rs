@@ -65,7 +65,6 @@ impl CompiledClip {
         self.end_secs
     }
 
-    /// Number of its tracks.
     pub(super) fn joint_count(&self) -> usize {
         self.joint_count
     }

@@ -65,7 +65,6 @@ impl SheetJob {
         [self.placed, self.series.count()]
     }
 
-    /// What the pictures are of.
     pub(super) fn session(&self) -> &Session {
         self.series.session()
     }

@@ -11,7 +11,6 @@ use crate::model::{Clip, Model, Skeleton, Track};
 /// Numbers above this count as overflow. That leaves room for the sums that make a pose: each must fit into `f32`.
 const MOST: f64 = 1e37;
 
-/// Notes the clips whose numbers overflow.
 pub(super) fn note_overflows(model: &Model, compiled: &[CompiledClip], lines: &LineMap, diagnostics: &mut Diagnostics) {
     let reaches = reaches(model);
     for (index, (clip, compiled)) in (0u32..).zip(model.clips.iter().zip(compiled)) {

@@ -11,7 +11,6 @@ use vello_cpu::{Pixmap, RenderContext, Resources};
 /// The font of labels and of the interface.
 pub static INTER_REGULAR: &[u8] = include_bytes!("../../assets/fonts/Inter-Regular.otf");
 
-/// Writes labels in one size.
 pub(super) struct Labels {
     /// None if the font cannot be read: then nothing is written.
     font: Option<FontRef<'static>>,

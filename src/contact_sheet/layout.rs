@@ -18,7 +18,6 @@ const GAP: f32 = 0.7;
 /// Why a sheet cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SheetError {
-    /// It would take too much memory.
     #[error("a sheet of {width} × {height} pixels is too large: at most {MOST_PIXELS} pixels in all")]
     TooLarge {
         /// Pixels.
@@ -26,7 +25,6 @@ pub enum SheetError {
         /// Pixels.
         height: u32,
     },
-    /// Its pictures would be too small.
     #[error(
         "a sheet of {width} × {height} pixels has no room for {columns} × {rows} pictures of {LEAST_SIDE} × {LEAST_SIDE} pixels"
     )]
@@ -47,7 +45,6 @@ pub enum SheetError {
 pub(super) struct Place {
     /// Left and top.
     pub(super) at: [u32; 2],
-    /// Width and height.
     pub(super) size: [u32; 2],
 }
 
@@ -57,9 +54,7 @@ pub(super) struct Layout {
     size: [u32; 2],
     columns: u32,
     rows: u32,
-    /// Of a picture.
     cell: [u32; 2],
-    /// Of a label under a picture.
     label_height: u32,
     gap: u32,
     /// Left and top of the first cell.

@@ -38,7 +38,6 @@ impl Inks {
     }
 }
 
-/// A sheet that is being filled.
 pub struct ContactSheet {
     layout: Layout,
     inks: Inks,

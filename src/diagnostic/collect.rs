@@ -4,7 +4,6 @@ use std::collections::{HashMap, HashSet};
 
 use super::{Code, Diagnostic, Moment, Position, Subject};
 
-/// The start of a line.
 pub(crate) fn line_start(line: u32) -> Position {
     Position { line, column: 1 }
 }
@@ -22,7 +21,6 @@ impl Diagnostics {
     /// Up to this many diagnostics of one code are kept apart.
     const MOST_APART: u32 = 4;
 
-    /// Adds a diagnostic.
     pub(crate) fn add(&mut self, code: &Code, place: Place, message: String) {
         let met = self.met.entry(code.name).or_default();
         *met = met.saturating_add(1);
@@ -91,7 +89,6 @@ pub(crate) struct Place {
     pointer: Option<String>,
 }
 
-/// The whole file.
 impl Default for Place {
     fn default() -> Self {
         Self {
@@ -105,7 +102,6 @@ impl Default for Place {
 }
 
 impl Place {
-    /// A place in a JSON document.
     pub(crate) fn pointer(pointer: impl Into<String>) -> Self {
         Self {
             pointer: Some(pointer.into()),

@@ -32,7 +32,6 @@ pub struct Edited {
     pub changes: Vec<Change>,
 }
 
-/// The clip with other tracks.
 pub(super) fn with_tracks(clip: &Clip, tracks: Vec<Track>) -> Clip {
     Clip::new(clip.name.clone(), tracks)
 }

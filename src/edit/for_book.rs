@@ -17,7 +17,6 @@ use crate::model::{
 /// over the model.
 const MOST_FOLDED: usize = 8;
 
-/// The height of the books' soldier.
 const SOLDIER_HEIGHT: f32 = 72.0;
 
 /// What no edit makes small enough for the books' demo: [`EditError::TooManyVertices`] and [`EditError::TooManyBones`], where they hold.

@@ -82,7 +82,6 @@ fn winds_against(model: &Model) -> bool {
     fronts < 0
 }
 
-/// Multiplies all lengths.
 pub(super) fn scale(edited: &mut Edited, factor: f32) -> Result<(), EditError> {
     if !(factor.is_finite() && factor > 0.0) {
         return Err(EditError::Nonsense {

@@ -246,7 +246,6 @@ impl KindCounts {
 }
 
 impl DiagnosticKind {
-    /// An unknown label, shortened.
     pub(super) fn unknown(section: Section, label: &[u8]) -> Self {
         Self::LabelUnknown {
             section,

@@ -1,6 +1,5 @@
 //! Decimal numbers: a quick exact path for what exporters write, and the mending of what some write instead.
 
-/// A number that needed help.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Reading {
     /// A number as `str::parse::<f32>` reads it; always finite.

@@ -22,7 +22,6 @@ pub(super) struct Reader<'a> {
     pub(super) counts: Vec<(&'static [&'static str], Token<'a>)>,
 }
 
-/// How a section begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Beginning {
     /// With its ruler, or one that says something else; the reader stands behind it.
@@ -44,7 +43,6 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// An error at a token.
     pub(super) fn error_at(token: Token<'_>, kind: ParseErrorKind) -> ParseError {
         ParseError {
             position: token.position,
@@ -117,7 +115,6 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Passes decoration below a ruler.
     fn pass_bare_rulers(&mut self) {
         while self.peek_ruler().is_some_and(|ruler| is_bare_ruler(ruler.text)) {
             self.cursor.skip_space();

@@ -56,7 +56,6 @@ pub enum Wanted {
 /// Whether the numbers of an accessor belong in a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fit {
-    /// They do.
     Belongs,
     /// They do where the file requires KHR_mesh_quantization.
     Quantized,

@@ -54,7 +54,6 @@ macro_rules! objects {
 }
 
 objects! {
-    /// The whole document.
     Root {
         asset: Option<Asset>,
         scene: Option<Index>,
@@ -85,13 +84,11 @@ objects! {
         extras: Option<Value>,
     }
 
-    /// A scene.
     Scene {
         nodes: Option<Vec<Index>>,
         extras: Option<Value>,
     }
 
-    /// A node.
     Node {
         name: Option<String>,
         children: Option<Vec<Index>>,
@@ -114,7 +111,6 @@ objects! {
         light: Option<IgnoredAny>,
     }
 
-    /// A mesh.
     Mesh {
         name: Option<String>,
         primitives: Vec<Primitive>,
@@ -141,7 +137,6 @@ objects! {
         extras: Option<Value>,
     }
 
-    /// An animation.
     Animation {
         name: Option<String>,
         channels: Vec<Channel>,
@@ -149,19 +144,16 @@ objects! {
         extras: Option<Value>,
     }
 
-    /// What a sampler of keys moves.
     Channel {
         sampler: Index,
         target: Target,
     }
 
-    /// A property of a node.
     Target {
         node: Option<Index>,
         path: Path,
     }
 
-    /// Keys.
     AnimationSampler {
         input: Index,
         output: Index,
@@ -169,7 +161,6 @@ objects! {
         interpolation: Interpolation,
     }
 
-    /// Numbers in a buffer.
     Accessor {
         buffer_view: Option<Index>,
         byte_offset: Option<Index>,
@@ -189,20 +180,17 @@ objects! {
         values: SparseValues,
     }
 
-    /// Which elements are others.
     SparseIndices {
         buffer_view: Index,
         byte_offset: Option<Index>,
         component_type: Index,
     }
 
-    /// What they are.
     SparseValues {
         buffer_view: Index,
         byte_offset: Option<Index>,
     }
 
-    /// A range of a buffer.
     BufferView {
         buffer: Index,
         byte_offset: Option<Index>,
@@ -211,13 +199,11 @@ objects! {
         target: Option<Index>,
     }
 
-    /// A buffer.
     Buffer {
         uri: Option<String>,
         byte_length: Index,
     }
 
-    /// A material.
     Material {
         name: Option<String>,
         pbr_metallic_roughness: Option<PbrMetallicRoughness>,
@@ -244,18 +230,15 @@ objects! {
         transmission: Option<Transmission>,
     }
 
-    /// KHR_materials_transmission.
     Transmission {
         transmission_factor: Option<f32>,
         transmission_texture: Option<IgnoredAny>,
     }
 
-    /// KHR_materials_emissive_strength.
     EmissiveStrength {
         emissive_strength: Option<f32>,
     }
 
-    /// How a surface reflects.
     PbrMetallicRoughness {
         base_color_factor: Option<[f32; 4]>,
         base_color_texture: Option<TextureInfo>,
@@ -264,7 +247,6 @@ objects! {
         metallic_roughness_texture: Option<TextureInfo>,
     }
 
-    /// A texture that a material uses.
     TextureInfo {
         index: Index,
         tex_coord: Option<Index>,
@@ -272,14 +254,12 @@ objects! {
         extensions: TextureInfoExtensions,
     }
 
-    /// A normal map.
     NormalTexture {
         scale: Option<f32>,
         #[serde(flatten)]
         info: TextureInfo,
     }
 
-    /// An occlusion map.
     OcclusionTexture {
         strength: Option<f32>,
         #[serde(flatten)]
@@ -292,7 +272,6 @@ objects! {
         transform: Option<TextureTransform>,
     }
 
-    /// KHR_texture_transform.
     TextureTransform {
         offset: Option<[f32; 2]>,
         rotation: Option<f32>,
@@ -300,7 +279,6 @@ objects! {
         tex_coord: Option<Index>,
     }
 
-    /// A texture.
     Texture {
         sampler: Option<Index>,
         source: Option<Index>,
@@ -309,7 +287,6 @@ objects! {
         extensions: BTreeMap<String, Value>,
     }
 
-    /// A picture.
     Image {
         uri: Option<String>,
         mime_type: Option<String>,
@@ -317,7 +294,6 @@ objects! {
         name: Option<String>,
     }
 
-    /// How a texture is sampled.
     Sampler {
         mag_filter: Option<Index>,
         min_filter: Option<Index>,
@@ -335,7 +311,6 @@ pub enum Path {
     Rotation,
     Scale,
     Weights,
-    /// One of an extension.
     #[serde(other)]
     Unknown,
 }

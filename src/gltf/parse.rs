@@ -3,7 +3,6 @@
 use super::{Container, Fault, Root, fault};
 use crate::diagnostic::{Diagnostic, Position, codes};
 
-/// Extensions whose meaning is known.
 const KNOWN: [&str; 6] = [
     "EXT_texture_webp",
     "KHR_materials_transmission",

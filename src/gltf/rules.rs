@@ -13,7 +13,6 @@ use crate::diagnostic::collect::{Diagnostics, Place};
 const FLOAT: u64 = 5126;
 const UNSIGNED_INT: u64 = 5125;
 
-/// Notes which rules the document breaks.
 pub(crate) fn note_broken_rules(root: &Root, diagnostics: &mut Diagnostics) {
     let required = root.extensions_required.iter().flatten();
     let mut rules = Rules {

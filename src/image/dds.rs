@@ -6,7 +6,6 @@ use super::error::{ImageErrorKind, Layer};
 use super::format::{Channels, ImageFormat};
 use super::picture::{Image, ImageKind, check_size, full_level_count, level_size};
 
-/// Cube, and its six faces.
 const CAPS2_CUBE: u32 = 0x200;
 const CAPS2_FACES: u32 = 0xfc00;
 const CAPS2_VOLUME: u32 = 0x20_0000;

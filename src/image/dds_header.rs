@@ -10,7 +10,6 @@ pub(super) const HEADER_LEN: usize = 4 + 124;
 /// Bytes of the header that follows it where the four-character code is `DX10`.
 pub(super) const DX10_LEN: usize = 20;
 
-/// The fields of the header.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Header {
     pub(super) width: u32,
@@ -42,7 +41,6 @@ impl PixelFormat {
     pub(super) const ALPHA: u32 = 0x2;
     /// The four-character code says what it is.
     pub(super) const FOUR_CC: u32 = 0x4;
-    /// The masks say what it is.
     pub(super) const RGB: u32 = 0x40;
     /// The red mask is that of grey.
     pub(super) const LUMINANCE: u32 = 0x2_0000;

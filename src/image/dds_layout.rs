@@ -31,7 +31,6 @@ pub(super) struct Layout {
     pub(super) channels: Channels,
     /// Colour is already multiplied with alpha.
     pub(super) premultiplied: bool,
-    /// What the panel calls it.
     pub(super) label: String,
 }
 

@@ -1,6 +1,5 @@
 //! Half floats.
 
-/// Largest finite half float.
 const MAX: f32 = 65_504.0;
 
 /// Smallest normal half float, 2⁻¹⁴.

@@ -91,7 +91,6 @@ fn level_count(side: usize) -> usize {
     (side / LAST_SIDE).ilog2() as usize + 1
 }
 
-/// One direction of a lobe.
 struct Tap {
     /// Around +z, unit.
     direction: Vec3A,

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use super::{JointIndex, MirrorPair, Skeleton};
 
-/// Longer names are cut.
 const MOST_CHARS: usize = 64;
 
 /// Names of joints by their number in the file.

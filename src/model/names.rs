@@ -72,7 +72,6 @@ pub(crate) fn unique_words<'a>(names: impl Iterator<Item = &'a str> + Clone) -> 
     names.map(unique).collect()
 }
 
-/// Names that are given already.
 #[derive(Default)]
 pub(crate) struct Taken {
     taken: HashSet<String>,

@@ -35,13 +35,11 @@ impl Mesh {
         self.side_of(corners).dot(normals.into_iter().sum::<Vec3>().as_dvec3())
     }
 
-    /// Turns all triangles round.
     pub(crate) fn turn_triangles(&mut self) {
         let (triangles, _) = self.indices.as_chunks_mut::<3>();
         triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
     }
 
-    /// The corners of a submesh's triangles.
     pub(crate) fn triangles_of(&self, submesh: &Submesh) -> &[[u32; 3]] {
         let (triangles, _) = self.indices.as_chunks();
         &triangles[submesh.triangle_start as usize..][..submesh.triangle_count as usize]

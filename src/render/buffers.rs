@@ -9,7 +9,6 @@ pub struct Queue {
 }
 
 impl Queue {
-    /// Nothing is counted yet.
     pub fn new(queue: &wgpu::Queue) -> Self {
         Self {
             inner: queue.clone(),
@@ -82,21 +81,13 @@ pub enum UploadError {
     /// One of its buffers is larger than the device's largest buffer.
     #[error("the model's {stream} need {bytes} bytes; this device holds {limit} in one buffer")]
     TooLarge {
-        /// What the buffer holds.
         stream: &'static str,
-        /// Its size.
         bytes: u64,
-        /// The device's limit.
         limit: u64,
     },
     /// More joints than the bone texture can have.
     #[error("the model has {joints} bones; this device can blend with {limit}")]
-    TooManyJoints {
-        /// In the skeleton.
-        joints: usize,
-        /// The device's limit.
-        limit: usize,
-    },
+    TooManyJoints { joints: usize, limit: usize },
 }
 
 /// Uploads the data of one model.

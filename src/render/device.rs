@@ -18,7 +18,6 @@ use crate::shaders;
 /// How to reach a GPU without a window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Backend {
-    /// Vulkan.
     Vulkan,
     /// OpenGL ES through EGL: the nearest to WebGL2.
     Gl,
@@ -33,14 +32,11 @@ impl std::fmt::Display for Backend {
     }
 }
 
-/// An open GPU.
 #[derive(Clone, Debug)]
 pub struct Gpu {
-    /// Its name, driver and backend.
     pub info: wgpu::AdapterInfo,
     /// Makes buffers, textures and pipelines.
     pub device: wgpu::Device,
-    /// Takes commands.
     pub queue: wgpu::Queue,
     /// How many samples targets and renderer should use.
     pub samples: SampleCount,
@@ -54,7 +50,6 @@ pub enum DeviceError {
     NoAdapter {
         /// The backend that was tried.
         backend: Backend,
-        /// In wgpu's words.
         reason: String,
     },
     /// The adapter would not open.
@@ -62,14 +57,11 @@ pub enum DeviceError {
     NoDevice {
         /// The backend that was tried.
         backend: Backend,
-        /// Its name.
         adapter: String,
-        /// In wgpu's words.
         reason: String,
     },
 }
 
-/// Debian packages with a software adapter.
 fn packages(backend: Backend) -> &'static str {
     match backend {
         Backend::Vulkan => "mesa-vulkan-drivers",
@@ -152,7 +144,6 @@ pub async fn headless(backend: Backend) -> Result<Gpu, DeviceError> {
     })
 }
 
-/// Side of the probe's picture.
 const PROBE_SIDE: u32 = 16;
 /// Colours of the near and of the far triangle, sRGB: what [`shaders::PROBE`] writes, encoded.
 const PROBE_COLORS: [[u8; 4]; 2] = [[188, 137, 99, 255], [99, 137, 188, 255]];
@@ -296,7 +287,6 @@ pub enum GpuError {
     /// The GPU's own memory, not the program's.
     #[error("the GPU has too little free memory for it")]
     OutOfMemory,
-    /// In the device's words.
     #[error("the GPU refused it: {0}")]
     Refused(String),
 }

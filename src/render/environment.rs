@@ -25,7 +25,6 @@ struct EnvironmentMaps {
     sh: [[f32; 4]; 9],
 }
 
-/// The environments of both lights.
 pub(super) struct Environments {
     /// For each light, in the order of [`Light::ALL`].
     uniforms: [wgpu::Buffer; Light::ALL.len()],

@@ -24,7 +24,6 @@ pub struct BoneTexture {
     layout: wgpu::BindGroupLayout,
     texture: wgpu::Texture,
     group: wgpu::BindGroup,
-    /// Joints of one palette.
     joint_count: usize,
     palette_count: usize,
     /// Texels as they were uploaded last, whole rows.
@@ -34,7 +33,6 @@ pub struct BoneTexture {
 }
 
 impl BoneTexture {
-    /// The layout of its bind group.
     pub fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
         device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("bones"),
@@ -191,7 +189,6 @@ pub(super) struct Instances {
     standing: Standing,
 }
 
-/// Which instances there are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Standing {
     /// How many the camera may see, with the frame's own.
@@ -210,7 +207,6 @@ impl Standing {
     }
 }
 
-/// A range of the stream.
 #[derive(Clone, Copy)]
 pub(super) struct InstanceRange<'a> {
     buffer: &'a wgpu::Buffer,
@@ -292,12 +288,10 @@ impl Instances {
         }
     }
 
-    /// Which instances there are.
     pub(super) fn standing(&self) -> Standing {
         self.standing
     }
 
-    /// The frame's own instance.
     pub(super) fn own(&self) -> InstanceRange<'_> {
         self.range(0..1)
     }

@@ -114,7 +114,6 @@ impl GeometryMap {
         }
     }
 
-    /// Width and height of its textures.
     fn capacity(&self) -> [u32; 2] {
         [self.geometry.texture().width(), self.geometry.texture().height()]
     }

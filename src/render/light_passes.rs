@@ -13,7 +13,6 @@ use super::uniforms::{camera_uniform, contact_fit, ground_uniform, light_uniform
 use crate::scene::{Light, Pass, RenderFrame};
 use crate::shaders;
 
-/// What both lights use.
 pub(super) struct Common {
     pub(super) device: wgpu::Device,
     pub(super) queue: Queue,
@@ -28,7 +27,6 @@ pub(super) struct Common {
     pub(super) black: wgpu::TextureView,
 }
 
-/// Samplers of the lighting group.
 pub(super) struct Samplers {
     shadow: wgpu::Sampler,
     environment: wgpu::Sampler,
@@ -58,13 +56,11 @@ impl Samplers {
 /// The textures that differ between lights and frames: shadow map, ambient occlusion, contact map, specular cube, sky.
 type LightingViews<T> = [T; 5];
 
-/// One light's part of the renderer.
 pub(super) struct LightPasses {
     light: Light,
     camera: wgpu::Buffer,
     light_uniform: wgpu::Buffer,
     ground: wgpu::Buffer,
-    /// What the buffers hold.
     written: (shaders::Camera, shaders::Light, shaders::Ground),
     frame_group: wgpu::BindGroup,
     shadow: ShadowMap,
@@ -99,7 +95,6 @@ impl LightPasses {
         self.light
     }
 
-    /// Group 0.
     pub(super) fn frame_group(&self) -> &wgpu::BindGroup {
         &self.frame_group
     }

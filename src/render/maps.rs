@@ -16,7 +16,6 @@ pub type MaterialImages<'a> = [Option<&'a Arc<Image>>; MapSlot::ALL.len()];
 /// An image by its address, and how it is read.
 type Key = (usize, MapKind);
 
-/// The uploaded images.
 pub(super) struct MapTextures {
     /// One white texel: multiplies by 1, and changes no normal, as none is read from it.
     white: wgpu::TextureView,
@@ -63,7 +62,6 @@ impl MapTextures {
         held.map_or(&self.white, |held| &held.view)
     }
 
-    /// Frees all images.
     pub(super) fn clear(&mut self) {
         self.held.clear();
     }

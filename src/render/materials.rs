@@ -28,7 +28,6 @@ pub(super) struct GpuMaterials {
     has_colors: bool,
     /// Two slots for each material: its values, and what it says about all maps.
     uniforms: wgpu::Buffer,
-    /// Size of a slot.
     stride: u32,
     samplers: HashMap<SamplerKey, wgpu::Sampler>,
     /// For each material the maps that it has.
@@ -162,7 +161,6 @@ impl GpuMaterials {
             .is_some_and(|material| material.is_thin)
     }
 
-    /// Whether some read all maps.
     pub(super) fn read_all_maps(&self) -> bool {
         self.bound.iter().any(|material| material.kind.maps == Maps::All)
     }
@@ -243,7 +241,6 @@ fn sampler(device: &wgpu::Device, (wrap, nearest): SamplerKey) -> wgpu::Sampler 
 struct MapFacts {
     /// A bit for each map, in the order of [`MapSlot::ALL`].
     present: u32,
-    /// Of the diffuse map.
     has_alpha: bool,
     /// Of the normal map: 4 with alpha, 3, 2 where z follows from x and y; 0 without one.
     normal_channels: u32,

@@ -56,7 +56,6 @@ use pipelines::Pipelines;
 use recipe::{Cut, Draw, Faces, Maps, ModelDraw, Shading};
 use timing::{FrameEncoder, FrameTimer};
 
-/// What a renderer is made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RendererOptions {
     /// Of each pixel of its targets; see [`device::sample_count`].
@@ -102,7 +101,6 @@ struct Shape {
     hidden: Vec<bool>,
     skinned: bool,
     standing: Standing,
-    /// Counts changes.
     revision: u64,
     /// Counts these, and changes of which instances are in sight.
     revision_in_sight: u64,

@@ -26,7 +26,6 @@ pub(super) struct Posed<'a> {
     pub(super) pipelines: &'a Pipelines,
     /// Bound as group 1, read only when `skinned`.
     pub(super) bones: &'a BoneTexture,
-    /// Those that are drawn.
     pub(super) instances: InstanceRange<'a>,
     /// Whether the bones pose it; else it is drawn in bind space.
     pub(super) skinned: bool,
@@ -56,7 +55,6 @@ pub(super) struct GpuModel {
     pub(super) handedness: Handedness,
     /// The fronts of its triangles, as they stand in the frame's world.
     pub(super) front: Faces,
-    /// Draws and vertices.
     drawn: Cell<[u64; 2]>,
 }
 

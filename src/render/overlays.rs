@@ -41,7 +41,6 @@ impl Overlays {
         }
     }
 
-    /// Uploads what the frame shows.
     pub(super) fn write(&mut self, device: &wgpu::Device, queue: &Queue, frame: &RenderFrame<'_>) {
         self.shapes.write(device, queue, frame);
         let colors = theme_colors(frame.options.theme);

@@ -20,7 +20,6 @@ const LEAST_SCALE: f64 = 0.5;
 
 const SIZES: [[u32; 2]; 3] = [[1920, 1080], [2560, 1440], [3840, 2160]];
 
-/// What goes on.
 #[derive(Clone, Copy)]
 struct Way {
     name: &'static str,
@@ -57,7 +56,6 @@ const WAYS: [Way; 5] = [
     },
 ];
 
-/// What a frame takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Taken {
     passes: u32,

@@ -27,7 +27,6 @@ pub enum PictureError {
         width: u32,
         /// Pixels.
         height: u32,
-        /// What it would need.
         megabytes: u64,
     },
     /// Something else went wrong.

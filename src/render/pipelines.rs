@@ -14,15 +14,11 @@ use crate::shaders::{self, InfluenceVertex, Instance, MoreMapsVertex, PositionVe
 /// Bind group layouts that pipelines share. Programs that draw the model have these groups: 0 frame, 1 bones, 2 lighting,
 /// 3 material or line.
 pub(super) struct Layouts {
-    /// Camera, light and ground.
     pub(super) frame: wgpu::BindGroupLayout,
     pub(super) bones: wgpu::BindGroupLayout,
     pub(super) lighting: wgpu::BindGroupLayout,
-    /// Of materials that read two maps.
     pub(super) material: wgpu::BindGroupLayout,
-    /// Of materials that read all maps.
     pub(super) material_all: wgpu::BindGroupLayout,
-    /// A colour and a length.
     pub(super) line: wgpu::BindGroupLayout,
     /// Normals and depth in view, and the occlusion to be blurred.
     pub(super) occlusion: wgpu::BindGroupLayout,
@@ -194,7 +190,6 @@ impl Pipelines {
         self.built.borrow().keys().map(|(draw, _)| *draw).collect()
     }
 
-    /// How many are built.
     pub(super) fn count(&self) -> usize {
         self.built.borrow().len()
     }

@@ -26,12 +26,9 @@ pub(super) enum Maps {
 /// What alpha does to a material, as it is with its maps. In the order in which they are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Alpha {
-    /// Nothing.
     #[default]
     Whole,
-    /// It cuts holes.
     Cut,
-    /// It blends with what is behind.
     Blended,
 }
 
@@ -72,7 +69,6 @@ impl Kind {
 /// Which pixels alpha leaves of what is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Cut {
-    /// All.
     Whole,
     /// Whole pixels.
     Hard,
@@ -235,7 +231,6 @@ pub(super) struct Recipe {
     /// None where only depth is drawn.
     pub(super) fragment: Option<&'static str>,
     pub(super) topology: wgpu::PrimitiveTopology,
-    /// Of the vertex buffers.
     pub(super) step_mode: wgpu::VertexStepMode,
     pub(super) color: Option<wgpu::ColorTargetState>,
     pub(super) alpha_to_coverage: bool,

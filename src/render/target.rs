@@ -125,7 +125,6 @@ pub(super) fn begin_pass<'a>(
 const CAPACITY_STEP: u32 = 128;
 /// The most that the textures of a picture in a window may take. 4K with four samples a pixel would take 266 MiB.
 const MOST_BYTES: u64 = 192 << 20;
-/// Colour and depth.
 const BYTES_PER_SAMPLE: u64 = 8;
 const BYTES_PER_RESOLVED_PIXEL: u64 = 4;
 

@@ -34,7 +34,6 @@ impl FrameEncoder {
         }
     }
 
-    /// Begins a pass.
     pub(super) fn begin_pass(
         &mut self,
         pass: TimedPass,

@@ -12,7 +12,6 @@ use crate::shaders;
 pub(super) struct ThemeColors {
     /// Backdrop at its lightest.
     pub(super) backdrop_center: [u8; 3],
-    /// Backdrop at its edge.
     pub(super) backdrop_edge: [u8; 3],
     pub(super) grid_minor: [u8; 3],
     pub(super) grid_minor_opacity: f32,
@@ -22,10 +21,8 @@ pub(super) struct ThemeColors {
     pub(super) shadow_strength: f32,
     /// Fraction of the ground's light that the contact shadow takes.
     pub(super) contact_strength: f32,
-    /// Edges of triangles, with opacity.
     pub(super) wire: [u8; 3],
     pub(super) wire_opacity: f32,
-    /// A highlighted submesh.
     pub(super) accent: [u8; 3],
 }
 
@@ -57,7 +54,6 @@ const LIGHT: ThemeColors = ThemeColors {
     accent: [0x17, 0x69, 0xD2],
 };
 
-/// The colours of a theme.
 pub(super) fn theme_colors(theme: Theme) -> &'static ThemeColors {
     match theme {
         Theme::Dark => &DARK,
@@ -181,7 +177,6 @@ pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light, map_side: u3
     }
 }
 
-/// What the contact map covers.
 pub(super) fn contact_fit(frame: &RenderFrame<'_>) -> ContactFit {
     ContactFit::new(&frame.world_bounds, instance_size(frame))
 }

@@ -44,7 +44,6 @@ impl Screen {
 #[derive(Clone, Copy)]
 struct Near {
     joint: JointIndex,
-    /// Heights of the picture.
     distance: f32,
     depth: f32,
 }

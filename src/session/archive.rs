@@ -8,7 +8,6 @@ use zip::result::ZipError;
 /// The files of an archive may have so many bytes together: more than models with all their textures have, and little enough for a page.
 const MOST_BYTES: u64 = 1 << 29;
 
-/// Whether bytes begin like an archive.
 pub(super) fn begins_like_archive(bytes: &[u8]) -> bool {
     bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06")
 }

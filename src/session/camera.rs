@@ -16,14 +16,12 @@ const LOOKS_FROM_TOLERANCE: f32 = 1e-3;
 /// A command about the camera.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CameraCommand {
-    /// Turns the camera about its target.
     Orbit {
         /// Positive moves the eye to its left.
         yaw_radians: f32,
         /// Positive lifts the eye.
         pitch_radians: f32,
     },
-    /// Moves the scene with the pointer.
     Pan {
         /// Fractions of the picture's height, x right, y down.
         drag: Vec2,
@@ -44,20 +42,17 @@ pub enum CameraCommand {
     LookFrom(ViewPreset),
     /// Perspective or orthographic.
     ToggleProjection,
-    /// The default view.
     Reset,
     /// Applies another command, but where the camera would jump, it moves there within a quarter of a second. Under reduced
     /// motion it jumps.
     Glide(Box<CameraCommand>),
     /// The pointer takes hold of the camera: glides and flings end, and the turntable waits until [`CameraCommand::EndDrag`].
     BeginDrag,
-    /// The pointer let go.
     EndDrag,
     /// Goes on turning after a drag, slower and slower. Does nothing under reduced motion.
     Fling {
         /// Rate of [`CameraCommand::Orbit`]'s yaw when the pointer let go, radians a second.
         yaw_radians_per_sec: f32,
-        /// Rate of its pitch.
         pitch_radians_per_sec: f32,
     },
     /// Starts or stops turning the camera about the model, once in twelve seconds.
@@ -80,9 +75,7 @@ pub enum CameraCommand {
     },
     /// The picture's shape, and what of it is covered by panels.
     SetViewport {
-        /// Width / height.
         aspect: f32,
-        /// Covered margins.
         insets: Insets,
     },
 }

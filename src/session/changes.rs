@@ -49,7 +49,6 @@ impl Changes {
         ..Self::NONE
     };
 
-    /// All that can be open.
     pub(super) const CONTENT: Self = Self {
         sky: true,
         names: true,
@@ -93,7 +92,6 @@ pub(super) struct Revisions {
     pub(super) names: u64,
     pub(super) pose: u64,
     pub(super) picture: u64,
-    /// Models that were asked for.
     pub(super) openings: u64,
 }
 

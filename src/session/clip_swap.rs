@@ -13,9 +13,7 @@ pub(super) struct ClipSwap {
     /// Index of the first.
     at: usize,
     clips: Vec<Arc<KeptClip>>,
-    /// How many stand there now.
     count_now: usize,
-    /// All files whose clips had joined.
     joined: Vec<JoinedFile>,
     /// All diagnostics of the model, which name clips by their indices.
     diagnostics: Vec<Diagnostic>,

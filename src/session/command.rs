@@ -26,21 +26,16 @@ pub enum Command {
     Camera(CameraCommand),
     /// Which joints and vertices are selected, hovered, folded.
     Joint(JointCommand),
-    /// What joints are called.
     Name(NameCommand),
-    /// Which submeshes are drawn, selected, hovered.
     Submesh(SubmeshCommand),
     /// Light, view mode, background, lines, ghosts, bones, colours of the skin, trails.
     Look(LookCommand),
-    /// The values of materials.
     Material(MaterialCommand),
     /// Which costly passes are drawn, and how fine the picture is.
     Quality(QualityCommand),
     /// Several instances of the model.
     Crowd(CrowdCommand),
-    /// Writing a file of another format.
     Export(ExportCommand),
-    /// Undo and redo.
     History(HistoryCommand),
 
     /// Takes the file as left- or right-handed; `None` is what was found.

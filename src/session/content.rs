@@ -51,10 +51,8 @@ pub(super) struct Content {
     pub(super) opened: Arc<Vec<Opened>>,
     pub(super) maps: Maps,
     pub(super) materials: Materials,
-    /// What joints are called.
     pub(super) names: Arc<JointNames>,
     pub(super) sky: Sky,
-    /// Of the file and its maps.
     pub(super) verdicts: Verdicts,
     /// Why the last load failed.
     pub(super) error: Option<LoadError>,

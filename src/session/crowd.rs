@@ -73,7 +73,6 @@ impl Session {
         }
     }
 
-    /// What an instance plays.
     pub(super) fn player(&self, instance: usize) -> Option<&Player> {
         if instance == self.crowd().selected {
             return Some(&self.actor.player);

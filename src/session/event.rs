@@ -7,9 +7,7 @@ pub enum Event {
     Load,
     /// A file could not be opened.
     Error,
-    /// Playing began.
     Play,
-    /// Playing ended.
     Pause,
     /// The time changed.
     TimeUpdate,

@@ -29,7 +29,6 @@ pub enum ExportRange {
     /// The timeline's, where one is set and its clip is the only one; else all of it.
     #[default]
     Timeline,
-    /// All of it.
     Whole,
     /// From and to, in seconds.
     Secs([f32; 2]),
@@ -40,7 +39,6 @@ pub enum ExportRange {
 pub enum ExportCommand {
     /// Works out what a file of these options would be. `None` ends that, and what is being written.
     Plan(Option<Box<ExportOptions>>),
-    /// Writes it.
     Save,
     /// Stops writing; what would be otherwise stays known.
     Cancel,
@@ -51,7 +49,6 @@ pub enum ExportCommand {
 pub(super) struct Exporting {
     pub(super) options: Option<ExportOptions>,
     pub(super) made: Made,
-    /// What it is made of.
     pub(super) of: Option<Stamp>,
     pub(super) saves: bool,
     pub(super) written: Option<ExportedFile>,
@@ -63,7 +60,6 @@ impl Clone for Exporting {
     }
 }
 
-/// How far it is made.
 #[derive(Debug, Default)]
 pub(super) enum Made {
     #[default]

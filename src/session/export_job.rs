@@ -18,7 +18,6 @@ modes! {
     /// What a model is written as.
     #[derive(Default)]
     pub enum ExportFormat {
-        /// glTF's binary form.
         #[default]
         Glb = "glb", "GLB";
         /// The format of the DirectX 12 book.
@@ -86,7 +85,6 @@ pub enum ExportRefusal {
     /// The format cannot hold it.
     #[error(transparent)]
     Write(#[from] ExportError),
-    /// The archive would be too large.
     #[error("The archive could not be written: {0}.")]
     Archive(#[from] std::io::Error),
 }
@@ -141,7 +139,6 @@ pub struct ToExport<'a> {
 pub enum ExportStep {
     /// There is more to do.
     Working(Box<ExportJob>),
-    /// It has ended.
     Ended(Result<Box<ExportedFile>, ExportRefusal>),
 }
 

@@ -18,7 +18,6 @@ use crate::scene::map_kind;
 /// Slots that the books' materials have names for.
 const SLOTS: [MapSlot; 2] = [MapSlot::Diffuse, MapSlot::Normal];
 
-/// Materials that one sentence names.
 const MOST_TOLD: usize = 5;
 
 /// Bytes of a name without its extension: systems take 255, of which a number, an extension and what is written beside need some.
@@ -27,14 +26,12 @@ const LONGEST_STEM: usize = 120;
 /// What is known of the maps of a model that is to be written, by material and slot.
 #[derive(Debug, Default)]
 pub(super) struct KnownMaps {
-    /// Decoded pictures.
     pub(super) images: BTreeMap<(usize, MapSlot), Arc<Image>>,
     /// The files that they came from.
     pub(super) pictures: BTreeMap<(usize, MapSlot), File>,
 }
 
 impl KnownMaps {
-    /// The pictures that could be decoded.
     pub(super) fn lent(&self) -> MapImages<'_> {
         self.images.iter().map(|(&place, image)| (place, &**image)).collect()
     }
@@ -49,14 +46,12 @@ impl KnownMaps {
     }
 }
 
-/// What becomes of the maps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MapsAsked {
     /// Pictures are written beside the file. Otherwise names stay as they are.
     pub(super) are_written: bool,
     /// As DDS with mips, and one for each map that the books' demo opens.
     pub(super) for_book: bool,
-    /// Of the book.
     pub(super) dialect: Dialect,
     /// Green may point up, as in glTF, and is turned where its picture is written.
     pub(super) turns_green: bool,
@@ -71,16 +66,13 @@ pub(super) struct MapFiles {
     pub(super) looks: Vec<Look>,
 }
 
-/// What a file is made of.
 #[derive(Debug)]
 enum Content {
     AsItIs(Arc<[u8]>),
-    /// Directions with green the other way.
     TurnedPng(Arc<Image>),
     Dds(Arc<Image>, Texels, MapKind),
     /// Base colours, if there are any, and metalness as one map: DDS, else PNG.
     Baked(Box<Bake>, Option<Arc<Image>>, Arc<Image>, bool),
-    /// One colour.
     Plain([u8; 4]),
 }
 
@@ -446,7 +438,6 @@ struct Names {
 }
 
 impl Names {
-    /// The name of a picture's file.
     fn name(
         &mut self,
         (picture, slot, texels): (&str, MapSlot, Texels),

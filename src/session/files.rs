@@ -89,9 +89,7 @@ pub struct FileSet {
 /// What a file is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
-    /// A model.
     Model,
-    /// Files in one file.
     Archive,
     /// A map or a cube map.
     Picture,

@@ -11,7 +11,6 @@ use super::submeshes::Visibility;
 use crate::anim::WrapMode;
 use crate::model::{Handedness, Material, UpAxis, hierarchy_fingerprint};
 
-/// Older steps are forgotten.
 const MOST_STEPS: usize = 100;
 
 /// A command about what was done before.

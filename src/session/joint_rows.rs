@@ -74,7 +74,6 @@ pub(super) fn joint_rows(
     rows.reverse();
 }
 
-/// What is searched for.
 struct Query {
     lowercase: String,
     bone: Option<u32>,

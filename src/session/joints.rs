@@ -172,7 +172,6 @@ impl Joints {
         }
     }
 
-    /// Selects a triangle and its first corner.
     pub(super) fn select_triangle(&mut self, triangle: u32, first_corner: u32) {
         self.select(None);
         self.select_vertex(Some(SelectedVertex {

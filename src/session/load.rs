@@ -170,7 +170,6 @@ impl Progress {
 pub enum LoadStep {
     /// There is more to do.
     Working(Box<LoadJob>),
-    /// It has ended.
     Ended(Result<Box<Loaded>, Box<LoadError>>),
 }
 

@@ -57,11 +57,9 @@ pub struct Look {
 pub enum LookCommand {
     /// Studio or book light.
     SetLight(Light),
-    /// The other light.
     ToggleLight,
     /// Divides the picture between both lights at a fraction of its width, or shows one.
     SetSplit(Option<f32>),
-    /// What of a surface is shown.
     SetViewMode(ViewMode),
     /// The view mode some places further in the menu. While the skin is shown in colours, the view mode without them.
     CycleViewMode(i32),
@@ -85,7 +83,6 @@ pub enum LookCommand {
     SetGhosts(Option<GhostPlan>),
     /// Shows the bind pose as a ghost, or not.
     SetBindGhost(bool),
-    /// Draws bones in a style.
     SetBoneStyle(BoneStyle),
     /// Shows or hides bones.
     SetBonesVisible(bool),
@@ -95,7 +92,6 @@ pub enum LookCommand {
     SetSkinView(Option<SkinView>),
     /// Shows or hides the path of a joint through the clip, whichever it is not.
     ToggleTrail(JointIndex),
-    /// Hides all paths.
     ClearTrails,
 }
 

@@ -31,7 +31,6 @@ pub struct Maps {
     without_mips: bool,
 }
 
-/// What became of a picture.
 #[derive(Clone, Debug, Default)]
 enum Decoded {
     /// Nobody has looked at it yet.

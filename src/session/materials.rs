@@ -15,7 +15,6 @@ pub enum MaterialCommand {
     Edit {
         /// Which of the model's.
         index: usize,
-        /// The values.
         material: Box<Material>,
     },
     /// Draws a material as the file has it.

@@ -120,7 +120,6 @@ pub struct Session {
     content: Content,
     /// The selected instance of the model.
     actor: Actor,
-    /// All of them.
     instances: Instances,
     view: View,
     selection: Selection,
@@ -139,7 +138,6 @@ pub struct Session {
     before: Option<Box<Self>>,
 }
 
-/// What is selected and hovered.
 #[derive(Clone, Debug, Default)]
 struct Selection {
     submeshes: Submeshes,

@@ -18,13 +18,11 @@ const GLIDE_SECS: f32 = 0.25;
 const TURNTABLE_RADIANS_PER_SEC: f32 = TAU / 12.0;
 /// Speed of flight, in radii of the scene a second.
 const FLIGHT_RADII_PER_SEC: f32 = 1.0;
-/// How much faster fast flight is.
 const FAST_FLIGHT: f32 = 4.0;
 
 /// What moves the camera without a command.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Motion {
-    /// The pointer holds the camera.
     held: bool,
     turntable: bool,
     /// Rates of yaw and pitch, radians a second.
@@ -70,7 +68,6 @@ impl Motion {
         self.held = held;
     }
 
-    /// Whether the pointer holds the camera.
     pub(super) fn is_held(&self) -> bool {
         self.held
     }

@@ -11,16 +11,13 @@ use crate::model::{JointIndex, JointNames, MirrorPair, SavedNames, mirror_pairs}
 pub enum NameCommand {
     /// Names a joint; an empty name removes the name.
     Rename {
-        /// Which.
         joint: JointIndex,
-        /// What it is called.
         name: String,
     },
     /// Takes the names of [`Session::proposed_names`](super::Session::proposed_names).
     AcceptMirrored,
     /// Replaces all names by saved ones, if those belong to the same hierarchy.
     Import(SavedNames),
-    /// Removes all names.
     Clear,
 }
 

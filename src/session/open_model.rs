@@ -50,7 +50,6 @@ pub struct OpenModel {
 #[derive(Clone, Debug)]
 pub(super) struct JoinedFile {
     pub(super) file: File,
-    /// The file and what it names.
     pub(super) files: Arc<FileSet>,
     /// What is noted of it when its bones stand elsewhere than the model's. It goes with the file.
     pub(super) offsets_differ: Option<Diagnostic>,

@@ -25,7 +25,6 @@ const GPU_LAG_FRAMES: u32 = 3;
 /// A frame that took so much longer than the others was held up by something else: files load, a tab was hidden.
 const STALL: f32 = 4.0;
 const LEAST_STALL_SECS: f32 = 0.25;
-/// Nothing that draws takes longer.
 const LONGEST_FRAME_SECS: f32 = 4.0;
 /// How long frames come in time before more detail is tried; each try that fails doubles it.
 const FIRST_WAIT_SECS: f32 = 2.0;
@@ -33,7 +32,6 @@ const LONGEST_WAIT_SECS: f32 = 60.0;
 /// When even the least detail saves less of a frame than this, something else than drawing takes the time.
 const LEAST_SAVING: f32 = 0.1;
 
-/// What is drawn at a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Step {
     /// Fraction of the picture's width and height.
@@ -131,7 +129,6 @@ impl Default for Pacer {
 
 impl Pacer {
     const COARSEST: Step = STEPS[STEPS.len() - 1];
-    /// What is drawn at the finest.
     pub(super) const FINEST: Step = FULL;
 
     /// What to draw while the picture moves.

@@ -72,11 +72,9 @@ pub enum PlayCommand {
     Slower,
     /// One of the [`crate::session::SPEEDS`] up.
     Faster,
-    /// What happens at the end.
     SetLoopMode(LoopMode),
     /// The next of once, loop, ping-pong.
     CycleLoopMode,
-    /// How a loop begins again.
     SetWrapMode(WrapMode),
     /// Blends the pose with the bind pose: 0 the clip's pose … 1 the bind pose.
     SetBindWeight(f32),

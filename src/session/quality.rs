@@ -15,9 +15,7 @@ modes! {
         /// As much as the device keeps up with.
         #[default]
         Auto = "auto", "Auto";
-        /// All, however long frames take.
         Full = "full", "Full";
-        /// Little.
         Low = "low", "Low";
     }
 }
@@ -25,19 +23,15 @@ modes! {
 /// Whether a pass is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum PassChoice {
-    /// While the device keeps up.
     #[default]
     Auto,
-    /// Always.
     On,
-    /// Never.
     Off,
 }
 
 /// What became of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PassState {
-    /// It is drawn.
     Drawn,
     /// The person left it out.
     Off,
@@ -91,7 +85,6 @@ impl Default for RenderScale {
 pub enum QualityCommand {
     /// How much detail is drawn while the picture moves.
     SetMode(QualityMode),
-    /// Whether a costly pass is drawn.
     SetPass(Pass, PassChoice),
     /// How fine the picture in the window is at most.
     SetRenderScale(RenderScale),

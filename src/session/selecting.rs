@@ -54,14 +54,11 @@ pub enum JointCommand {
 pub enum SubmeshCommand {
     /// Shows or hides one. A solo ends; the others stay shown or hidden as they are on screen.
     SetVisible {
-        /// Which.
         submesh: usize,
-        /// Whether it is drawn.
         visible: bool,
     },
     /// Shows one alone. A second time for the same one restores what was shown before.
     Solo(usize),
-    /// Shows all.
     ShowAll,
     /// Selects one, or none.
     Select(Option<usize>),

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use crate::scene::Hit;
 
-/// Which submeshes are shown and hidden.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Visibility {
     /// For each whether it was hidden by itself.

@@ -102,7 +102,6 @@ impl Session {
         }
     }
 
-    /// Gives a thing this value.
     fn set(&mut self, value: Value) {
         match value {
             Value::Material { index, material } => {

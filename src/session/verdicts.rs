@@ -50,7 +50,6 @@ impl Verdicts {
         open.format.is_gltf().then(|| &**self.converted.get_or_init(limits))
     }
 
-    /// The maps are others.
     pub(super) fn forget(&mut self) {
         *self = Self::default();
     }

@@ -9,14 +9,12 @@ use super::quality::Quality;
 use crate::model::{self, Handedness, UpAxis};
 use crate::scene::{Camera, FrameOptions, Insets, Theme};
 
-/// The view of a session.
 #[derive(Clone, Debug)]
 pub(super) struct View {
     pub(super) camera: Camera,
     pub(super) motion: Motion,
     /// The camera was not panned, zoomed or flown since it framed all that the clip reaches.
     pub(super) framed: bool,
-    /// Width / height of the picture.
     pub(super) aspect: f32,
     /// Margins of the picture that panels cover.
     pub(super) insets: Insets,

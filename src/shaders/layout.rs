@@ -127,7 +127,6 @@ pub struct Environment {
     pub turn_cos: f32,
     /// World z of the same axis.
     pub turn_sin: f32,
-    /// Multiplies all its light.
     pub intensity: f32,
     /// Levels of the specular cube; 0 where it is not to be read.
     pub specular_level_count: f32,

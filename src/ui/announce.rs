@@ -11,7 +11,6 @@ use crate::session::{CrowdState, QualityMode, Session};
 use super::message::Offer;
 use super::wording::{counted, grouped};
 
-/// What a screen reader is told.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Announcement {
     /// One sentence or a few.

@@ -18,7 +18,6 @@ use crate::session::{
 const HEIGHT: f32 = 24.0;
 /// Room before and behind the words.
 const PADDING: f32 = 10.0;
-/// Side of the cross.
 const CROSS: f32 = 12.0;
 /// Room between the parts of a chip.
 const GAP: f32 = 6.0;
@@ -171,7 +170,6 @@ fn modes(session: &Session) -> Vec<Mode> {
     modes
 }
 
-/// A chip that is laid out.
 struct Chip {
     mode: Mode,
     words: Arc<Galley>,

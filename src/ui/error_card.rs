@@ -12,7 +12,6 @@ use crate::diagnostic::{Diagnostic, codes};
 use crate::format::Excerpt;
 use crate::session::{Command, FileCommand, LoadError, Session};
 
-/// The card's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: &mut Vec<Command>) {
     let tokens = Tokens::of(ui);
     let is_sound = error.diagnostic.code == codes::GPU_REFUSED.name;

@@ -12,11 +12,9 @@ use super::widgets::{
 };
 use crate::session::{Command, Export, ExportCommand, ExportFormat, ExportOptions, ExportRange, Session};
 
-/// Width of the popover.
 pub(super) const WIDTH: f32 = 320.0;
 /// More sentences of a list than this are folded.
 const MOST_SENTENCES: usize = 4;
-/// What a switch begins with.
 const LOOP_SECS: f32 = 0.2;
 const TOLERANCE: f32 = 0.001;
 /// Width of a number that is typed.
@@ -330,7 +328,6 @@ fn sentences(ui: &mut Ui, name: &str, list: &[&str], color: Color32, all: &mut b
     }
 }
 
-/// A sentence behind a dot.
 fn sentence(ui: &mut Ui, words: &str, color: Color32) {
     let text = Tokens::of(ui).text;
     ui.horizontal_top(|ui| {

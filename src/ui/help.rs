@@ -16,7 +16,6 @@ use super::widgets::{
 use crate::actions::{self, Group};
 use crate::session::Session;
 
-/// What the page is for.
 const ABOUT: [&str; 3] = [
     "Bindpose shows models with bones, plays their clips, says what is wrong with them and writes them anew.",
     "Drop .m3d, .glb or .gltf files, a folder or a .zip; maps may be DDS, PNG, JPEG, TGA or BMP.",
@@ -47,7 +46,6 @@ const FINGERS: [(&str, &str); 5] = [
     ("", "else a subset"),
 ];
 
-/// A part of the table.
 #[derive(Clone, Copy, Debug)]
 enum Part {
     Mouse,

@@ -7,10 +7,8 @@ use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, vec2};
 /// Line weight in points.
 const LINE_WIDTH: f32 = 1.4;
 
-/// What an icon says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Icon {
-    /// Start playing.
     Play,
     /// Stop playing.
     Pause,
@@ -18,11 +16,8 @@ pub(super) enum Icon {
     SkipStart,
     /// To the last frame.
     SkipEnd,
-    /// Play the other way.
     PlayBackward,
-    /// One frame back.
     StepBack,
-    /// One frame on.
     StepForward,
     /// To the key before.
     KeyBack,
@@ -32,25 +27,20 @@ pub(super) enum Icon {
     DopeSheet,
     /// What moves most first.
     Sort,
-    /// Branches folded.
     Fold,
     /// Two into one.
     Blend,
-    /// One more.
     Plus,
     /// Others by chance.
     Dice,
     /// Stop at the end.
     Once,
-    /// Start over at the end.
     Loop,
-    /// Turn round at the end.
     PingPong,
     /// Fit into view.
     Frame,
     /// Direction to look from.
     Cube,
-    /// Open files.
     Open,
     /// Save as another format.
     Export,
@@ -60,11 +50,9 @@ pub(super) enum Icon {
     Sun,
     /// Lines over the model.
     Layers,
-    /// The camera goes round.
     Turntable,
     /// A picture as a file.
     Camera,
-    /// It can be seen.
     Eye,
     /// It cannot be seen.
     EyeOff,
@@ -74,13 +62,9 @@ pub(super) enum Icon {
     Undo,
     /// Do again what was undone.
     Redo,
-    /// What keys do.
     Help,
-    /// Take away.
     Close,
-    /// Opens a list below.
     ChevronDown,
-    /// More.
     Dots,
 }
 

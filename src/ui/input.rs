@@ -61,11 +61,8 @@ impl egui::Plugin for InputOrder {
 /// Which events may share a pass with this one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// Moves the pointer.
     Move,
-    /// Presses what is under the pointer.
     Press,
-    /// Releases it.
     Release,
     /// The pointer is gone: a finger was lifted, or the mouse left the window.
     Gone,
@@ -122,7 +119,6 @@ fn first_pass(events: &VecDeque<Event>) -> usize {
     events.iter().position(waits).unwrap_or(events.len())
 }
 
-/// Whether it is an arrow key.
 pub(super) fn is_arrow(key: Key) -> bool {
     matches!(key, Key::ArrowUp | Key::ArrowDown | Key::ArrowLeft | Key::ArrowRight)
 }

@@ -17,7 +17,6 @@ use crate::model::{AlphaMode, MapSlot, Material, Reflectance};
 use crate::scene::{linear_from_srgb8, srgb8_from_linear};
 use crate::session::{Command, MAX_SPEC_POWER, MaterialCommand, OpenModel, Session, SubmeshCommand};
 
-/// Width of the labels of values.
 const LABEL_WIDTH: f32 = 90.0;
 /// Room between fields.
 const SPACING: f32 = 5.0;

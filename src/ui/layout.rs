@@ -51,10 +51,8 @@ const LEAST_WITH_CARD: f32 = 220.0;
 const LEAST_BESIDE_CARD: f32 = 80.0;
 const LEAST_WITH_STRIP: f32 = 180.0;
 
-/// How the panels share the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Arrangement {
-    /// Panels around the view.
     Wide,
     /// A bar above, below a sheet with the timeline and with what was opened.
     Narrow,
@@ -418,7 +416,6 @@ fn page_width(page: SheetPage, window: Rect) -> f32 {
     (fraction * window.width()).min(MOST_BESIDE)
 }
 
-/// The title of a page of the sheet.
 fn page_title(page: SheetPage, state: &UiState) -> &'static str {
     match page {
         SheetPage::Model | SheetPage::Selection if state.diagnostics_open => "Findings",

@@ -47,7 +47,6 @@ pub(super) fn mark_button(ui: &Ui, session: &Session, button: Response, icon: Po
     button.on_hover_text(format!("{words}\n{note}"))
 }
 
-/// The popover's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands: &mut Vec<Command>) {
     let look = session.look();
     keyed_section_name(ui, "Light", actions::OTHER_LIGHT.key());

@@ -57,7 +57,6 @@ impl Offer {
 }
 
 impl Messages {
-    /// Shows a message.
     pub fn say(&mut self, words: impl Into<String>) {
         self.show_next(words.into(), None);
     }

@@ -23,7 +23,6 @@ use crate::session::{Command, OpenModel, Session, SubmeshCommand};
 /// Width of an icon of a row where a mouse is the pointer.
 const ICON_WIDTH: f32 = 22.0;
 
-/// The panel's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     let Some(open) = session.open_model() else { return };
     // With a skeleton the switch between the panel's pages is the heading.

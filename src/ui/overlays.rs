@@ -25,7 +25,6 @@ const FIRST_GHOSTS: GhostPlan = GhostPlan {
 const MOST_GHOSTS: f32 = 16.0;
 const MOST_STEP: f32 = 120.0;
 
-/// The popover's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
     let overlays = &session.look().overlays;
     section_name(ui, "Overlays");

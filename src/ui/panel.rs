@@ -17,7 +17,6 @@ pub(super) struct Free {
 }
 
 impl Free {
-    /// All of a window.
     pub(super) fn new(window: Rect) -> Self {
         Self { window, rect: window }
     }
@@ -71,7 +70,6 @@ pub(super) fn mark_transport(ui: &Ui, rect: Rect) {
     ui.interact(rect, id_of("transport"), Sense::hover());
 }
 
-/// The id of a panel's area.
 pub(super) fn id_of(name: &str) -> Id {
     Id::unique(("panel", name))
 }
@@ -116,7 +114,6 @@ impl<'a> Panel<'a> {
         Self { role, ..self }
     }
 
-    /// Over the other panels.
     pub(super) fn on_top(self) -> Self {
         Self {
             order: Order::Foreground,
@@ -202,7 +199,6 @@ impl<'a> Panel<'a> {
     }
 }
 
-/// Margin inside a popover.
 const POPOVER_MARGIN: f32 = MARGIN;
 /// From a button to its menu, so that the menu is as far from the bar as the panels are.
 const MENU_GAP: f32 = MARGIN + 4.0;

@@ -24,7 +24,6 @@ pub const MAX_PICTURE_SIDE: u32 = 8192;
 /// What only the page around the interface can do.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Request {
-    /// Let the person pick files.
     PickFiles,
     /// Read the files opened last once more.
     ReadAgain,
@@ -47,7 +46,6 @@ pub enum Request {
     ExplainCode(&'static str),
     /// Remember that the person does not want the greeting.
     CloseGreeting,
-    /// Have a screen reader speak.
     Announce(Announcement),
 }
 
@@ -70,21 +68,16 @@ pub enum SheetPage {
     /// The page of the panel that is on the left of a wide window: facts, or the tree of joints. Instead of all tabs the diagnostics while
     /// they are open.
     Model,
-    /// What is selected.
     Selection,
-    /// The view mode.
     ViewMode,
-    /// Light, background, passes.
     Light,
     /// Lines over the model.
     Overlays,
-    /// Named directions.
     ViewFrom,
     /// A picture as a file.
     Picture,
     /// The model as a file of another format.
     Export,
-    /// Dope sheet and curves.
     Timeline,
 }
 
@@ -101,7 +94,6 @@ pub(super) struct Framed {
 pub struct UiState {
     /// What the page is for, and the table of keys.
     pub help_open: bool,
-    /// The list of diagnostics.
     pub diagnostics_open: bool,
     /// What was just done, in a few words.
     pub messages: Messages,
@@ -109,7 +101,6 @@ pub struct UiState {
     pub sheet: Option<SheetPage>,
     /// How much contrast the person asks for.
     pub contrast: Contrast,
-    /// The theme, whatever the system's is.
     pub theme: Option<Theme>,
     /// A sentence above the timeline for somebody who has opened nothing yet, with a button that does.
     pub greeting: Option<String>,
@@ -119,12 +110,10 @@ pub struct UiState {
     pub(super) offers_frame: bool,
     pub(super) coarse_pointer: bool,
     pub(super) findings: FindingsState,
-    /// The maps are listed.
     pub(super) maps_open: bool,
     /// What was selected in this pass will be framed in the next.
     pub(super) frames_selection: bool,
     pub(super) shown_model: u64,
-    /// The name of its file.
     pub(super) shown_file: Option<String>,
     pub(super) framed: Option<Framed>,
     pub(super) timeline: TimelineState,
@@ -278,15 +267,12 @@ impl UiState {
     }
 }
 
-/// The selected joint, vertex and submesh.
 pub(super) type Selection = (Option<JointIndex>, Option<u32>, Option<usize>);
 
 /// A contact sheet that is being drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct DrawnSheet {
-    /// Pictures that are on it.
     pub(super) done: usize,
-    /// Pictures that will be on it.
     pub(super) count: usize,
     /// The person does not want it any more.
     pub(super) cancelled: bool,
@@ -324,7 +310,6 @@ pub(super) struct PictureChoice {
     pub(super) size: Option<[u32; 2]>,
     /// A picture is without a background.
     pub(super) transparent: bool,
-    /// A contact sheet is.
     pub(super) sheet_transparent: bool,
     /// Columns and rows of a contact sheet.
     pub(super) cells: [u32; 2],
@@ -364,7 +349,6 @@ pub(super) struct ExportChoice {
     pub(super) unfolded: [bool; 2],
     /// A key asked for it.
     pub(super) asked: bool,
-    /// It is shown in this pass.
     pub(super) shown: bool,
     /// The greatest height of the lists of losses and changes since it was opened.
     pub(super) outcome_height: f32,

@@ -15,7 +15,6 @@ use crate::image::{Channels, Image, ImageKind};
 use crate::model::MapSlot;
 use crate::session::{Checklist, OpenModel, Session, UnreadableMap, UsedMap};
 
-/// Side of a thumbnail, in points.
 const THUMBNAIL: f32 = 30.0;
 /// Height of a row with one.
 const MAP_ROW_HEIGHT: f32 = 38.0;

@@ -12,9 +12,7 @@ use crate::contact_sheet::INTER_REGULAR;
 pub const MARGIN: f32 = 12.0;
 /// Height of a row of text in panels.
 pub const ROW_HEIGHT: f32 = 23.0;
-/// Corner radius of panels.
 pub const PANEL_RADIUS: u8 = 10;
-/// Corner radius of controls.
 pub const CONTROL_RADIUS: u8 = 6;
 /// Below this width the panels become one bottom sheet.
 pub const NARROW_WIDTH: f32 = 900.0;
@@ -39,7 +37,6 @@ pub enum Contrast {
 }
 
 impl Contrast {
-    /// The contrast of a context.
     fn of(ctx: &egui::Context) -> Self {
         ctx.data(|data| data.get_temp(Self::id())).unwrap_or_default()
     }
@@ -57,38 +54,25 @@ impl Contrast {
     }
 }
 
-/// The tokens of one theme.
 #[derive(Clone, Copy, Debug)]
 pub struct Tokens {
-    /// Words and numbers.
     pub text: Color32,
-    /// Labels.
     pub muted: Color32,
-    /// Hints and ticks.
     pub faint: Color32,
-    /// Ground of panels, nearly opaque.
     pub panel: Color32,
     /// Borders and rules.
     pub hairline: Color32,
-    /// Ground of controls.
     pub field: Color32,
     /// Ground of a control under the pointer.
     pub field_hovered: Color32,
     /// Border of controls. Without a colour they are told by their ground alone.
     pub border: Color32,
-    /// The one accent.
     pub accent: Color32,
-    /// Ground of what is on.
     pub accent_ground: Color32,
-    /// Words on the accent.
     pub on_accent: Color32,
-    /// Skeleton and warnings.
     pub warning: Color32,
-    /// Errors.
     pub error: Color32,
-    /// Shadow under panels.
     pub shadow: Color32,
-    /// The x, y and z axes.
     pub axes: [Color32; 3],
     /// Width of the ring round the focused control.
     pub ring_width: f32,
@@ -105,7 +89,6 @@ fn over(hex: u32, percent: f32) -> Color32 {
 }
 
 impl Tokens {
-    /// The tokens of a theme.
     pub fn new(dark: bool, contrast: Contrast) -> Self {
         match (dark, contrast) {
             (true, Contrast::Normal) => Self::dark(),
@@ -117,7 +100,6 @@ impl Tokens {
         }
     }
 
-    /// Light words on dark ground.
     fn dark() -> Self {
         Self {
             text: rgb(0xE7EAF0),
@@ -139,7 +121,6 @@ impl Tokens {
         }
     }
 
-    /// Dark words on light ground.
     fn light() -> Self {
         Self {
             text: rgb(0x1B2029),
@@ -226,7 +207,6 @@ impl Tokens {
         if hovered { self.text } else { self.muted }
     }
 
-    /// The colour of a slider's track.
     pub fn track(&self) -> Color32 {
         if self.border == Color32::TRANSPARENT {
             self.field_hovered
@@ -293,7 +273,6 @@ fn fonts() -> FontDefinitions {
     fonts
 }
 
-/// Semibold text of a size.
 pub fn semibold(size: f32) -> FontId {
     FontId::new(size, FontFamily::Name(SEMIBOLD.into()))
 }

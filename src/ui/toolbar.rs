@@ -193,7 +193,6 @@ fn export_button(ui: &mut Ui, session: &Session, state: &mut UiState, commands: 
     });
 }
 
-/// The other theme, and its name.
 fn other_theme(ui: &Ui) -> (&'static str, Theme) {
     if ui.visuals().dark_mode {
         ("Light theme", Theme::Light)

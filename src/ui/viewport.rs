@@ -14,7 +14,6 @@ const ENVIRONMENT_TURN_PER_HEIGHT: f32 = PI;
 /// Distance factor of one point of wheel movement.
 const ZOOM_PER_POINT: f32 = 0.0025;
 
-/// How the pointer holds the view.
 #[derive(Debug, Default)]
 pub(super) struct ViewHold {
     held: bool,
@@ -23,7 +22,6 @@ pub(super) struct ViewHold {
 }
 
 impl ViewHold {
-    /// Whether the pointer holds the view.
     pub(super) fn is_held(&self) -> bool {
         self.held
     }
@@ -211,7 +209,6 @@ fn keys_held(ui: &Ui) -> Vec3 {
 /// Only this last part of a drag counts, in seconds. A person who slows down before the release wants to stop.
 const RECENT_SECS: f64 = 0.08;
 
-/// The recent part of a drag.
 #[derive(Clone, Debug, Default)]
 pub(super) struct DragTrail {
     /// Times in seconds, and how far since the step before.
@@ -219,13 +216,11 @@ pub(super) struct DragTrail {
 }
 
 impl DragTrail {
-    /// Adds a step of the drag.
     pub(super) fn add(&mut self, now_secs: f64, moved: Vec2) {
         self.steps.retain(|&(at_secs, _)| now_secs - at_secs <= RECENT_SECS);
         self.steps.push((now_secs, moved));
     }
 
-    /// Forgets the drag.
     pub(super) fn clear(&mut self) {
         self.steps.clear();
     }

@@ -43,7 +43,6 @@ fn is_absent(value: &JsValue) -> bool {
     value.is_undefined() || value.is_null()
 }
 
-/// A plain object of these fields.
 fn object<const COUNT: usize>(fields: [(&str, JsValue); COUNT]) -> JsValue {
     let object = Object::new();
     for (name, value) in fields {

@@ -11,7 +11,6 @@ use crate::app::{App, SheetFailure};
 use crate::scene::{Background, FrameOptions, Light, Overlay, ViewMode};
 use crate::ui::SheetRequest;
 
-/// The app while it runs.
 pub(super) type AppSlot = Rc<RefCell<Option<App>>>;
 
 /// The picture of `Viewer::snapshot`. It has `canvas_size` where the options have no size.

@@ -20,7 +20,6 @@ impl Viewer {
         Ok(())
     }
 
-    /// Plays on.
     pub fn play(&self) {
         self.shared.apply(PlayCommand::Play);
     }
@@ -102,7 +101,6 @@ impl Viewer {
         Ok(())
     }
 
-    /// Lets the whole clip play.
     #[wasm_bindgen(js_name = clearRange)]
     pub fn clear_range(&self) {
         self.shared.apply(PlayCommand::ClearRange);

@@ -95,7 +95,6 @@ impl Shared {
         self.save_file(&file.name, bytes.into(), file.media_type());
     }
 
-    /// Tells the page's listener.
     pub(super) fn emit(&self, kind: &str, detail: &JsValue) {
         let listener = self.listener.borrow().clone();
         if let Some(listener) = listener {
@@ -371,7 +370,6 @@ impl Shell {
         self.hand_over(ctx, name, async { drawn.await.map(Some) });
     }
 
-    /// The same with a contact sheet.
     fn save_sheet(&self, ctx: &egui::Context, wanted: SheetRequest) {
         let name = sheet_name(&self.shared.session.borrow());
         let (app, repainted) = (Rc::clone(&self.app), ctx.clone());

@@ -73,7 +73,6 @@ pub(super) fn unreadable_map(book: Book, read: &Document) -> Option<(usize, &Str
     maps(read).find(|(_, name)| !is_read(name))
 }
 
-/// How many maps the materials name.
 pub(super) fn map_count(document: &Document) -> usize {
     maps(document).map(|(_, name)| name).collect::<BTreeSet<_>>().len()
 }
@@ -342,7 +341,6 @@ impl Limits {
     }
 }
 
-/// A length with three digits.
 fn rounded(length: f32) -> String {
     let digits = (2 - length.abs().max(1e-6).log10().floor() as i32).clamp(0, 6) as usize;
     format!("{length:.digits$}")

@@ -55,7 +55,6 @@ pub(super) struct Stream<'a> {
     cursor: Cursor<'a>,
     /// What is being read, for messages.
     pub(super) row: Row,
-    /// The read that failed.
     stop: Option<Trouble>,
     /// The first word that was taken for another thing than it is, without a failure.
     mistake: Option<Trouble>,

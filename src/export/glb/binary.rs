@@ -9,15 +9,12 @@ use super::number::number;
 /// What the numbers of an accessor are for.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Target {
-    /// Vertices.
     Vertices = 34_962,
     /// Indices of triangles.
     Indices = 34_963,
-    /// Neither.
     Other = 0,
 }
 
-/// Numbers of the binary chunk.
 #[derive(Default)]
 pub(super) struct Binary {
     pub(super) bytes: Vec<u8>,

@@ -21,7 +21,6 @@ pub(super) struct Materials {
     pub(super) textures: Vec<Value>,
     pub(super) samplers: Vec<Value>,
     pub(super) images: Vec<Value>,
-    /// Those that are used.
     pub(super) extensions: BTreeSet<&'static str>,
 }
 

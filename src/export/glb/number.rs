@@ -11,7 +11,6 @@ pub(super) fn number(value: f32) -> Value {
         .map_or(Value::Null, |digits| json!(digits))
 }
 
-/// Several of them.
 pub(super) fn numbers<const N: usize>(values: [f32; N]) -> Value {
     Value::Array(values.map(number).to_vec())
 }

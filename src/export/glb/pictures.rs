@@ -16,15 +16,11 @@ pub(super) enum Use {
     /// Its texels as they are.
     AsIs,
     /// A direction in red, green and blue; z follows from x and y where the map has none.
-    Directions {
-        /// Whether green points the other way.
-        is_turned: bool,
-    },
+    Directions { is_turned: bool },
     /// Roughness in green: 1 − (1 − roughness) × alpha of a normal map, as both lights take it. Metalness in blue.
     Roughness {
         /// Bits of the roughness that the map changes.
         roughness: u32,
-        /// Whether it is a metal.
         metal: bool,
     },
 }
@@ -137,7 +133,6 @@ fn place(image: &Image) -> usize {
     std::ptr::from_ref(image).addr()
 }
 
-/// The pictures that were written.
 #[derive(Default)]
 pub(super) struct Pictures {
     pub(super) images: Vec<Value>,

@@ -7,11 +7,8 @@ use super::number::numbers;
 use super::space::Space;
 use crate::model::{Influences, JointNames, LocalJoint, Model};
 
-/// The nodes of a skeleton.
 pub(super) struct Bones {
-    /// Bone i is node i.
     pub(super) nodes: Vec<Value>,
-    /// Nodes of the scene.
     pub(super) roots: Vec<usize>,
     /// None without bones.
     pub(super) skin: Option<Value>,
@@ -75,7 +72,6 @@ pub(super) fn bones(model: &Model, names: &JointNames, space: &Space, binary: &m
     }
 }
 
-/// A node in its place.
 fn placed(joint: &LocalJoint) -> Value {
     let mut node = json!({});
     let still = LocalJoint::IDENTITY;

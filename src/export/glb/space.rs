@@ -42,7 +42,6 @@ impl Space {
         (self.vector(of_model.truncate()) * self.sign).extend(of_model.w) + Vec4::ZERO
     }
 
-    /// A scale along the axes.
     pub(super) fn scale(&self, of_model: Vec3) -> Vec3 {
         let axes = self.gltf_from_model;
         Mat3A::from_cols(axes.x_axis.abs(), axes.y_axis.abs(), axes.z_axis.abs()) * of_model

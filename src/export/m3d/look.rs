@@ -334,7 +334,6 @@ fn points(mesh: &Mesh, drawn: &[Submesh]) -> Vec<([Vec2; 2], f32)> {
         .collect()
 }
 
-/// A decoded level of a picture.
 #[derive(Debug)]
 struct Texels {
     size: [u32; 2],

@@ -15,7 +15,6 @@ const FIELDS: [(&str, &[&str]); 4] = [
     ("Quat", &["quat", "quaternion", "rotation", "q"]),
 ];
 
-/// Labels of a bone's keys.
 const BONE: &[&str] = &["bone", "b"];
 
 /// Reads the clips, with their lines.
@@ -24,7 +23,6 @@ pub(in crate::format) fn clips(
     count: u32,
     bones: u32,
 ) -> Result<(Vec<AnimationClip>, Vec<ClipLines>), ParseError> {
-    /// The label and two braces.
     const SMALLEST: usize = 16;
     let room = reader.room_for(count, SMALLEST);
     let (mut clips, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
@@ -240,7 +238,6 @@ fn brace(reader: &mut Reader<'_>, brace: char) -> Result<(), ParseError> {
     Ok(())
 }
 
-/// Passes closing braces that close nothing.
 fn pass_surplus_braces(reader: &mut Reader<'_>) {
     while let Some(token) = reader.cursor.peek_token()
         && token.text == b"}"

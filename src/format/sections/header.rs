@@ -184,7 +184,6 @@ fn begins_next_section(label: Token<'_>) -> bool {
         .any(|name| same(label.text, name))
 }
 
-/// Passes what stands behind a count.
 fn pass_surplus(reader: &mut Reader<'_>) {
     reader.cursor.skip_blanks();
     if !reader.cursor.at_line_end() {

@@ -17,18 +17,15 @@ const FIELDS: [(&str, &[&str]); 6] = [
     ("BlendIndices", &["blendindices", "indices", "i"]),
 ];
 
-/// What the section holds.
 pub(in crate::format) struct Vertices {
     pub(in crate::format) vertices: Vec<Vertex>,
     /// Line of each position.
     pub(in crate::format) lines: Vec<u32>,
     /// The vertices whose fields are not on lines that follow one another, and the lines of these.
     pub(in crate::format) apart: Vec<(u32, [u32; 6])>,
-    /// The labels are single letters.
     pub(in crate::format) short_labels: bool,
 }
 
-/// Reads the vertices.
 pub(in crate::format) fn vertices(reader: &mut Reader<'_>, count: u32, bones: u32) -> Result<Vertices, ParseError> {
     /// Four labels of a letter, twelve digits, blanks and line ends.
     const SMALLEST: usize = 32;

@@ -68,7 +68,6 @@ enum Part<T> {
     Curved(Curve<T>),
 }
 
-/// What moves a joint.
 #[derive(Default)]
 struct Parts {
     translation: Option<Part<Vec3>>,
@@ -301,7 +300,6 @@ fn set<T: CurveValue, const N: usize>(
     Ok(overflows)
 }
 
-/// Counts a key of a bone.
 fn add(moments: &mut Moments, bone: u32, time_secs: f32) {
     keys::add(moments, bone, time_secs, || None);
 }

@@ -19,7 +19,6 @@ pub(super) struct Images {
 
 /// An image as the document has it.
 enum Found<'a> {
-    /// A path beside the file.
     Beside(String),
     /// Bytes in the file, of a kind with this extension.
     Inside {

@@ -16,7 +16,6 @@ pub(super) struct Weighted<'a> {
     pub(super) pointer: &'a str,
 }
 
-/// What is noted of all vertices.
 #[derive(Default)]
 pub(super) struct Noted {
     mended: Mended,

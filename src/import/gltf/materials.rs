@@ -301,7 +301,6 @@ pub(super) fn take_second_tex_coords(materials: &[Material]) -> bool {
     maps.into_iter().any(|map| map.sampling.second_tex_coords)
 }
 
-/// Whether a material has a normal map.
 pub(super) fn have_normal_maps(materials: &[Material]) -> bool {
     materials.iter().any(|material| material.normal_map.is_some())
 }

@@ -71,7 +71,6 @@ struct Shared<'a> {
     sets: Option<Vec<Set>>,
 }
 
-/// A primitive of a mesh.
 struct Part<'a> {
     of_file: &'a Primitive,
     pointer: String,

@@ -19,7 +19,6 @@ pub(super) struct Nodes {
     pub(super) local: Vec<LocalJoint>,
     /// Relative to the model, with all that matrices say.
     pub(super) model_from_node: Vec<DAffine3>,
-    /// In the default scene.
     pub(super) in_scene: Vec<bool>,
 }
 

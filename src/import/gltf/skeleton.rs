@@ -28,7 +28,6 @@ pub(super) struct MeshUse {
 /// The skeleton, and how meshes hang on it.
 pub(super) struct Rig {
     pub(super) skeleton: Skeleton,
-    /// In which nodes the joints are.
     pub(super) joint_of_node: Vec<Option<u32>>,
     /// Of each skin that is used: the joint of each of its slots, and what its vertices are moved by.
     pub(super) skins: Vec<Option<BoundSkin>>,
@@ -123,7 +122,6 @@ pub(super) fn meshes_in_scene(
     Ok(uses)
 }
 
-/// The nodes that clips move.
 fn moved_nodes(root: &Root) -> Vec<bool> {
     let mut moved = vec![false; root.nodes().len()];
     let channels = root.animations().iter().flat_map(|animation| &animation.channels);

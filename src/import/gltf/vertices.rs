@@ -72,7 +72,6 @@ impl Vertices {
         Ok(vertices)
     }
 
-    /// Adds a morph target.
     fn morph(&mut self, attributes: &Attributes<'_>, target: usize, weight: f32) -> Result<(), Fault> {
         let steps = |key: &str| -> Result<Vec<Vec3>, Fault> {
             let Some(&accessor) = attributes.part.targets[target].get(key) else {

@@ -23,7 +23,6 @@ pub(super) struct Filter {
 }
 
 impl Filter {
-    /// Those that are listed.
     pub(super) fn of<'a>(&self, all: &[&'a Diagnostic]) -> Vec<&'a Diagnostic> {
         let words: Vec<String> = self.query.split_whitespace().map(str::to_lowercase).collect();
         let is_listed = |diagnostic: &&&Diagnostic| {
@@ -37,7 +36,6 @@ impl Filter {
     }
 }
 
-/// Chips and search.
 pub(super) fn show(ui: &mut Ui, all: &[&Diagnostic], filter: &mut Filter) {
     let count = |severity| all.iter().filter(|diagnostic| diagnostic.severity == severity).count();
     let mut room = 0.0;
@@ -69,7 +67,6 @@ pub(super) fn show(ui: &mut Ui, all: &[&Diagnostic], filter: &mut Filter) {
     }
 }
 
-/// The colour of a severity.
 pub(super) fn color(ui: &Ui, severity: Severity) -> egui::Color32 {
     let tokens = Tokens::of(ui);
     match severity {

@@ -13,7 +13,6 @@ use crate::ui::wording::grouped;
 pub(super) struct Goal {
     /// What it is called: `Bone 3`, `Submesh 0`, `Clip walk`.
     pub(super) words: String,
-    /// Select and show it.
     commands: Vec<Command>,
     /// The page of the side panel that lists it, if any.
     page: Option<SidePage>,

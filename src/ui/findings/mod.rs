@@ -38,7 +38,6 @@ pub(super) fn toggle(state: &mut UiState, is_wide: bool) {
     }
 }
 
-/// The panel's contents.
 pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
     let Some(open) = session.open_model() else { return };
     if closable_heading(ui, "Findings") {

@@ -18,7 +18,6 @@ use crate::ui::wording::grouped;
 
 /// Where the words of a line begin, behind its dot.
 pub(super) const INDENT: f32 = 16.0;
-/// Room above and below the words.
 const AROUND: f32 = 12.0;
 
 /// A row of the list.
@@ -26,7 +25,6 @@ pub(super) struct FindingRow<'a> {
     pub(super) diagnostic: &'a Diagnostic,
     /// Its index, and how many there are.
     pub(super) place: (usize, usize),
-    /// Its height while it is folded.
     pub(super) height: f32,
 }
 
@@ -114,7 +112,6 @@ impl FindingRow<'_> {
         }
     }
 
-    /// Dot, sentence, place and code.
     fn line(&self, ui: &mut Ui, goal: Option<&Goal>, is_shown: bool) -> Response {
         let diagnostic = self.diagnostic;
         let galley = ui.painter().layout_job(words(ui, diagnostic, goal));

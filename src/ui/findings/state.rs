@@ -40,7 +40,6 @@ impl BookLines {
 #[derive(Debug)]
 pub(super) struct ShownDiagnostic {
     pub(super) diagnostic: Diagnostic,
-    /// Which of its occurrences.
     pub(super) occurrence: usize,
     pub(super) excerpt: Option<Excerpt>,
     /// The height of what is unfolded, as it was last drawn.

@@ -28,7 +28,6 @@ pub(super) fn first_words(branches: &[Branch]) -> String {
     words.map_or_else(|| "Choices".to_owned(), |branch| branch.node.name.clone())
 }
 
-/// The rect around all of these.
 pub(super) fn around(branches: &[Branch]) -> [f32; 4] {
     let rects = branches.iter().map(|branch| branch.node.bounds);
     let corners = rects.map(|[x, y, width, height]| [x, y, x + width, y + height]);

@@ -9,7 +9,6 @@ use serde::{Serialize, Serializer};
 pub struct MirrorId(pub(super) u64);
 
 impl MirrorId {
-    /// Reads what the page hands back.
     pub fn from_text(text: &str) -> Option<Self> {
         u64::from_str_radix(text, 16).ok().map(Self)
     }
@@ -33,11 +32,8 @@ impl Serialize for MirrorId {
 pub struct MirrorNode {
     /// Its name for [`MirrorAction`].
     pub id: MirrorId,
-    /// The role of ARIA.
     pub role: &'static str,
-    /// What it is called.
     pub name: String,
-    /// More words about it.
     pub description: Option<String>,
     /// The text in a field, or a number in words.
     pub value: Option<String>,
@@ -61,17 +57,12 @@ pub struct MirrorNode {
     pub invalid: bool,
     /// Nothing can be done with it now.
     pub disabled: bool,
-    /// What is behind it waits.
     pub modal: bool,
-    /// It can have the keyboard focus.
     pub focusable: bool,
     /// Tab comes to it. Of the items of a tree or a list box only one is a stop; arrow keys lead to the others.
     pub stop: bool,
-    /// It can be pressed.
     pub clickable: bool,
-    /// It can be folded and unfolded.
     pub folds: bool,
-    /// The value can be set.
     pub settable: bool,
     /// Depth in a tree or of a heading, from 1.
     pub level: Option<usize>,
@@ -92,11 +83,8 @@ pub struct MirrorNode {
 /// What changed since it was asked last.
 #[derive(Debug, PartialEq, Serialize)]
 pub struct MirrorChanges {
-    /// New records and those that differ.
     pub changed: Vec<MirrorNode>,
-    /// Records that are gone.
     pub removed: Vec<MirrorId>,
-    /// The children of the whole.
     pub children: Vec<MirrorId>,
     /// What has the keyboard focus in egui; it may be no record, as a row that is still out of view.
     pub focus: Option<MirrorId>,
@@ -107,17 +95,11 @@ pub struct MirrorChanges {
 /// What the page asks to be done with a record.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MirrorAction {
-    /// Presses it.
     Click,
-    /// Gives it the keyboard.
     Focus,
-    /// Sets the number of a slider.
     SetNumber(f64),
-    /// Sets the text of a field.
     SetText(String),
-    /// Unfolds it.
     Expand,
-    /// Folds it.
     Collapse,
     /// Scrolls to it.
     ScrollIntoView,

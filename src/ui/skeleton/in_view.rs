@@ -48,7 +48,6 @@ pub(in crate::ui) const STRIP_MARGIN: Margin = Margin {
     bottom: 5,
 };
 
-/// The shape of a legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::ui) enum LegendShape {
     /// The colours below the title, then a sentence if they need one. For a corner with room.

@@ -15,7 +15,6 @@ const LONGEST_WAIT_SECS: f64 = 1.0;
 /// … and at least this many passes.
 const LONGEST_WAIT_PASSES: u32 = 10;
 
-/// What is being named.
 #[derive(Debug, Default)]
 pub(super) struct Naming {
     pub(super) of: Option<JointIndex>,
@@ -54,7 +53,6 @@ impl Proposed {
     }
 }
 
-/// The progress of naming a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Stage {
     /// Its field has the focus. `shown`: in this pass.

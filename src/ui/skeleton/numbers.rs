@@ -53,12 +53,10 @@ impl Digits {
         }
     }
 
-    /// The coordinates of a position.
     pub(super) fn place(self, numbers: [f32; 3]) -> [String; 3] {
         numbers.map(|number| self.place_of(number))
     }
 
-    /// One coordinate of a position.
     pub(super) fn place_of(self, number: f32) -> String {
         fitted(without_noise(number, self.scale), self.decimals.min(PLACE_DECIMALS))
     }
@@ -103,7 +101,6 @@ const MOST_COLUMN: f32 = 80.0;
 const LABEL_WIDTH: f32 = 73.0;
 /// The last column of an affine matrix is 0 0 0 1 and needs less room.
 const LAST_COLUMN_WIDTH: f32 = 22.0;
-/// Font size of numbers, in points.
 const FONT_SIZE: f32 = 11.0;
 
 /// Position, quaternion, Euler angles and scale, and shear and mirroring if there is any.
@@ -285,7 +282,6 @@ pub(super) const TO_ROOT_EXPLAINED: &str =
 pub(super) const FINAL_EXPLAINED: &str =
     "The final transform F brings a vertex from bind space to where this bone has it now: offset, then toRoot.";
 
-/// What F is.
 pub(super) fn show_meaning(ui: &mut Ui) {
     let meaning = Formula::new(12.0, Tokens::of(ui).muted)
         .bold("F")

@@ -11,13 +11,10 @@ use crate::scene::{LabelPlace, joint_colors};
 use crate::session::{Command, JointCommand, JointRow, LookCommand, Session};
 use crate::ui::viewport::in_picture;
 
-/// The page of the side panel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::ui) enum SidePage {
-    /// Facts, submeshes, textures.
     #[default]
     Model,
-    /// The tree of joints.
     Skeleton,
 }
 
@@ -142,11 +139,9 @@ impl SkeletonState {
 /// Whether the bones are drawn for the tree.
 #[derive(Debug, Default)]
 struct TreeBones {
-    /// The tree is the page.
     tree: bool,
     /// They are drawn for that reason alone.
     shown: bool,
-    /// The person hid them.
     refused: bool,
 }
 
@@ -159,7 +154,6 @@ pub(in crate::ui) fn has_joints(session: &Session) -> bool {
     session.joints().count() > 0
 }
 
-/// What the tree shows.
 #[derive(Debug, Default)]
 pub(super) struct TreeState {
     pub(super) query: String,
@@ -252,7 +246,6 @@ pub(super) enum Space {
     /// The parent.
     #[default]
     Local,
-    /// The model.
     Model,
 }
 
@@ -291,7 +284,6 @@ impl Mirrored {
     }
 }
 
-/// The list of keys.
 #[derive(Debug, Default)]
 pub(super) struct KeyList {
     /// The joint, the clip and the revision of the clips for which it is open.

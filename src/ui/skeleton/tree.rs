@@ -204,7 +204,6 @@ fn row_id(ui: &Ui, joint: JointIndex) -> Id {
 /// What a row shows.
 struct TreeRow<'a> {
     row: &'a JointRow,
-    /// Its place in the list.
     place: usize,
     /// Tab stops at it.
     is_stop: bool,

@@ -32,7 +32,6 @@ const NAMES_FRACTION: f32 = 0.45;
 const BAR_GAP: f32 = 8.0;
 const BAR_END: f32 = 52.0;
 
-/// The panel's contents.
 pub(super) fn show(
     ui: &mut Ui,
     session: &Session,

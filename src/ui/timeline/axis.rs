@@ -25,7 +25,6 @@ impl TimeAxis {
         }
     }
 
-    /// The x of its ends.
     pub(super) fn points(&self) -> Rangef {
         self.points
     }
@@ -66,7 +65,6 @@ impl TimeAxis {
     }
 }
 
-/// The visible part of a clip.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct TimeWindow {
     part_secs: Option<[f32; 2]>,
@@ -83,7 +81,6 @@ impl TimeWindow {
         self.part_secs.is_some()
     }
 
-    /// Shows all.
     pub(super) fn show_all(&mut self) {
         self.part_secs = None;
     }

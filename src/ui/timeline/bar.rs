@@ -24,14 +24,12 @@ const TOUCH_GRIP: [f32; 2] = [28.0, 16.0];
 /// The same while the play head is at that end. A finger on the play head moves the time, so the grip is outside only.
 const TOUCH_GRIP_BY_HEAD: [f32; 2] = [32.0, -4.0];
 
-/// An end of the range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum End {
     In,
     Out,
 }
 
-/// The bar of the open clip.
 pub(super) fn show(ui: &mut Ui, session: &Session, gap: &LoopGapReading, size: Vec2, commands: &mut Vec<Command>) {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());

@@ -15,7 +15,6 @@ use crate::ui::widgets::{
 };
 use crate::ui::wording::{counted, trimmed};
 
-/// Width of the popover.
 const WIDTH: f32 = 320.0;
 /// Clips listed before the list scrolls.
 const ROWS: f32 = 6.0;
@@ -149,7 +148,6 @@ fn blend_icon(
     }
 }
 
-/// Crossfade and blend.
 fn mixing(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<Command>) {
     let secs = session.crossfade_secs();
     let text = format!("{secs:.2} s");

@@ -41,7 +41,6 @@ pub(super) fn play_button(ui: &mut Ui, session: &Session, diameter: f32, command
     }
 }
 
-/// Plays backward.
 pub(super) fn backward_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     action_button(ui, session, &actions::PLAY_BACKWARD, Icon::PlayBackward, commands);
 }
@@ -114,7 +113,6 @@ pub(super) struct ReadoutWidths {
 }
 
 impl ReadoutWidths {
-    /// Those of a clip.
     pub(super) fn of(ui: &Ui, clip: &Clip) -> Self {
         let width = |text: String, font: FontId| {
             let galley = ui.painter().layout_no_wrap(text, font, egui::Color32::WHITE);

@@ -17,14 +17,12 @@ use crate::session::{Command, JointCommand, Session};
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{TextButton, control_size, focus_ring, is_touch, paint_name};
 
-/// Distance of samples, in points.
 const SAMPLE_SPACING: f32 = 2.0;
 /// The most samples, more than any screen needs.
 const MOST_SAMPLES: usize = 2048;
 /// Gap between a sentence and the button that does what it says.
 const OFFER_GAP: f32 = 8.0;
 
-/// The controls of the curves.
 pub(super) fn controls(ui: &mut Ui, curves: &mut Curves) {
     let parts = [
         (Part::Translation, "Translation"),

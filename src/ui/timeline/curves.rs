@@ -4,7 +4,6 @@ use crate::anim::{CompiledClip, Curve, CurvePoint, CurveSpace};
 use crate::model::JointIndex;
 use crate::session::{OpenModel, Session};
 
-/// Which part of the motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Part {
     Translation,
@@ -13,7 +12,6 @@ pub(super) enum Part {
     Scale,
 }
 
-/// How a rotation is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum RotationAs {
     #[default]
@@ -21,7 +19,6 @@ pub(super) enum RotationAs {
     Euler,
 }
 
-/// What is shown, and its samples.
 #[derive(Debug, Default)]
 pub(super) struct Curves {
     pub(super) part: Part,
@@ -36,7 +33,6 @@ pub(super) struct Curves {
     pub(super) points: Vec<CurvePoint>,
 }
 
-/// What the curve depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CurveOf {
     pub(super) clips_revision: u64,
@@ -45,7 +41,6 @@ pub(super) struct CurveOf {
     pub(super) space: CurveSpace,
 }
 
-/// What the samples depend on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SampledOf {
     pub(super) curve: CurveOf,

@@ -142,7 +142,6 @@ impl Sheet<'_> {
         state.rows = rows;
     }
 
-    /// Key times of a joint.
     pub(super) fn key_times(&self, joint: JointIndex) -> &[f32] {
         self.open.key_times(self.clip_index, Some(joint))
     }

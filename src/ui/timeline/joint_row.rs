@@ -68,7 +68,6 @@ impl Sheet<'_> {
         }
     }
 
-    /// A tooltip above the sheet.
     fn tooltip(&self, response: &Response, words: &str) {
         let mut tooltip = Tooltip::for_enabled(response);
         let above = Rect::from_min_size(self.area.min, vec2(self.area.width(), 0.0));

@@ -11,7 +11,6 @@ const LEAST_DEGREES: f32 = 0.005;
 /// Smaller changes are 0 % with one decimal.
 const LEAST_SCALE: f32 = 5e-4;
 
-/// The gap of the loop.
 #[derive(Debug, Default)]
 pub(super) struct LoopGapReading {
     of: Option<ReadOf>,
@@ -26,7 +25,6 @@ pub(super) struct LoopGapReading {
     jumps: bool,
 }
 
-/// What the reading depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct ReadOf {
     clips: u64,
@@ -59,7 +57,6 @@ impl LoopGapReading {
         self.words = self.told(session);
     }
 
-    /// Whether something loops.
     pub(super) fn loops(&self) -> bool {
         self.loops && self.could_loop()
     }

@@ -13,13 +13,11 @@ const LEAST_RADIUS: f32 = 1.6;
 const LINE_WIDTH: f32 = 1.2;
 /// The least radius of a hollow mark.
 const LEAST_HOLLOW_RADIUS: f32 = 2.4;
-/// Half the height of a bar.
 const BAR_RADIUS: f32 = 1.5;
 
 /// A mark of one key or of many.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Mark {
-    /// A single key, at an x.
     Key(f32),
     /// Keys too close to be told apart.
     Run(Rangef),
@@ -89,7 +87,6 @@ impl MarkShape {
         });
     }
 
-    /// Adds a bar.
     pub(super) fn bar(&mut self, points: Rangef, y: f32, radius: f32, color: Color32) {
         let rect = Rect::from_x_y_ranges(points.expand(0.5), Rangef::new(y - radius, y + radius));
         self.mesh.add_colored_rect(rect, color);
@@ -134,7 +131,6 @@ impl MarkShape {
         }
     }
 
-    /// Draws all of it.
     pub(super) fn paint(self, painter: &Painter) {
         if !self.mesh.is_empty() {
             painter.add(Shape::mesh(self.mesh));

@@ -26,7 +26,6 @@ const DISTANCE_WIDTH: f32 = 84.0;
 const ANGLE_WIDTH: f32 = 76.0;
 /// Margin inside a row.
 const INSIDE: f32 = 6.0;
-/// Width of the popover.
 pub(super) const WIDTH: f32 = 300.0;
 /// Speeds in one row of the switch.
 const IN_A_ROW: usize = 5;

@@ -124,19 +124,16 @@ fn sort_by_motion(activity: &[JointActivity], sorted: &mut Vec<JointIndex>) {
     sorted.sort_by(|a, b| activity[b.index()].fraction.total_cmp(&activity[a.index()].fraction));
 }
 
-/// What is folded below one joint.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct FoldedBranch {
     /// Times of the keys of all its joints, in order.
     pub(super) times_secs: Vec<f32>,
-    /// Whether nothing of it moves.
     pub(super) constant: bool,
     /// The most that a joint of it moves, as a fraction of the most of all joints.
     pub(super) most_motion: f32,
 }
 
 impl FoldedBranch {
-    /// Of the joints below one.
     fn new(clip: &Clip, below: &[JointIndex], activity: &[JointActivity]) -> Self {
         let activity = || below.iter().filter_map(|joint| activity.get(joint.index()));
         Self {

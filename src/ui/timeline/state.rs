@@ -20,13 +20,10 @@ const LEAST_HEIGHT: f32 = 132.0;
 /// The most that it can be dragged to, as a fraction of the room for the panel. The view keeps the rest.
 const MOST_FRACTION: f32 = 0.54;
 
-/// What the sheet shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum SheetTab {
-    /// Keys of all joints.
     #[default]
     Keys,
-    /// Motion of one joint.
     Curves,
 }
 
@@ -112,7 +109,6 @@ impl TimelineState {
         self.key_box.is_some()
     }
 
-    /// Clears the box of chosen keys.
     pub(in crate::ui) fn let_go_of_keys(&mut self) {
         self.key_box = None;
     }
@@ -159,7 +155,6 @@ impl KeyBox {
         }
     }
 
-    /// Moves the corner that is dragged.
     pub(super) fn stretch<'a>(
         &mut self,
         (time_secs, row): (f32, f32),
@@ -198,7 +193,6 @@ impl KeyBox {
         first..end.max(first)
     }
 
-    /// How many keys are in it.
     pub(super) fn count(&self, session: &Session) -> usize {
         let in_box = |&joint: &JointIndex| self.part_of(joint, session.key_times(Some(joint))).len();
         self.joints.iter().map(in_box).sum()

@@ -10,7 +10,6 @@ use crate::session::{Command, PlayCommand, Session};
 use crate::ui::theme::Tokens;
 use crate::ui::widgets::{SliderNode, by_finger, control_size, focus_ring, focused_keys, is_touch, segmented};
 
-/// Height of the ruler.
 pub(super) const RULER_HEIGHT: f32 = 24.0;
 /// Width of a label with the gap to the next one.
 const LABEL_SPACING: f32 = 92.0;

@@ -32,7 +32,6 @@ impl ValueAxis {
         }
     }
 
-    /// The y of a value.
     pub(super) fn y_of(&self, value: f32) -> f32 {
         let fraction = (value - self.values[0]) / (self.values[1] - self.values[0]);
         self.height.max - fraction * self.height.span()

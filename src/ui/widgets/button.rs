@@ -14,7 +14,6 @@ use crate::session::{Command, Session};
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 
-/// Side of an icon.
 pub(crate) const ICON_SIZE: f32 = 16.0;
 /// Gap between the parts of a button.
 const GAP: f32 = 5.0;
@@ -110,7 +109,6 @@ impl<'a> TextButton<'a> {
         Self { width, ..self }
     }
 
-    /// Shows it.
     pub(crate) fn show(self, ui: &mut Ui) -> Response {
         let tokens = Tokens::of(ui);
         let icon = self.icon.map_or(0.0, |_| ICON_SIZE + GAP);
@@ -144,10 +142,8 @@ impl<'a> TextButton<'a> {
     }
 }
 
-/// What a line of a menu is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum MenuLine {
-    /// It does something.
     Action,
     /// One of a group to choose from, and whether it is the current choice.
     Choice(bool),

@@ -13,7 +13,6 @@ use super::number::TypedValue;
 use crate::scene::srgb8_from_linear;
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 
-/// Height of the square.
 const SQUARE_HEIGHT: f32 = 112.0;
 /// A step of the arrow keys, as a fraction of the whole.
 const KEY_STEP: f64 = 0.02;
@@ -226,7 +225,6 @@ fn from_hex(text: &str) -> Option<[u8; 3]> {
     }
 }
 
-/// Hue, saturation, value.
 type Hsv = [f32; 3];
 
 /// Converts from sRGB. Grey has hue 0, black has saturation 0 too.

@@ -27,7 +27,6 @@ pub(crate) fn size_for_touch(ctx: &egui::Context, touch: bool) {
     }
 }
 
-/// Side of a control, in points.
 pub(crate) fn control_size(ui: &Ui) -> f32 {
     ui.spacing().interact_size.y
 }
@@ -332,7 +331,6 @@ pub(crate) struct SliderNode<'a> {
     pub(crate) value: f64,
     pub(crate) range: RangeInclusive<f64>,
     pub(crate) step: f64,
-    /// The value in words.
     pub(crate) text: &'a str,
 }
 
@@ -440,7 +438,6 @@ pub(crate) fn pressed_chip(ui: &mut Ui, text: &str, color: Color32, on: bool) ->
     response
 }
 
-/// How large a chip is.
 pub(crate) fn chip_size(ui: &Ui, text: &str) -> Vec2 {
     layout(ui.painter(), text, Color32::WHITE).size() + AROUND
 }

@@ -53,7 +53,6 @@ impl<'a> Slider<'a> {
         Self { reset_to, ..self }
     }
 
-    /// Shows it. Returns a new value.
     pub(crate) fn show(self, ui: &mut Ui) -> Option<f32> {
         let tokens = Tokens::of(ui);
         let height = control_size(ui).max(MOUSE_CONTROL);
@@ -192,7 +191,6 @@ const MOST_CHARS: usize = 24;
 /// changes meanwhile, as the time does while a clip plays.
 #[derive(Clone, Debug)]
 pub(crate) struct TypedValue<'a> {
-    /// Unique among the read-outs.
     name: &'a str,
     text: &'a str,
     typed: &'a str,
@@ -225,7 +223,6 @@ impl<'a> TypedValue<'a> {
         }
     }
 
-    /// Its width, whatever the text.
     pub(crate) fn width(self, width: f32) -> Self {
         let size = vec2(width, self.size.y);
         Self { size, ..self }
