@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde_json::{Value, json};
 
 use super::book::Verdict;
@@ -124,6 +125,15 @@ fn utf16_units(text: &[u8]) -> u32 {
     u32::try_from(units).unwrap_or(u32::MAX - 1)
 }
 
+/// What is escaped in a reference to a file.
+const ESCAPED: &AsciiSet = &NON_ALPHANUMERIC
+    .remove(b'/')
+    .remove(b'-')
+    .remove(b'.')
+    .remove(b'_')
+    .remove(b'~');
+const ESCAPED_BEHIND_DRIVE: &AsciiSet = &ESCAPED.remove(b':');
+
 /// A path as a reference to a file: absolute ones with their scheme, and what has a meaning in references, or no ASCII, escaped.
 fn uri(path: &str) -> String {
     let path = path.replace('\\', "/");
@@ -133,16 +143,8 @@ fn uri(path: &str) -> String {
         None if drive => "file:///",
         None => "",
     };
-    let escaped: String = path
-        .bytes()
-        .map(|byte| match byte {
-            b'/' | b'-' | b'.' | b'_' | b'~' => char::from(byte).to_string(),
-            b':' if drive => ":".to_owned(),
-            _ if byte.is_ascii_alphanumeric() => char::from(byte).to_string(),
-            _ => format!("%{byte:02X}"),
-        })
-        .collect();
-    format!("{prefix}{escaped}")
+    let escaped = if drive { ESCAPED_BEHIND_DRIVE } else { ESCAPED };
+    format!("{prefix}{}", utf8_percent_encode(&path, escaped))
 }
 
 #[cfg(test)]

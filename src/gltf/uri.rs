@@ -2,6 +2,9 @@
 
 use std::borrow::Cow;
 
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use base64::{Engine as _, alphabet};
+
 /// What an address of a glTF file says.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Uri<'a> {
@@ -64,67 +67,26 @@ fn data(text: &str) -> Result<Uri<'_>, UriError> {
         return Err(UriError::NoData);
     }
     let bytes = if parts.any(|part| part.eq_ignore_ascii_case("base64")) {
-        base64(body.as_bytes()).ok_or(UriError::NotBase64)?
+        BASE64.decode(body).map_err(|_| UriError::NotBase64)?
     } else {
         percent_decoded(body).ok_or(UriError::NotPercentEncoded)?.into_owned()
     };
     Ok(Uri::Data { media_type, bytes })
 }
 
+/// With padding or without, whatever the bits are that are left at the end.
+const BASE64: GeneralPurpose = GeneralPurpose::new(
+    &alphabet::STANDARD,
+    GeneralPurposeConfig::new()
+        .with_decode_padding_mode(DecodePaddingMode::Indifferent)
+        .with_decode_allow_trailing_bits(true),
+);
+
+/// The bytes that a text stands for; `None` where a percent sign has no two digits behind it.
 fn percent_decoded(text: &str) -> Option<Cow<'_, [u8]>> {
+    let is_digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_hexdigit);
     let bytes = text.as_bytes();
-    if memchr::memchr(b'%', bytes).is_none() {
-        return Some(Cow::Borrowed(bytes));
-    }
-    let mut decoded = Vec::with_capacity(bytes.len());
-    let mut rest = bytes;
-    while let [first, others @ ..] = rest {
-        if *first == b'%' {
-            let [high, low, behind @ ..] = others else { return None };
-            let digit = |letter: u8| char::from(letter).to_digit(16);
-            decoded.push((digit(*high)? * 16 + digit(*low)?) as u8);
-            rest = behind;
-        } else {
-            decoded.push(*first);
-            rest = others;
-        }
-    }
-    Some(Cow::Owned(decoded))
-}
-
-/// What is no letter of base64 (RFC 4648).
-const NO_DIGIT: u8 = 0xff;
-
-const DIGITS: [u8; 256] = {
-    let mut digits = [NO_DIGIT; 256];
-    let letters = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut value = 0;
-    while value < letters.len() {
-        digits[letters[value] as usize] = value as u8;
-        value += 1;
-    }
-    digits
-};
-
-/// The bytes of a base64 text with or without padding; `None` when it is none.
-fn base64(text: &[u8]) -> Option<Vec<u8>> {
-    let padding = text.iter().rev().take(2).take_while(|&&letter| letter == b'=').count();
-    let text = &text[..text.len() - padding];
-    if text.len() % 4 == 1 || (padding > 0 && !(text.len() + padding).is_multiple_of(4)) {
-        return None;
-    }
-    let mut bytes = Vec::with_capacity(text.len() / 4 * 3 + 2);
-    for letters in text.chunks(4) {
-        let mut group = 0;
-        for place in 0..4 {
-            let digit = letters.get(place).map_or(0, |&letter| DIGITS[letter as usize]);
-            if digit == NO_DIGIT {
-                return None;
-            }
-            group = group << 6 | u32::from(digit);
-        }
-        let [_, three @ ..] = group.to_be_bytes();
-        bytes.extend_from_slice(&three[..letters.len() - 1]);
-    }
-    Some(bytes)
+    let is_sound = |at: usize| is_digit(bytes.get(at + 1)) && is_digit(bytes.get(at + 2));
+    let sound = memchr::memchr_iter(b'%', bytes).all(is_sound);
+    sound.then(|| percent_encoding::percent_decode(bytes).into())
 }

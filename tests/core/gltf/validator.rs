@@ -8,7 +8,7 @@ use bindpose::import::import_beside;
 use crate::shared::shared;
 
 /// Files in which the validator of 2.0.0-dev.3.10 finds no error, or only one of something that is not read here.
-const SOUND: [&str; 58] = [
+const SOUND: [&str; 68] = [
     "accessor-custom_property.gltf",
     "accessor_data-get_elements.gltf",
     "animation-custom_property.gltf",
@@ -61,6 +61,18 @@ const SOUND: [&str; 58] = [
     "accessor-empty_array.gltf",
     "animation-empty_array.gltf",
     "buffer-empty_array.gltf",
+    // What is wrong with these changes nothing that one sees: numbers of morph targets, steps and offsets that nothing reads,
+    // a camera and the root of a skin that are not there.
+    "accessor-byteoffset_no_bufferview.gltf",
+    "accessor-float_normalized.gltf",
+    "buffer_view-invalid_stride_multiple.gltf",
+    "buffer_view-invalid_stride_too_big.gltf",
+    "image-empty_object.gltf",
+    "image-invalid_data_uri.gltf",
+    "mesh-morph_weights_wrong_count.gltf",
+    "node-node_weights_invalid.gltf",
+    "node-unresolved_camera.gltf",
+    "skin-unresolved_skeleton.gltf",
     // Their buffer is not there, which is told.
     "accessor_data-out_of_range_elements_float.gltf",
     "accessor_data-out_of_range_elements_sint16.gltf",
