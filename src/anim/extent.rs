@@ -148,38 +148,3 @@ fn keep_extremes<'a>(axes: &[Vec3], points: impl Iterator<Item = &'a Vec3>, kept
     }
     kept.extend(extremes.iter().flatten().filter_map(|(_, point)| *point));
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_corners_of_a_box_are_kept_and_its_inside_is_not() {
-        let mut positions = vec![Vec3::ZERO, Vec3::splat(0.3)];
-        positions.extend(
-            Aabb {
-                min: Vec3::new(-1.0, -2.0, -3.0),
-                max: Vec3::new(4.0, 5.0, 6.0),
-            }
-            .corners(),
-        );
-        let mesh = Mesh {
-            positions: positions.clone(),
-            ..Mesh::default()
-        };
-        let points = extreme_points(
-            &Model {
-                mesh,
-                ..Model::default()
-            },
-            None,
-        );
-        assert!(positions[2..].iter().all(|corner| points.contains(corner)));
-        assert!(!points.contains(&Vec3::ZERO) && !points.contains(&Vec3::splat(0.3)));
-    }
-
-    #[test]
-    fn nothing_has_no_extremes() {
-        assert!(extreme_points(&Model::default(), None).is_empty());
-    }
-}

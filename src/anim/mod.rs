@@ -45,5 +45,5 @@ pub use sample::{sample, sample_joint};
 pub(crate) use skin::skin_position;
 pub use skin::{SkinnedVertices, skin, skin_positions};
 pub use skin_view::{SkinView, Stretch, dominant_joint, dominant_joints, influence_counts, joint_weights};
-pub(crate) use straight::{MOST_ERROR as STRAIGHT_ERROR, straight};
+pub use straight::{MOST_ERROR as STRAIGHT_ERROR, straight};
 pub use trails::{GHOST_STEP_FRAMES, GhostPlan, MOST_GHOSTS, Trails, ghost_times, palettes_at};

@@ -8,14 +8,14 @@ use crate::model::{Curve, LocalJoint, Track};
 
 /// How far straight pieces may stray from a curve, as a part of what the curve ranges over; of rotations the angle in radians. A
 /// figure's hand is then off by less than a twentieth of a pixel on a large screen.
-pub(crate) const MOST_ERROR: f32 = 1e-5;
+pub const MOST_ERROR: f32 = 1e-5;
 
 /// A piece between two keys is halved this often at most.
 const MOST_HALVINGS: u32 = 9;
 
 /// A track whose parts all go straight from key to key, and that strays from the given one by less than [`MOST_ERROR`]. A value that
 /// is held has a second key, which is the last number before the time of the next.
-pub(crate) fn straight(track: &Track) -> Cow<'_, Track> {
+pub fn straight(track: &Track) -> Cow<'_, Track> {
     let Some(curves) = track.curves() else {
         return Cow::Borrowed(track);
     };
@@ -102,63 +102,5 @@ impl Ranges {
         part(a.translation.distance(b.translation), self.translation)
             .max(part(a.scale.distance(b.scale), self.scale))
             .max(2.0 * chord)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use glam::{Quat, Vec4};
-
-    use super::*;
-    use crate::model::Curves;
-
-    fn track(curves: Curves) -> Track {
-        let still = |time_secs| (time_secs, LocalJoint::IDENTITY);
-        let keys = Track::new([still(0.0), still(1.0), still(2.0)]).expect("times increase");
-        keys.with_curves(curves)
-    }
-
-    fn greatest_error(track: &Track) -> f32 {
-        let straight = straight(track);
-        let apart = |time_secs| {
-            let [a, b] = [track.at(time_secs), straight.at(time_secs)];
-            a.translation
-                .distance(b.translation)
-                .max(2.0 * (a.rotation - b.rotation).length())
-        };
-        (0..=4000).map(|step| apart(step as f32 * 0.0005)).fold(0.0, f32::max)
-    }
-
-    #[test]
-    fn pieces_stay_beside_a_spline_that_eases_in_and_out() {
-        let key = |time_secs, x| (time_secs, Vec3::X * x, [Vec3::ZERO; 2]);
-        let turn = |time_secs, radians| {
-            let rotation = Vec4::from(Quat::from_rotation_y(radians));
-            (time_secs, rotation, [Vec4::ZERO; 2])
-        };
-        let curves = Curves {
-            translation: Curve::cubic([key(0.0, 0.0), key(1.0, 10.0), key(2.0, -5.0)]).ok(),
-            rotation: Curve::cubic([turn(0.0, 0.0), turn(1.0, 1.5), turn(2.0, 3.0)]).ok(),
-            scale: None,
-        };
-        let track = track(curves);
-        let error = greatest_error(&track);
-        assert!(error < 4.0 * 15.0 * MOST_ERROR, "{error}");
-        let keys = straight(&track).key_count();
-        assert!((100..1200).contains(&keys), "{keys}");
-    }
-
-    #[test]
-    fn a_held_value_is_held_to_the_last_number_before_the_next_key() {
-        let curves = Curves {
-            translation: Curve::step([(0.0, Vec3::X), (1.0, Vec3::Y), (2.0, Vec3::Z)]).ok(),
-            ..Curves::default()
-        };
-        let track = track(curves);
-        let straight = straight(&track);
-        for time_secs in [0.0, 0.5, 1.0_f32.next_down(), 1.0, 1.5, 2.0_f32.next_down(), 2.0] {
-            assert_eq!(straight.at(time_secs), track.at(time_secs), "{time_secs}");
-        }
-        assert_eq!(straight.key_count(), 5);
     }
 }

@@ -183,14 +183,3 @@ impl fmt::Display for OneLine<'_> {
         })
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_line_stays_one_line() {
-        let name = "a\nb\r\u{85}\u{1b}[31m\u{202e}ä";
-        assert_eq!(OneLine(name).to_string(), "a\\nb\\r\\u{85}\\u{1b}[31m\\u{202e}ä");
-    }
-}

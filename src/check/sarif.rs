@@ -146,31 +146,3 @@ fn uri(path: &str) -> String {
     let escaped = if drive { ESCAPED_BEHIND_DRIVE } else { ESCAPED };
     format!("{prefix}{}", utf8_percent_encode(&path, escaped))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn columns_count_utf16_code_units() {
-        let bytes = "a\n😀é\u{FF} x\n".as_bytes();
-        let lines = LineIndex::new(bytes);
-        // Four bytes and two units, two bytes and one unit, two and one, a blank.
-        let at = Position { line: 2, column: 10 };
-        let expected = json!({ "startLine": 2, "startColumn": 6, "endColumn": 7 });
-        assert_eq!(region(&lines, at, 1), expected);
-        let beyond = region(&lines, Position { line: 9, column: 9 }, 5);
-        assert_eq!((&beyond["startColumn"], &beyond["endColumn"]), (&json!(1), &json!(1)));
-    }
-
-    #[test]
-    fn paths_become_references() {
-        for (path, expected) in [
-            ("a b/ä.m3d", "a%20b/%C3%A4.m3d"),
-            ("/tmp/x.m3d", "file:///tmp/x.m3d"),
-            ("C:\\models\\x#1.m3d", "file:///C:/models/x%231.m3d"),
-        ] {
-            assert_eq!(uri(path), expected);
-        }
-    }
-}

@@ -92,22 +92,3 @@ fn fraction(text: &str) -> Result<f32, String> {
         .filter(|fraction| (0.0..=1.0).contains(fraction))
         .ok_or_else(|| "expected a fraction from 0 to 1".into())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn backgrounds_are_names_and_colours() {
-        assert_eq!(background("#20262e"), Ok(Background::Color([0x20, 0x26, 0x2e])));
-        assert!(background("blue").is_err());
-    }
-
-    #[test]
-    fn fractions_lie_between_0_and_1() {
-        assert_eq!(fraction("0.25"), Ok(0.25));
-        for wrong in ["-0.1", "1.1", "NaN", "half", ""] {
-            assert!(fraction(wrong).is_err(), "{wrong}");
-        }
-    }
-}

@@ -169,15 +169,3 @@ fn listed(clips: &[String]) -> String {
     let quoted: Vec<String> = clips.iter().map(|name| format!("\"{}\"", OneLine(name))).collect();
     format!("it has {}", quoted.join(", "))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_worst_outcome_counts() {
-        use Outcome::{Failed, FileHasErrors, Fine};
-        assert_eq!([Fine, Failed, FileHasErrors].into_iter().max(), Some(Failed));
-        assert_eq!([Fine, FileHasErrors, Fine].into_iter().max(), Some(FileHasErrors));
-    }
-}

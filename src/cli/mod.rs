@@ -9,6 +9,8 @@ mod codes;
 mod convert;
 mod diagnostic;
 mod failure;
+#[doc(hidden)]
+pub mod for_tests;
 mod in_order;
 mod info;
 mod input;
@@ -86,15 +88,4 @@ fn run(command: &Command, out: &mut dyn Write, err: &mut dyn Write) -> Result<Ou
         Command::Convert(arguments) => return convert::run(arguments, out, err),
     }
     Ok(Outcome::Fine)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_arguments_make_sense_to_their_parser() {
-        use clap::CommandFactory as _;
-        Arguments::command().debug_assert();
-    }
 }

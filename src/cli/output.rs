@@ -5,13 +5,14 @@ use std::io::{self, ErrorKind, Write};
 /// Writes until the reader closes its end, and drops the rest. The command runs to its end, so that the exit code of
 /// `bindpose check … | head` is the same as without `head`.
 #[derive(Debug)]
-pub(super) struct UntilClosed<W> {
+pub struct UntilClosed<W> {
     inner: W,
     closed: bool,
 }
 
 impl<W: Write> UntilClosed<W> {
-    pub(super) fn new(inner: W) -> Self {
+    /// Everything goes to `inner` until its reader leaves.
+    pub fn new(inner: W) -> Self {
         Self { inner, closed: false }
     }
 
@@ -37,54 +38,5 @@ impl<W: Write> Write for UntilClosed<W> {
 
     fn flush(&mut self) -> io::Result<()> {
         self.unless_closed((), Write::flush)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Takes some writes, then fails in one way.
-    struct Failing {
-        writes_left: usize,
-        then: ErrorKind,
-    }
-
-    impl Write for Failing {
-        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-            match self.writes_left.checked_sub(1) {
-                Some(left) => {
-                    self.writes_left = left;
-                    Ok(bytes.len())
-                }
-                None => Err(self.then.into()),
-            }
-        }
-
-        fn flush(&mut self) -> io::Result<()> {
-            Ok(())
-        }
-    }
-
-    #[test]
-    fn a_reader_that_left_is_no_failure_and_a_full_disk_is() {
-        let mut left = UntilClosed::new(Failing {
-            writes_left: 1,
-            then: ErrorKind::BrokenPipe,
-        });
-        for _ in 0..3 {
-            assert!(left.write_all(b"line\n").is_ok());
-        }
-        assert!(left.closed && left.flush().is_ok());
-
-        let mut full = UntilClosed::new(Failing {
-            writes_left: 1,
-            then: ErrorKind::StorageFull,
-        });
-        assert!(full.write_all(b"line\n").is_ok());
-        assert_eq!(
-            full.write_all(b"line\n").map_err(|error| error.kind()),
-            Err(ErrorKind::StorageFull)
-        );
     }
 }

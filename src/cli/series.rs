@@ -137,20 +137,3 @@ impl SeriesArguments {
         Ok(shots)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sheets_have_columns_and_rows_and_rates_are_above_0() {
-        assert_eq!(cells("4x3"), Ok([4, 3]));
-        for wrong in ["4", "0x3", "4x", "400x400", "70000x70000"] {
-            assert!(cells(wrong).is_err(), "{wrong}");
-        }
-        assert_eq!(rate("23.976"), Ok(23.976));
-        for wrong in ["0", "-1", "inf", "NaN", "fast"] {
-            assert!(rate(wrong).is_err(), "{wrong}");
-        }
-    }
-}

@@ -286,6 +286,17 @@ struct Entry {
     is_link: bool,
 }
 
+/// What is told of a walk through a folder that meets no more than so many files and folders.
+#[doc(hidden)]
+pub fn walk_warnings(folder: &Path, most_entries: usize) -> Vec<(PathBuf, Diagnostic)> {
+    let mut walk = Walk {
+        most_entries,
+        ..Walk::default()
+    };
+    let through = walk.through(folder);
+    through.map_or_else(|_| Vec::new(), |()| walk.warnings)
+}
+
 impl Walk {
     fn through(&mut self, folder: &Path) -> Result<(), Failure> {
         let first = self.entries(folder).map_err(|reason| Failure::Unreadable {
@@ -388,26 +399,5 @@ impl Walk {
 
     fn warn(&mut self, path: PathBuf, code: &Code, message: String) {
         self.warnings.push((path, warning(code, message)));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// No test makes as many files as a real walk takes.
-    #[test]
-    fn a_walk_ends_at_its_limit_and_says_so() {
-        let mut walk = Walk {
-            most_entries: 3,
-            ..Walk::default()
-        };
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-        walk.through(&folder).expect("the sources are there");
-        let [(path, warning)] = walk.warnings.as_slice() else {
-            panic!("{:?}", walk.warnings)
-        };
-        assert_eq!((path, warning.code), (&folder, codes::FOLDER_TOO_LARGE.name));
-        assert!(warning.message.starts_with("More than 3 files and folders were met;"));
     }
 }

@@ -42,15 +42,15 @@ pub enum SheetError {
 
 /// A rectangle of the sheet, pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Place {
+pub struct Place {
     /// Left and top.
-    pub(super) at: [u32; 2],
-    pub(super) size: [u32; 2],
+    pub at: [u32; 2],
+    pub size: [u32; 2],
 }
 
 /// Cells of equal size with equal gaps between them, in the middle of the sheet.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Layout {
+pub struct Layout {
     size: [u32; 2],
     columns: u32,
     rows: u32,
@@ -63,7 +63,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    pub(super) fn new([width, height]: [u32; 2], [columns, rows]: [u32; 2]) -> Result<Self, SheetError> {
+    pub fn new([width, height]: [u32; 2], [columns, rows]: [u32; 2]) -> Result<Self, SheetError> {
         if u64::from(width) * u64::from(height) > MOST_PIXELS {
             return Err(SheetError::TooLarge { width, height });
         }
@@ -113,7 +113,7 @@ impl Layout {
         self.size
     }
 
-    pub(super) fn cell_size(&self) -> [u32; 2] {
+    pub fn cell_size(&self) -> [u32; 2] {
         self.cell
     }
 
@@ -126,12 +126,12 @@ impl Layout {
     }
 
     /// The number of a pixel, from the top left along the rows.
-    pub(super) fn pixel_index(&self, [x, y]: [u32; 2]) -> usize {
+    pub fn pixel_index(&self, [x, y]: [u32; 2]) -> usize {
         y as usize * self.size[0] as usize + x as usize
     }
 
     /// The places of a picture and of its label.
-    pub(super) fn places(&self, index: usize) -> Option<(Place, Place)> {
+    pub fn places(&self, index: usize) -> Option<(Place, Place)> {
         let index = u32::try_from(index).ok()?;
         let (column, row) = (index % self.columns, index / self.columns);
         if row >= self.rows {
@@ -147,66 +147,5 @@ impl Layout {
             size: [width, self.label_height],
         };
         Some((Place { at, size: self.cell }, label))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Whether two places share a pixel.
-    fn meet(a: Place, b: Place) -> bool {
-        (0..2).all(|axis| a.at[axis] < b.at[axis] + b.size[axis] && b.at[axis] < a.at[axis] + a.size[axis])
-    }
-
-    #[test]
-    fn places_lie_on_the_sheet_and_apart_from_each_other() {
-        for (size, cells) in [
-            ([1280, 720], [4, 3]),
-            ([1280, 720], [1, 1]),
-            ([300, 2000], [2, 17]),
-            ([64, 64], [2, 1]),
-            ([8192, 8192], [100, 3]),
-        ] {
-            let layout = Layout::new(size, cells).expect("has room");
-            let count = (cells[0] * cells[1]) as usize;
-            let places: Vec<Place> = (0..count)
-                .flat_map(|index| <[Place; 2]>::from(layout.places(index).expect("is there")))
-                .collect();
-            for (index, place) in places.iter().enumerate() {
-                assert!(
-                    (0..2).all(|axis| place.at[axis] + place.size[axis] <= size[axis]),
-                    "{place:?}"
-                );
-                assert!(places[..index].iter().all(|other| !meet(*place, *other)), "{place:?}");
-            }
-            assert_eq!(layout.places(count), None);
-        }
-    }
-
-    #[test]
-    fn pictures_fill_most_of_a_sheet_and_go_along_its_rows() {
-        let layout = Layout::new([1280, 720], [4, 3]).expect("has room");
-        let [width, height] = layout.cell_size();
-        assert!(width > 300 && height > 195, "{width} × {height}");
-        let at = |index| layout.places(index).expect("is there").0.at;
-        assert!(at(1)[0] > at(0)[0] && at(1)[1] == at(0)[1]);
-        assert!(at(4)[1] > at(0)[1] && at(4)[0] == at(0)[0]);
-    }
-
-    #[test]
-    fn a_sheet_without_room_or_beyond_memory_is_refused() {
-        let told = |size, cells| Layout::new(size, cells).map(|_| ()).map_err(|error| error.to_string());
-        assert_eq!(
-            told([100, 50], [8, 8]),
-            Err("a sheet of 100 × 50 pixels has no room for 8 × 8 pictures of 8 × 8 pixels".into())
-        );
-        for cells in [[0, 1], [1, 0], [u32::MAX, u32::MAX], [101, 1]] {
-            assert!(told([100, 50], cells).is_err(), "{cells:?}");
-        }
-        assert_eq!(
-            told([100_000, 100_000], [1, 1]),
-            Err("a sheet of 100000 × 100000 pixels is too large: at most 268435456 pixels in all".into())
-        );
     }
 }

@@ -24,23 +24,3 @@ fn third(x: u8, y: u8) -> u8 {
     let z = (1.0 - x * x - y * y).max(0.0).sqrt();
     ((z * 0.5 + 0.5) * 255.0).round() as u8
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_direction_of_two_numbers_gets_its_third() {
-        assert_eq!(third(128, 128), 255);
-        assert_eq!(third(255, 128), 128);
-        assert_eq!(third(255, 255), 128);
-    }
-
-    #[test]
-    fn green_is_turned_and_gloss_left_out() -> Result<(), Box<dyn std::error::Error>> {
-        let image = Image::from_rgba8(2, 1, vec![10, 20, 30, 40, 50, 0, 70, 255], "test")?;
-        assert_eq!(directions(&image, false), [10, 20, 30, 255, 50, 0, 70, 255]);
-        assert_eq!(directions(&image, true), [10, 235, 30, 255, 50, 255, 70, 255]);
-        Ok(())
-    }
-}

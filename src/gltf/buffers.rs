@@ -231,20 +231,3 @@ pub(super) fn subject(pointer: &str) -> String {
         None => "The file".to_owned(),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::subject;
-
-    #[test]
-    fn a_pointer_tells_what_its_value_belongs_to() {
-        for (pointer, expected) in [
-            ("/accessors/4/bufferView", "Accessor 4"),
-            ("/scenes/0/nodes/1", "Scene 0"),
-            ("/meshes/2/primitives/3/attributes/POSITION", "Primitive 3 of mesh 2"),
-            ("/scene", "The file"),
-        ] {
-            assert_eq!(subject(pointer), expected);
-        }
-    }
-}

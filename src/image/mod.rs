@@ -14,7 +14,7 @@ mod dds_layout;
 mod encode;
 mod error;
 mod format;
-pub(crate) mod half;
+pub mod half;
 mod masks;
 mod mips;
 mod picture;

@@ -9,7 +9,7 @@ use crate::model::Mesh;
 use crate::scene::RenderFrame;
 
 /// The mean of a submesh's corners in any pose. Blending with weights is linear, so that a sum for each joint is enough.
-pub(super) struct Center {
+pub struct Center {
     /// Sums over the corners that no joint moves: positions, and w for their count. All sums are divided by the count of all corners.
     still: Vec4,
     /// Joints with the same sums, each corner times its weight.
@@ -18,7 +18,7 @@ pub(super) struct Center {
 
 impl Center {
     /// Of each range.
-    pub(super) fn of(mesh: &Mesh, ranges: &[DrawRange], joint_count: usize) -> Vec<Self> {
+    pub fn of(mesh: &Mesh, ranges: &[DrawRange], joint_count: usize) -> Vec<Self> {
         let mut sums = vec![Vec4::ZERO; joint_count];
         let of_range = |range: &DrawRange| {
             let corners = &mesh.indices[range.indices.start as usize..range.indices.end as usize];
@@ -46,7 +46,7 @@ impl Center {
     }
 
     /// In model space, posed by a palette; in bind space when it is empty.
-    fn posed(&self, palette: &[Affine3A]) -> Vec3 {
+    pub fn posed(&self, palette: &[Affine3A]) -> Vec3 {
         let moved = self.of_joints.iter().map(|(joint, sum)| {
             let model_from_bind = palette.get(*joint as usize).unwrap_or(&Affine3A::IDENTITY);
             model_from_bind.matrix3 * sum.truncate() + Vec3::from(model_from_bind.translation) * sum.w
@@ -109,49 +109,4 @@ pub(super) fn farthest_first(
         }
     }
     runs
-}
-
-#[cfg(test)]
-mod tests {
-    use glam::Quat;
-
-    use super::*;
-    use crate::anim::{Palette, skin_positions};
-    use crate::model::Influences;
-
-    #[test]
-    fn a_centre_is_the_mean_of_the_posed_corners() {
-        let influences = |joints: [u32; 4], weights: [f32; 4]| Influences { joints, weights };
-        let mesh = Mesh {
-            positions: vec![Vec3::X, Vec3::new(2.0, 3.0, -1.0), Vec3::Z, Vec3::new(-4.0, 0.5, 2.0)],
-            influences: vec![
-                influences([0, 1, 0, 0], [0.25, 0.75, 0.0, 0.0]),
-                influences([1, 0, 0, 0], [1.0, 0.0, 0.0, 0.0]),
-                influences([0; 4], [0.0; 4]),
-                influences([0, 0, 0, 0], [1.0, 0.0, 0.0, 0.0]),
-            ],
-            indices: vec![0, 1, 2, 0, 2, 3],
-            ..Mesh::default()
-        };
-        let ranges = [0..3, 0..6].map(|indices| DrawRange {
-            submesh: 0,
-            indices,
-            vertices: 0..4,
-            material: 0,
-        });
-        let palette = Palette(vec![
-            Affine3A::from_rotation_translation(Quat::from_rotation_y(0.7), Vec3::new(1.0, -2.0, 0.5)),
-            Affine3A::from_scale_rotation_translation(Vec3::splat(1.5), Quat::from_rotation_x(-1.2), Vec3::Y),
-        ]);
-        let mut posed = Vec::new();
-        skin_positions(&mesh, &palette, &mut posed);
-        for (range, center) in ranges.iter().zip(Center::of(&mesh, &ranges, 2)) {
-            let corners = &mesh.indices[range.indices.start as usize..range.indices.end as usize];
-            let mean = |positions: &[Vec3]| {
-                corners.iter().map(|&corner| positions[corner as usize]).sum::<Vec3>() / corners.len() as f32
-            };
-            assert!(center.posed(&palette.0).distance(mean(&posed)) < 1e-5);
-            assert!(center.posed(&[]).distance(mean(&mesh.positions)) < 1e-5);
-        }
-    }
 }

@@ -358,7 +358,7 @@ fn stream(device: &wgpu::Device, count: usize) -> wgpu::Buffer {
 }
 
 /// The rows of a matrix as texels or vertex attributes.
-fn rows(affine: &Affine3A) -> [[f32; 4]; 3] {
+pub fn rows(affine: &Affine3A) -> [[f32; 4]; 3] {
     let [x, y, z] = affine.matrix3.transpose().to_cols_array_2d();
     let t = affine.translation.to_array();
     [
@@ -366,19 +366,4 @@ fn rows(affine: &Affine3A) -> [[f32; 4]; 3] {
         [y[0], y[1], y[2], t[1]],
         [z[0], z[1], z[2], t[2]],
     ]
-}
-
-#[cfg(test)]
-mod tests {
-    use glam::Vec3;
-
-    use super::*;
-
-    #[test]
-    fn rows_times_a_point_is_the_transformed_point() {
-        let affine = Affine3A::from_cols_array(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0, -1.0, -2.0, -3.0]);
-        let point = Vec3::new(0.5, -2.0, 4.0);
-        let by_rows = rows(&affine).map(|row| glam::Vec4::from(row).dot(point.extend(1.0)));
-        assert_eq!(Vec3::from(by_rows), affine.transform_point3(point));
-    }
 }

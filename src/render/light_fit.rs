@@ -8,16 +8,16 @@ use crate::scene::{Aabb, Camera};
 /// Where the studio's lights stand. They keep their place beside the viewer, as if the model stood on a turntable: every side
 /// that is looked at is lit well.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct StudioLights {
+pub struct StudioLights {
     /// Unit vector towards the key: high over the viewer's right shoulder.
-    pub(super) to_key: Vec3,
+    pub to_key: Vec3,
     /// Unit vector towards the rim: behind the model, from the left.
-    pub(super) to_rim: Vec3,
+    pub to_rim: Vec3,
 }
 
 impl StudioLights {
     /// Turns with the whole studio about y.
-    pub(super) fn beside(camera: &Camera, turn_radians: f32) -> Self {
+    pub fn beside(camera: &Camera, turn_radians: f32) -> Self {
         let turn = Quat::from_rotation_y(turn_radians);
         let right = camera.right();
         let ahead = right.cross(Vec3::Y);
@@ -37,7 +37,7 @@ const BOOK_DIRECTIONS: [Vec3; 3] = [
 ];
 
 /// Unit vectors towards the three lights of the books' demo, turned about y.
-pub(super) fn to_book_lights(turn_radians: f32) -> [Vec3; 3] {
+pub fn to_book_lights(turn_radians: f32) -> [Vec3; 3] {
     let turn = Quat::from_rotation_y(turn_radians);
     BOOK_DIRECTIONS.map(|direction| turn * -direction.normalize())
 }
@@ -65,22 +65,22 @@ const LEAST_RADIUS_TEXELS: f32 = 1.5;
 
 /// How the shadow map covers a scene, and how it is blurred.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct ShadowFit {
+pub struct ShadowFit {
     /// World -> the map's clip space.
-    pub(super) shadow_clip_from_world: Mat4,
+    pub shadow_clip_from_world: Mat4,
     /// World units that a texel covers.
-    pub(super) texel: f32,
+    pub texel: f32,
     /// Radius of the disc over which shadows on the model are blurred, texels.
-    pub(super) radius_texels: f32,
+    pub radius_texels: f32,
     /// The same for the shadow on the ground.
-    pub(super) ground_radius_texels: f32,
+    pub ground_radius_texels: f32,
 }
 
 impl ShadowFit {
     /// For the studio light: the smallest square that holds the box as seen from the light, so that edges are as sharp as the map
     /// allows. They are as soft as with one instance in the map, whose size is `instance_size`, or as little softer as the map allows.
     /// `to_key` is a unit vector; the map has `map_side` texels along each edge.
-    pub(super) fn studio(world_bounds: &Aabb, instance_size: Vec3, to_key: Vec3, map_side: u32) -> Self {
+    pub fn studio(world_bounds: &Aabb, instance_size: Vec3, to_key: Vec3, map_side: u32) -> Self {
         let fit = Self::with_least_texel(world_bounds, to_key, map_side, 0.0);
         let axes = light_axes(to_key);
         let half_width = |size: Vec3| tight_half_width(size * 0.5, axes, map_side);
@@ -94,7 +94,7 @@ impl ShadowFit {
 
     /// For the book light: edges are as wide as the demo's, [`BOOK_EDGE`], whatever the box. So the map may be larger than the box,
     /// as it is in the demo. Where the map is too coarse for that, they are wider. `book_unit` is one unit of the demo in world units.
-    pub(super) fn book(world_bounds: &Aabb, to_key: Vec3, map_side: u32, book_unit: f32) -> Self {
+    pub fn book(world_bounds: &Aabb, to_key: Vec3, map_side: u32, book_unit: f32) -> Self {
         let radius = BOOK_EDGE / DISC_EDGE * book_unit;
         let fit = Self::with_least_texel(world_bounds, to_key, map_side, radius / BOOK_RADIUS_TEXELS);
         let radius_texels = (radius / fit.texel).max(LEAST_RADIUS_TEXELS);
@@ -151,7 +151,7 @@ fn least_reach(half_size: Vec3) -> f32 {
 }
 
 /// Right, up and forward of the light's view. They turn evenly with the light, except within 1° of the vertical.
-fn light_axes(to_key: Vec3) -> [Vec3; 3] {
+pub fn light_axes(to_key: Vec3) -> [Vec3; 3] {
     let forward = -to_key;
     let above = if forward.y.abs() < 0.9998 { Vec3::Y } else { Vec3::Z };
     let right = above.cross(forward).normalize();
@@ -162,23 +162,23 @@ fn light_axes(to_key: Vec3) -> [Vec3; 3] {
 const CONTACT_MARGIN: f32 = 1.4;
 
 /// Texels along each edge of the contact map of one instance. Few are enough, since it is blurred.
-pub(super) const CONTACT_MAP_SIZE: u32 = 256;
+pub const CONTACT_MAP_SIZE: u32 = 256;
 /// The same of a crowd's, at most. Its blur takes the time.
 const LARGEST_CONTACT_MAP_SIZE: u32 = 1024;
 
 /// The square of the ground that the contact map covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct ContactFit {
+pub struct ContactFit {
     /// World x and z of its middle.
-    pub(super) center: Vec2,
-    pub(super) half_width: f32,
+    pub center: Vec2,
+    pub half_width: f32,
     /// Texels along each edge.
-    pub(super) map_size: u32,
+    pub map_size: u32,
 }
 
 impl ContactFit {
     /// With as many texels for each instance, whose size is `instance_size`, as the largest map allows.
-    pub(super) fn new(world_bounds: &Aabb, instance_size: Vec3) -> Self {
+    pub fn new(world_bounds: &Aabb, instance_size: Vec3) -> Self {
         let center = world_bounds.center();
         let half_width = |size: Vec3| (size.x.max(size.z).max(size.y * 0.1) * 0.5 * CONTACT_MARGIN).max(1e-20);
         let whole = half_width(world_bounds.size());
@@ -187,169 +187,6 @@ impl ContactFit {
             center: Vec2::new(center.x, center.z),
             half_width: whole,
             map_size: (CONTACT_MAP_SIZE * (times.ceil() as u32).next_power_of_two()).min(LARGEST_CONTACT_MAP_SIZE),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::Projection;
-
-    /// As the demo's `XMMatrixRotationY` does it: z goes towards x.
-    #[test]
-    fn the_books_lights_turn_about_y() {
-        let (quarter, s) = (std::f32::consts::FRAC_PI_2, std::f32::consts::FRAC_1_SQRT_2);
-        let expected = [
-            [(-0.57735, 0.57735, -0.57735), (0.57735, 0.57735, -0.57735), (0.0, s, s)],
-            [(-0.57735, 0.57735, 0.57735), (-0.57735, 0.57735, -0.57735), (s, s, 0.0)],
-            [(0.57735, 0.57735, 0.57735), (-0.57735, 0.57735, 0.57735), (0.0, s, -s)],
-        ];
-        for (turns, expected) in (0..).zip(expected) {
-            let found = to_book_lights(quarter * turns as f32);
-            for (found, (x, y, z)) in found.into_iter().zip(expected) {
-                assert!(
-                    found.abs_diff_eq(Vec3::new(x, y, z), 1e-4),
-                    "{found} after {turns} quarters"
-                );
-            }
-        }
-    }
-
-    #[test]
-    fn the_key_is_above_to_the_right_and_before_the_model_from_every_side() {
-        for yaw_radians in [0.0, 1.0, 2.5, -3.0] {
-            let camera = Camera {
-                target: Vec3::ZERO,
-                distance: 1.0,
-                yaw_radians,
-                pitch_radians: 0.3,
-                projection: Projection::Orthographic,
-            };
-            let StudioLights { to_key, to_rim } = StudioLights::beside(&camera, 0.0);
-            assert!(to_key.y > 0.5 && to_key.dot(camera.right()) > 0.4 && to_key.dot(camera.forward()) < -0.3);
-            assert!(to_rim.dot(camera.right()) < -0.4 && to_rim.dot(camera.forward()) > 0.3);
-        }
-    }
-
-    #[test]
-    fn every_corner_of_the_box_lies_inside_the_map() {
-        let to_key = Vec3::new(0.6, 0.7, -0.4).normalize();
-        for (min, max) in [
-            (Vec3::ZERO, Vec3::new(1.0, 70.0, 3.0)),
-            (Vec3::splat(-1e4), Vec3::splat(1e4)),
-            (Vec3::splat(5.0), Vec3::splat(5.001)),
-            (Vec3::ZERO, Vec3::ZERO),
-        ] {
-            let bounds = Aabb { min, max };
-            for fit in [
-                ShadowFit::studio(&bounds, bounds.size(), to_key, MAP_SIDE),
-                ShadowFit::book(&bounds, to_key, MAP_SIDE, bounds.size().y / 3.6),
-            ] {
-                for corner in 0..8 {
-                    let pick = |bit: usize| if corner >> bit & 1 == 0 { min[bit] } else { max[bit] };
-                    let clip = fit
-                        .shadow_clip_from_world
-                        .project_point3(Vec3::new(pick(0), pick(1), pick(2)));
-                    assert!(
-                        clip.x.abs() < 1.0 && clip.y.abs() < 1.0 && (0.0..1.0).contains(&clip.z),
-                        "{clip}"
-                    );
-                }
-            }
-        }
-    }
-
-    const MAP_SIDE: u32 = 2048;
-    const FIGURE: Aabb = Aabb {
-        min: Vec3::new(-0.7, 0.0, -0.4),
-        max: Vec3::new(0.7, 3.6, 0.4),
-    };
-
-    /// A thousandth of a radian moves a point of a turning map by no more than that, in maps, times the corner's distance from
-    /// the middle, which is below 2. A frame that turns over moves it by the whole map.
-    #[test]
-    fn the_map_turns_evenly_with_the_light() {
-        const STEP_RADIANS: f32 = 1e-3;
-        let lights = [Vec3::new(0.64, 0.74, -0.34), Vec3::new(-0.57735, 0.57735, -0.57735)];
-        for to_key in lights.map(Vec3::normalize) {
-            let fit_at = |step: u32| {
-                let turned = glam::Quat::from_rotation_y(step as f32 * STEP_RADIANS) * to_key;
-                [
-                    ShadowFit::studio(&FIGURE, FIGURE.size(), turned, MAP_SIDE),
-                    ShadowFit::book(&FIGURE, turned, MAP_SIDE, 1.0),
-                ]
-            };
-            let mut sign_changes = 0;
-            let mut before = fit_at(0);
-            for step in 1..=6284 {
-                let here = fit_at(step);
-                for (before, here) in before.iter().zip(here) {
-                    for corner in [FIGURE.min, FIGURE.max] {
-                        let at = |fit: &ShadowFit| fit.shadow_clip_from_world.project_point3(corner);
-                        let moved = at(before).distance(at(&here));
-                        assert!(moved < 3.0 * STEP_RADIANS, "{moved} at step {step}");
-                    }
-                }
-                let z = |fits: &[ShadowFit; 2]| fits[0].shadow_clip_from_world.row(2).z;
-                sign_changes += u32::from((z(&before) > 0.0) != (z(&here) > 0.0));
-                before = here;
-            }
-            assert_eq!(sign_changes, 2, "a whole turn passes z = 0 twice");
-        }
-    }
-
-    #[test]
-    fn a_light_straight_above_has_axes() {
-        for to_key in [Vec3::Y, Vec3::NEG_Y] {
-            let [right, up, forward] = light_axes(to_key);
-            assert!(right.cross(up).dot(forward).abs() > 0.999, "{right} {up} {forward}");
-        }
-    }
-
-    /// 2.4 of the demo's texels, whichever box the animation reaches.
-    #[test]
-    fn the_books_blur_is_as_wide_in_every_box() {
-        let to_key = Vec3::new(-0.57735, 0.57735, -0.57735).normalize();
-        for width in [0.1, 1.4, 4.0, 11.0] {
-            let half = Vec3::new(width * 0.5, 1.8, width * 0.5);
-            let bounds = Aabb { min: -half, max: half };
-            let fit = ShadowFit::book(&bounds, to_key, MAP_SIDE, 1.0);
-            let edge = fit.radius_texels * fit.texel * DISC_EDGE;
-            assert!((edge / 3.6 - 0.011_74).abs() < 1e-4, "{edge} in a box {width} wide");
-            assert!(fit.radius_texels >= 0.999 * BOOK_RADIUS_TEXELS, "the texels would show");
-            assert_eq!(fit.radius_texels, fit.ground_radius_texels);
-        }
-        let [small, large] = [1.0, 20.0].map(|unit| {
-            let bounds = Aabb {
-                min: FIGURE.min * unit,
-                max: FIGURE.max * unit,
-            };
-            ShadowFit::book(&bounds, to_key, MAP_SIDE, unit)
-        });
-        assert!(
-            (large.texel / small.texel - 20.0).abs() < 1e-3 && (large.radius_texels - small.radius_texels).abs() < 1e-3
-        );
-    }
-
-    /// A row of figures under one light: as soft as one of them, as long as the map has the texels for it.
-    #[test]
-    fn shadows_and_contacts_of_a_crowd_are_as_sharp_as_the_maps_allow() {
-        let to_key = Vec3::new(0.64, 0.74, -0.34).normalize();
-        let alone = ShadowFit::studio(&FIGURE, FIGURE.size(), to_key, MAP_SIDE);
-        assert_eq!((alone.radius_texels, alone.ground_radius_texels), (2.5, 6.0));
-        assert_eq!(ContactFit::new(&FIGURE, FIGURE.size()).map_size, 256);
-        for (wider, map_size) in [(2.0, 1024), (30.0, 1024), (500.0, 1024)] {
-            let row = Aabb {
-                max: FIGURE.max + Vec3::X * wider,
-                ..FIGURE
-            };
-            let fit = ShadowFit::studio(&row, FIGURE.size(), to_key, MAP_SIDE);
-            let width = |fit: &ShadowFit| fit.ground_radius_texels * fit.texel;
-            assert!(width(&fit) >= 0.999 * width(&alone) && fit.ground_radius_texels >= LEAST_RADIUS_TEXELS);
-            assert!(width(&fit) <= width(&alone).max(1.001 * LEAST_RADIUS_TEXELS * fit.texel));
-            assert_eq!(ContactFit::new(&row, FIGURE.size()).map_size, map_size, "{wider} wider");
-            assert!(ShadowFit::book(&row, to_key, MAP_SIDE, 1.0).radius_texels >= LEAST_RADIUS_TEXELS);
         }
     }
 }

@@ -254,7 +254,7 @@ impl AmbientOcclusion {
 }
 
 /// How often ambient occlusion is blurred, along rows and along columns: in the books' demo twice.
-pub(super) fn occlusion_blurs(light: Light) -> u32 {
+pub fn occlusion_blurs(light: Light) -> u32 {
     match light {
         Light::Book => 2,
         Light::Studio => 1,
@@ -262,12 +262,12 @@ pub(super) fn occlusion_blurs(light: Light) -> u32 {
 }
 
 /// Size of the textures for a picture of this size.
-pub(super) fn half(size: [u32; 2]) -> [u32; 2] {
+pub fn half(size: [u32; 2]) -> [u32; 2] {
     size.map(|side| side.div_ceil(2))
 }
 
 /// Along rows and columns in turn: two narrow blurs read fewer texels than one wide blur.
-pub(super) const CONTACT_BLURS: usize = 4;
+pub const CONTACT_BLURS: usize = 4;
 
 /// The soft dark on the ground under what is near it: the model seen from straight below, blurred.
 pub(super) struct ContactMap {

@@ -182,7 +182,7 @@ fn compressed_format(format: ImageFormat, kind: MapKind) -> Option<wgpu::Texture
 }
 
 /// The image with at least one level that has no side above `limit`.
-fn fitting(image: &Image, kind: MapKind, limit: u32) -> Cow<'_, Image> {
+pub fn fitting(image: &Image, kind: MapKind, limit: u32) -> Cow<'_, Image> {
     let last = image.level_count() - 1;
     let (width, height) = image.level_size(last);
     if width.max(height) <= limit {
@@ -193,43 +193,10 @@ fn fitting(image: &Image, kind: MapKind, limit: u32) -> Cow<'_, Image> {
     smallest.map_or(Cow::Borrowed(image), |smallest| Cow::Owned(smallest.with_mips(kind)))
 }
 
-fn first_fitting_level(image: &Image, limit: u32) -> u32 {
+pub fn first_fitting_level(image: &Image, limit: u32) -> u32 {
     let fits = |&level: &u32| {
         let (width, height) = image.level_size(level);
         width.max(height) <= limit
     };
     (0..image.level_count()).find(fits).unwrap_or(image.level_count() - 1)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn grey(width: u32, height: u32) -> Image {
-        let texels = vec![128; (width * height * 4) as usize];
-        Image::from_rgba8(width, height, texels, "").expect("a small image")
-    }
-
-    #[test]
-    fn an_image_larger_than_the_device_starts_at_a_smaller_level() {
-        let image = grey(64, 8).with_mips(MapKind::Diffuse);
-        for (limit, first) in [(64, 0), (63, 1), (32, 1), (16, 2), (1, 6)] {
-            let fitting = fitting(&image, MapKind::Diffuse, limit);
-            assert_eq!(first_fitting_level(&fitting, limit), first, "limit {limit}");
-        }
-    }
-
-    #[test]
-    fn an_image_that_fits_is_not_copied() {
-        for image in [grey(64, 8).with_mips(MapKind::Normal), grey(64, 8), grey(1, 1)] {
-            assert!(matches!(fitting(&image, MapKind::Normal, 64), Cow::Borrowed(_)));
-        }
-    }
-
-    #[test]
-    fn an_image_whose_levels_are_all_too_large_gets_smaller_ones() {
-        let image = grey(64, 8);
-        let fitting = fitting(&image, MapKind::Diffuse, 32);
-        assert_eq!((fitting.width(), fitting.height(), fitting.level_count()), (32, 4, 6));
-    }
 }

@@ -13,6 +13,8 @@ mod buffers;
 mod composite;
 pub mod device;
 mod environment;
+#[doc(hidden)]
+pub mod for_tests;
 mod instances;
 mod light_fit;
 mod light_maps;
@@ -21,8 +23,6 @@ mod maps;
 mod materials;
 mod model;
 mod overlays;
-#[cfg(test)]
-mod performance;
 mod picture;
 mod pipelines;
 mod read_back;

@@ -14,7 +14,7 @@ pub enum SampleCount {
 }
 
 impl SampleCount {
-    pub(super) fn count(self) -> u32 {
+    pub fn count(self) -> u32 {
         match self {
             Self::One => 1,
             Self::Four => 4,

@@ -8,12 +8,12 @@ use wgpu::util::DeviceExt as _;
 use crate::model::{Mesh, Model};
 
 /// A submesh: a range of indices with one material.
-pub(super) struct DrawRange {
-    pub(super) submesh: usize,
-    pub(super) indices: Range<u32>,
+pub struct DrawRange {
+    pub submesh: usize,
+    pub indices: Range<u32>,
     /// From the first to the last vertex that it uses.
-    pub(super) vertices: Range<u32>,
-    pub(super) material: u32,
+    pub vertices: Range<u32>,
+    pub material: u32,
 }
 
 /// The submeshes that are drawn: those with triangles and a material.
@@ -54,14 +54,14 @@ pub(super) fn wound_one_way(model: &Model) -> Vec<u32> {
 /// The ranges of indices that a pass has drawn, so that no triangle is drawn twice. A triangle of several submeshes shows the
 /// first of them, since all lie at the same depth.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Drawn {
+pub struct Drawn {
     /// Start -> end of ranges that neither touch nor overlap.
     ends: BTreeMap<u32, u32>,
 }
 
 impl Drawn {
     /// The parts of a range that were not drawn, in order.
-    pub(super) fn missing(&self, range: &Range<u32>) -> Vec<Range<u32>> {
+    pub fn missing(&self, range: &Range<u32>) -> Vec<Range<u32>> {
         if range.is_empty() {
             return Vec::new();
         }
@@ -78,7 +78,7 @@ impl Drawn {
     }
 
     /// Adds a range. Returns the parts of it that were not drawn before, in order.
-    pub(super) fn add(&mut self, range: &Range<u32>) -> Vec<Range<u32>> {
+    pub fn add(&mut self, range: &Range<u32>) -> Vec<Range<u32>> {
         let parts = self.missing(range);
         if range.is_empty() {
             return parts;
@@ -97,7 +97,7 @@ impl Drawn {
     }
 
     /// All drawn indices, in as few ranges as possible.
-    pub(super) fn ranges(&self) -> impl Iterator<Item = Range<u32>> {
+    pub fn ranges(&self) -> impl Iterator<Item = Range<u32>> {
         self.ends.iter().map(|(&start, &end)| start..end)
     }
 }
@@ -134,7 +134,7 @@ impl Edges {
 }
 
 /// The edges of some triangles, each once, whichever way its triangles go round.
-fn edges(triangles: &[u32]) -> impl Iterator<Item = u32> {
+pub fn edges(triangles: &[u32]) -> impl Iterator<Item = u32> {
     let mut edges: Vec<[u32; 2]> = triangles
         .chunks_exact(3)
         .flat_map(|corner| [[corner[0], corner[1]], [corner[1], corner[2]], [corner[2], corner[0]]])
@@ -143,49 +143,4 @@ fn edges(triangles: &[u32]) -> impl Iterator<Item = u32> {
     edges.sort_unstable();
     edges.dedup();
     edges.into_iter().flatten()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn two_triangles_of_a_square_have_five_edges() {
-        let found: Vec<u32> = edges(&[0, 1, 2, 2, 1, 3]).collect();
-        assert_eq!(found, [0, 1, 0, 2, 1, 2, 1, 3, 2, 3]);
-    }
-
-    #[test]
-    fn each_index_is_drawn_once_in_as_few_ranges_as_can_be() {
-        // A fixed sequence of ranges within 64 indices, empty ones too.
-        let mut seed = 1_u32;
-        let mut next = || {
-            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            seed >> 26
-        };
-        for _ in 0..50 {
-            let (mut drawn, mut is_drawn) = (Drawn::default(), [false; 128]);
-            for _ in 0..12 {
-                let start = next();
-                let range = start..start + next() % 16;
-                let missing = drawn.missing(&range);
-                let parts = drawn.add(&range);
-                assert_eq!(missing, parts);
-                let fresh: Vec<u32> = range.clone().filter(|&index| !is_drawn[index as usize]).collect();
-                assert_eq!(parts.iter().cloned().flatten().collect::<Vec<_>>(), fresh, "{range:?}");
-                is_drawn[range.start as usize..range.end as usize].fill(true);
-                let all: Vec<u32> = (0..128).filter(|&index| is_drawn[index as usize]).collect();
-                assert_eq!(drawn.ranges().flatten().collect::<Vec<_>>(), all);
-                let gaps = all.windows(2).filter(|pair| pair[1] - pair[0] > 1).count();
-                assert_eq!(drawn.ranges().count(), if all.is_empty() { 0 } else { gaps + 1 });
-            }
-        }
-    }
-
-    #[test]
-    fn the_same_range_thousands_of_times_is_drawn_once() {
-        let mut drawn = Drawn::default();
-        let parts = (0..20_000).flat_map(|_| drawn.add(&(3..9)));
-        assert_eq!(parts.collect::<Vec<_>>(), std::slice::from_ref(&(3..9)));
-    }
 }

@@ -70,7 +70,7 @@ const BOOK_HEIGHT: f32 = 3.6;
 /// A flat model counts as tall as this fraction of its diagonal.
 const LEAST_HEIGHT_OF_DIAGONAL: f32 = 0.3;
 /// Samples of the shadow map for each point.
-pub(super) const SHADOW_TAPS: u32 = 16;
+pub const SHADOW_TAPS: u32 = 16;
 /// How far occluders reach under the studio light, in units of the books' demo.
 const STUDIO_OCCLUSION_RADIUS: f32 = 0.6;
 
@@ -106,7 +106,7 @@ pub(super) fn camera_uniform(frame: &RenderFrame<'_>, size: [u32; 2]) -> shaders
 }
 
 /// The part of a picture that this light lights, with a shadow map of so many texels along each edge.
-pub(super) fn light_uniform(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> shaders::Light {
+pub fn light_uniform(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> shaders::Light {
     let options = &frame.options;
     let (to_key, shadow) = key_light(frame, light, map_side);
     let to_rim = StudioLights::beside(&frame.camera, options.environment_turn_radians).to_rim;
@@ -201,7 +201,7 @@ fn key_light(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> (Vec3, Sha
 
 /// Size of the box that one instance reaches, world space: the scene's, less how far apart the instances stand. Lengths that go with the
 /// figure are then the same in a crowd. Where instances are turned, or the scene's box is not as wide as they stand, it is about that.
-pub(super) fn instance_size(frame: &RenderFrame<'_>) -> Vec3 {
+pub fn instance_size(frame: &RenderFrame<'_>) -> Vec3 {
     let crowd = frame.crowd.instances.iter().map(|instance| &instance.world_from_model);
     let places = std::iter::once(&frame.world_from_model).chain(crowd);
     let apart = Aabb::from_points(places.map(|world_from_model| world_from_model.translation.into())).size();
@@ -239,57 +239,4 @@ pub(super) fn encoded(srgb: [u8; 3], opacity: f32) -> [f32; 4] {
 fn linear(srgb: [u8; 3], opacity: f32) -> [f32; 4] {
     let [red, green, blue] = srgb.map(linear_from_srgb8);
     [red, green, blue, opacity]
-}
-
-#[cfg(test)]
-mod tests {
-    use glam::Affine3A;
-
-    use super::*;
-    use crate::anim::Palette;
-    use crate::scene::{Camera, Crowd, CrowdInstance, FrameOptions, Ghosts};
-
-    /// One, two and eight figures 2 × 4 × 1 in a row, 3 apart, in boxes that hold them.
-    #[test]
-    fn lengths_of_the_light_are_the_same_in_a_crowd() {
-        let instances: Vec<_> = (1..8)
-            .map(|step| CrowdInstance {
-                world_from_model: Affine3A::from_translation(Vec3::X * 3.0 * step as f32),
-                palette: 0,
-            })
-            .collect();
-        let palette = Palette::default();
-        let frame = |count: usize| RenderFrame {
-            camera: Camera {
-                target: Vec3::ZERO,
-                distance: 10.0,
-                yaw_radians: 0.0,
-                pitch_radians: 0.0,
-                projection: Projection::Orthographic,
-            },
-            world_from_model: Affine3A::IDENTITY,
-            world_bounds: Aabb {
-                min: Vec3::new(-1.0, 0.0, -0.5),
-                max: Vec3::new(1.0 + 3.0 * count as f32, 4.0, 0.5),
-            },
-            palette: &palette,
-            crowd: Crowd {
-                instances: &instances[..count],
-                in_sight: 0,
-                palettes: &[],
-            },
-            hidden_submeshes: &[],
-            highlighted_submesh: None,
-            vertex_colors: None,
-            ghosts: Ghosts::default(),
-            over_model: None,
-            options: FrameOptions::default(),
-        };
-        for count in [0, 1, 7] {
-            let frame = frame(count);
-            assert_eq!(instance_size(&frame), Vec3::new(2.0, 4.0, 1.0), "{count} beside it");
-            let light = light_uniform(&frame, Light::Studio, 2048);
-            assert_eq!(light.book_unit, 4.0 / BOOK_HEIGHT);
-        }
-    }
 }

@@ -11,7 +11,7 @@ use crate::scene::Aabb;
 pub const MAX_CROWD: usize = 1_000;
 
 /// How far an instance may stand off its place, in spaces between two: not in rank and file, and not on its neighbour's feet.
-const JITTER: f32 = 0.2;
+pub const JITTER: f32 = 0.2;
 /// Instances are at least this far apart, in sizes of the model: one that is flat, or has only bones, has room too.
 const LEAST_SPACING: f32 = 0.25;
 
@@ -280,7 +280,7 @@ pub(super) fn moved(world_from_model: Affine3A, way: Vec3) -> Affine3A {
 
 /// Where an instance stands, in spaces between two: the others stand in rings beside and behind the first, each ring half a square and
 /// 4 places longer than the one inside it. It is filled from both front ends to the middle of the back.
-fn place(seed: u32, index: usize) -> Vec2 {
+pub fn place(seed: u32, index: usize) -> Vec2 {
     // Ring r begins with index r (2 r − 1).
     let mut ring = 0;
     while (ring + 1) * (2 * ring + 1) <= index {
@@ -302,7 +302,7 @@ fn place(seed: u32, index: usize) -> Vec2 {
 }
 
 /// A number that looks like any other, the same on every platform. The steps are those of lowbias32 (Wellons 2018).
-fn noise(seed: u32, instance: usize, what: u32) -> u32 {
+pub fn noise(seed: u32, instance: usize, what: u32) -> u32 {
     let mix = |bits: u32| {
         let bits = (bits ^ bits >> 16).wrapping_mul(0x7feb_352d);
         let bits = (bits ^ bits >> 15).wrapping_mul(0x846c_a68b);
@@ -316,51 +316,6 @@ fn noise(seed: u32, instance: usize, what: u32) -> u32 {
 }
 
 /// Noise as a number from 0 to below 1.
-fn fraction(noise: u32) -> f32 {
+pub fn fraction(noise: u32) -> f32 {
     (noise >> 8) as f32 / (1 << 24) as f32
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_others_stand_beside_and_behind_the_first_each_in_a_place_of_its_own() {
-        let places: Vec<Vec2> = (0..MAX_CROWD).map(|index| place(7, index)).collect();
-        assert_eq!(places[0], Vec2::ZERO);
-        let mut cells: Vec<_> = places
-            .iter()
-            .map(|place| (place.x.round() as i32, place.y.round() as i32))
-            .collect();
-        assert_eq!(cells[1..6], [(-1, 0), (1, 0), (-1, 1), (1, 1), (0, 1)]);
-        assert_eq!(cells[6..9], [(-2, 0), (2, 0), (-2, 1)]);
-        assert!(
-            cells
-                .iter()
-                .all(|&(aside, behind)| aside.abs() <= 23 && (0..=23).contains(&behind))
-        );
-        cells.sort_unstable();
-        cells.dedup();
-        assert_eq!(cells.len(), MAX_CROWD);
-        let off = |place: &Vec2| (*place - place.round()).abs().max_element();
-        assert!(places.iter().all(|place| off(place) <= JITTER));
-        assert!(places.iter().filter(|place| off(place) > JITTER / 2.0).count() > MAX_CROWD / 2);
-    }
-
-    #[test]
-    fn noise_is_spread_evenly_and_another_seed_has_other_noise() {
-        for seed in [0, 1, 2, u32::MAX] {
-            let mut tenths = [0; 10];
-            for index in 0..1_000 {
-                tenths[(fraction(noise(seed, index, 1)) * 10.0) as usize] += 1;
-            }
-            assert!(tenths.iter().all(|&count| (60..150).contains(&count)), "{tenths:?}");
-        }
-        assert_eq!(
-            (0..1_000)
-                .filter(|&index| noise(1, index, 0) == noise(2, index, 0))
-                .count(),
-            0
-        );
-    }
 }

@@ -18,6 +18,8 @@ mod export_maps;
 mod export_plan;
 mod exporting;
 mod files;
+#[doc(hidden)]
+pub mod for_tests;
 mod framing;
 mod going_back;
 mod history;

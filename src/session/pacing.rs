@@ -33,14 +33,14 @@ const LONGEST_WAIT_SECS: f32 = 60.0;
 const LEAST_SAVING: f32 = 0.1;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Step {
+pub struct Step {
     /// Fraction of the picture's width and height.
-    pub(super) scale: f32,
-    pub(super) occlusion: Detail,
-    pub(super) shadow: Detail,
-    pub(super) draws_occlusion: bool,
+    pub scale: f32,
+    pub occlusion: Detail,
+    pub shadow: Detail,
+    pub draws_occlusion: bool,
     /// Whether pixels at edges are made of several samples.
-    pub(super) smooths_edges: bool,
+    pub smooths_edges: bool,
 }
 
 const FULL: Step = Step {
@@ -81,7 +81,7 @@ const COARSEST_SCALE: usize = 4;
 
 /// Judges how long frames of a moving picture take.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Pacer {
+pub struct Pacer {
     step: usize,
     /// The step of another model, or of a device that is known to be slow.
     first_step: usize,
@@ -129,15 +129,15 @@ impl Default for Pacer {
 
 impl Pacer {
     const COARSEST: Step = STEPS[STEPS.len() - 1];
-    pub(super) const FINEST: Step = FULL;
+    pub const FINEST: Step = FULL;
 
     /// What to draw while the picture moves.
-    pub(super) fn step(&self) -> Step {
+    pub fn step(&self) -> Step {
         self.on_this_device(STEPS[self.step])
     }
 
     /// What is drawn at the coarsest step.
-    pub(super) fn coarsest(&self) -> Step {
+    pub fn coarsest(&self) -> Step {
         self.on_this_device(Self::COARSEST)
     }
 
@@ -157,20 +157,20 @@ impl Pacer {
     }
 
     /// Learns how often the display shows a picture, seconds. Frames cannot come more often.
-    pub(super) fn set_display_secs(&mut self, display_secs: f32) {
+    pub fn set_display_secs(&mut self, display_secs: f32) {
         if display_secs.is_finite() {
             self.target_secs = display_secs.max(TARGET_SECS);
         }
     }
 
     /// Learns that the device draws with its CPU: it begins with few pixels.
-    pub(super) fn set_slow_device(&mut self, slow: bool) {
+    pub fn set_slow_device(&mut self, slow: bool) {
         self.first_step = if slow { COARSEST_SCALE } else { 0 };
         self.restart();
     }
 
     /// Begins anew, as for another model.
-    pub(super) fn restart(&mut self) {
+    pub fn restart(&mut self) {
         *self = Self {
             step: self.first_step,
             first_step: self.first_step,
@@ -180,13 +180,13 @@ impl Pacer {
     }
 
     /// The picture begins to move. Its first frame may have to wait for the device.
-    pub(super) fn begin_motion(&mut self) {
+    pub fn begin_motion(&mut self) {
         self.settling = self.settling.max(1);
         self.gpu_lag = GPU_LAG_FRAMES;
     }
 
     /// Learns the time between two frames of a moving picture, and the GPU's time for a frame if it tells any, seconds.
-    pub(super) fn note_frame(&mut self, frame_secs: f32, gpu_secs: Option<f32>) {
+    pub fn note_frame(&mut self, frame_secs: f32, gpu_secs: Option<f32>) {
         if frame_secs.is_nan() || frame_secs > LONGEST_FRAME_SECS {
             return;
         }
@@ -280,165 +280,4 @@ fn percentile(values: &[f32], fraction: f32) -> f32 {
     sorted.sort_by(f32::total_cmp);
     let index = (fraction * sorted.len() as f32).ceil() as usize;
     sorted.get(index.saturating_sub(1)).copied().unwrap_or(0.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A device: what a frame costs whatever is drawn, and what the pixels of a full picture cost, seconds.
-    #[derive(Clone, Copy)]
-    struct Device {
-        fixed_secs: f32,
-        pixels_secs: f32,
-        display_secs: f32,
-    }
-
-    impl Device {
-        fn frame_secs(self, step: Step) -> f32 {
-            let samples = match (step.draws_occlusion, step.occlusion) {
-                (false, _) => 0.5,
-                (true, Detail::Low) => 0.8,
-                (true, Detail::Full) => 1.0,
-            };
-            let drawn = self.fixed_secs + self.pixels_secs * step.scale * step.scale * samples;
-            // The display shows whole frames.
-            (drawn / self.display_secs).ceil() * self.display_secs
-        }
-
-        /// A clip that plays for a time.
-        fn play(self, pacer: &mut Pacer, secs: f32) {
-            let mut played = 0.0;
-            while played < secs {
-                let frame_secs = self.frame_secs(pacer.step());
-                pacer.note_frame(frame_secs, None);
-                played += frame_secs;
-            }
-        }
-    }
-
-    fn device(pixels_secs: f32, display: f32) -> (Device, Pacer) {
-        let device = Device {
-            fixed_secs: 0.001,
-            pixels_secs,
-            display_secs: 1.0 / display,
-        };
-        let mut pacer = Pacer::default();
-        pacer.set_display_secs(device.display_secs);
-        (device, pacer)
-    }
-
-    #[test]
-    fn a_device_that_keeps_up_draws_all() {
-        for display in [30.0, 60.0, 144.0] {
-            let (device, mut pacer) = device(0.005, display);
-            device.play(&mut pacer, 30.0);
-            assert_eq!(pacer.step(), FULL, "{display} Hz");
-        }
-    }
-
-    #[test]
-    fn a_device_of_20_frames_draws_fewer_pixels_and_no_fewer_than_it_needs() {
-        let (device, mut pacer) = device(0.045, 60.0);
-        device.play(&mut pacer, 3.0);
-        assert!(pacer.step().scale < 0.65 && pacer.step().draws_occlusion, "{pacer:?}");
-        let mut late = 0.0;
-        for _ in 0..60 {
-            device.play(&mut pacer, 1.0);
-            late += if device.frame_secs(pacer.step()) > TARGET_SECS * TOLERANCE {
-                1.0
-            } else {
-                0.0
-            };
-        }
-        assert!(
-            late < 10.0,
-            "a finer step is tried seldom: {late} of 60 seconds were late"
-        );
-    }
-
-    #[test]
-    fn a_device_of_5_frames_comes_to_the_coarsest_step_in_seconds() {
-        let (device, mut pacer) = device(0.2, 60.0);
-        device.play(&mut pacer, 4.0);
-        assert_eq!(pacer.step(), Pacer::COARSEST);
-    }
-
-    #[test]
-    fn a_display_of_30_hertz_is_not_a_slow_device() {
-        let (device, mut pacer) = device(0.02, 30.0);
-        device.play(&mut pacer, 10.0);
-        assert_eq!(pacer.step(), FULL);
-    }
-
-    #[test]
-    fn stalls_and_hidden_tabs_are_not_judged() {
-        let (device, mut pacer) = device(0.005, 60.0);
-        for stall_secs in [0.3, 1.0, 3.0, 60.0, f32::NAN] {
-            device.play(&mut pacer, 0.5);
-            pacer.note_frame(stall_secs, None);
-            pacer.note_frame(0.1, None);
-        }
-        device.play(&mut pacer, 1.0);
-        assert_eq!(pacer.step(), FULL);
-    }
-
-    #[test]
-    fn what_became_easier_is_drawn_finer_again() {
-        let (hard, mut pacer) = device(0.2, 60.0);
-        hard.play(&mut pacer, 4.0);
-        let easy = Device {
-            pixels_secs: 0.004,
-            ..hard
-        };
-        easy.play(&mut pacer, STEPS.len() as f32 * (FIRST_WAIT_SECS + 1.0));
-        assert_eq!(pacer.step(), FULL);
-    }
-
-    #[test]
-    fn a_picture_is_not_made_coarser_for_nothing() {
-        let busy = Device {
-            fixed_secs: 0.05,
-            pixels_secs: 0.001,
-            display_secs: 1.0 / 60.0,
-        };
-        let mut pacer = Pacer::default();
-        busy.play(&mut pacer, 20.0);
-        assert_eq!(pacer.step(), FULL, "the time goes elsewhere");
-    }
-
-    #[test]
-    fn a_slow_device_begins_with_few_pixels_and_returns_there_with_another_model() {
-        let mut pacer = Pacer::default();
-        pacer.set_slow_device(true);
-        let first = Step {
-            smooths_edges: false,
-            ..HALF
-        };
-        assert_eq!(pacer.step(), first);
-        let (device, _) = device(1.5, 60.0);
-        device.play(&mut pacer, 10.0);
-        assert_eq!(pacer.step(), pacer.coarsest());
-        pacer.restart();
-        assert_eq!(pacer.step(), first);
-        let easy = Device {
-            pixels_secs: 0.004,
-            ..device
-        };
-        easy.play(&mut pacer, STEPS.len() as f32 * (FIRST_WAIT_SECS + 1.0));
-        assert_eq!(pacer.step(), FULL, "edges too");
-    }
-
-    #[test]
-    fn slow_frames_of_short_motions_add_up() {
-        let mut pacer = Pacer::default();
-        let mut motions = 0;
-        while pacer.step() == FULL {
-            pacer.begin_motion();
-            (0..5).for_each(|_| pacer.note_frame(0.1, None));
-            motions += 1;
-            assert!(motions < 10);
-        }
-        assert_eq!(motions, 3);
-    }
 }

@@ -53,7 +53,7 @@ fn is_flight_key(key: Key) -> bool {
 }
 
 /// The action of a key that is pressed. Shift is ignored where it has no meaning of its own.
-fn action_of(key: Key, modifiers: Modifiers) -> Option<&'static Action> {
+pub fn action_of(key: Key, modifiers: Modifiers) -> Option<&'static Action> {
     // The Mac's Command and Y are the browser's.
     if modifiers.mac_cmd && key == Key::Y {
         return None;
@@ -78,7 +78,7 @@ fn action_of(key: Key, modifiers: Modifiers) -> Option<&'static Action> {
 
 /// A key with what is held beside it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Shortcut {
+pub struct Shortcut {
     shift: bool,
     /// Ctrl, or the Mac's Command.
     ctrl: bool,
@@ -87,7 +87,7 @@ struct Shortcut {
 }
 
 /// A key of the table, `Ctrl Shift Z`. None for `?`, which is typed as a text.
-fn shortcut(words: &str) -> Option<Shortcut> {
+pub fn shortcut(words: &str) -> Option<Shortcut> {
     let (modifiers, key) = words.rsplit_once(' ').unwrap_or(("", words));
     let key = match key {
         "←" => Key::ArrowLeft,
@@ -179,114 +179,4 @@ fn clears_selection(session: &Session) -> Option<Command> {
 pub fn owns_key(key: Key, modifiers: Modifiers) -> bool {
     let plain = !modifiers.command && !modifiers.alt;
     key == Key::Escape || (plain && is_flight_key(key)) || action_of(key, modifiers).is_some()
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::scene::ViewPreset;
-    use crate::session::{CameraCommand, PlayCommand};
-
-    use super::*;
-
-    fn command_for(key: Key, modifiers: Modifiers) -> Option<Command> {
-        action_of(key, modifiers)?.command(&Session::new(true))
-    }
-
-    #[test]
-    fn every_key_of_the_table_is_a_key() {
-        for action in actions::ALL {
-            for key in action.keys {
-                assert!(*key == "?" || shortcut(key).is_some(), "{key}");
-            }
-        }
-    }
-
-    #[test]
-    fn keys_of_the_browser_are_left_alone() {
-        let keys = [
-            Key::L,
-            Key::F,
-            Key::C,
-            Key::W,
-            Key::T,
-            Key::N,
-            Key::P,
-            Key::V,
-            Key::X,
-            Key::Num1,
-            Key::Num5,
-            Key::Home,
-        ];
-        for key in keys {
-            for modifiers in [Modifiers::COMMAND, Modifiers::ALT] {
-                assert_eq!(command_for(key, modifiers), None, "{key:?}");
-                assert!(!owns_key(key, modifiers), "{key:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn shift_makes_ten_frames_of_one() {
-        assert_eq!(
-            command_for(Key::ArrowLeft, Modifiers::NONE),
-            Some(PlayCommand::StepFrames(-1).into())
-        );
-        assert_eq!(
-            command_for(Key::ArrowRight, Modifiers::SHIFT),
-            Some(PlayCommand::StepFrames(10).into())
-        );
-    }
-
-    #[test]
-    fn shift_is_ignored_where_it_means_nothing_of_its_own() {
-        // Digits need it on some keyboards.
-        let isometric = CameraCommand::Glide(Box::new(CameraCommand::LookFrom(ViewPreset::Isometric))).into();
-        assert_eq!(command_for(Key::Num9, Modifiers::SHIFT), Some(isometric));
-        assert!(action_of(Key::R, Modifiers::NONE).is_some());
-        for key in [Key::R, Key::O] {
-            assert!(action_of(key, Modifiers::SHIFT).is_none(), "{key:?}");
-        }
-    }
-
-    #[test]
-    fn alt_and_arrows_move_the_camera_and_alone_they_step() {
-        let camera = |modifiers| match command_for(Key::ArrowLeft, modifiers) {
-            Some(Command::Camera(CameraCommand::Glide(command))) => Some(*command),
-            _ => None,
-        };
-        assert!(matches!(camera(Modifiers::ALT), Some(CameraCommand::Orbit { yaw_radians, .. }) if yaw_radians > 0.0));
-        let pans = camera(Modifiers::ALT | Modifiers::SHIFT);
-        assert!(matches!(pans, Some(CameraCommand::Pan { drag }) if drag.x > 0.0));
-        assert!(owns_key(Key::ArrowLeft, Modifiers::ALT), "the browser would go back");
-        let ctrl_alt = Modifiers::ALT | Modifiers::COMMAND;
-        assert!(camera(Modifiers::NONE).is_none() && camera(ctrl_alt).is_none());
-        // Plus needs Shift on some keyboards.
-        for (key, modifiers) in [
-            (Key::Plus, Modifiers::SHIFT),
-            (Key::Equals, Modifiers::NONE),
-            (Key::Minus, Modifiers::NONE),
-        ] {
-            assert!(
-                matches!(command_for(key, modifiers), Some(Command::Camera(_))),
-                "{key:?}"
-            );
-            assert!(!owns_key(key, Modifiers::COMMAND), "the browser zooms the page");
-        }
-    }
-
-    #[test]
-    fn undo_and_redo_have_their_usual_keys() {
-        let shift = Modifiers::COMMAND | Modifiers::SHIFT;
-        let label = |key, modifiers| action_of(key, modifiers).map(|action| action.label);
-        assert_eq!(label(Key::Z, Modifiers::COMMAND), Some("Undo"));
-        assert_eq!(label(Key::Z, shift), Some("Redo"));
-        assert_eq!(label(Key::Y, Modifiers::COMMAND), Some("Redo"));
-        assert_eq!(
-            label(Key::Y, Modifiers::COMMAND | Modifiers::MAC_CMD),
-            None,
-            "the browser's history"
-        );
-        assert_eq!(label(Key::Y, shift), None);
-        assert_eq!(label(Key::Z, Modifiers::NONE), Some("Wireframe"));
-    }
 }

@@ -8,6 +8,8 @@ mod error_card;
 mod export;
 mod findings;
 mod focus;
+#[doc(hidden)]
+pub mod for_tests;
 mod help;
 mod icons;
 mod input;

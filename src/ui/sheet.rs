@@ -19,7 +19,7 @@ const SETTLE_SECS: f32 = 0.16;
 
 /// Where the sheet rests.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Rest {
+pub enum Rest {
     Peek,
     #[default]
     Half,
@@ -39,11 +39,11 @@ pub(super) struct SheetHeight {
 
 /// The heights at which a page can rest, no higher than `most`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Heights([f32; 3]);
+pub struct Heights([f32; 3]);
 
 impl Heights {
     /// `of_timeline`: of the page with keys over time.
-    pub(super) fn new(of_timeline: bool, window_height: f32, most: f32) -> Self {
+    pub fn new(of_timeline: bool, window_height: f32, most: f32) -> Self {
         let half = if of_timeline { HALF_OF_TIMELINE } else { HALF };
         Self([PEEK * window_height, half * window_height, most].map(|height| height.min(most).max(0.0)))
     }
@@ -118,7 +118,7 @@ impl SheetHeight {
 }
 
 /// Where a sheet of a height comes to rest when the finger lets go at a speed, in points a second downward. None: it shuts.
-fn settle(height: f32, rate: f32, heights: Heights) -> Option<Rest> {
+pub fn settle(height: f32, rate: f32, heights: Heights) -> Option<Rest> {
     let stops = [None, Some(Rest::Peek), Some(Rest::Half), Some(Rest::Full)];
     let height_of = |stop: Option<Rest>| stop.map_or(0.0, |rest| heights.of(rest));
     if rate < -FLING_PER_SEC {
@@ -136,28 +136,4 @@ fn settle(height: f32, rate: f32, heights: Heights) -> Option<Rest> {
 
 fn motion_id() -> Id {
     Id::unique("height of the sheet")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_slow_finger_leaves_the_sheet_at_the_nearest_height_and_a_quick_one_flings_it() {
-        let heights = Heights::new(false, 800.0, 600.0);
-        for (height, rate, rest) in [
-            (30.0, 0.0, None),
-            (200.0, 0.0, Some(Rest::Peek)),
-            (330.0, 100.0, Some(Rest::Half)),
-            (580.0, -100.0, Some(Rest::Full)),
-            (200.0, -900.0, Some(Rest::Half)),
-            (380.0, -900.0, Some(Rest::Full)),
-            (590.0, 900.0, Some(Rest::Half)),
-            (300.0, 900.0, Some(Rest::Peek)),
-            (150.0, 900.0, None),
-            (600.0, -900.0, Some(Rest::Full)),
-        ] {
-            assert_eq!(settle(height, rate, heights), rest, "{height} at {rate}");
-        }
-    }
 }

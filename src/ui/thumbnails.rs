@@ -49,7 +49,7 @@ impl Thumbnails {
 }
 
 /// The image, no larger than a thumbnail needs, without its alpha, which could hide half of it.
-fn small_picture(image: &Image) -> Option<ColorImage> {
+pub fn small_picture(image: &Image) -> Option<ColorImage> {
     let small = |&level: &u32| {
         let (width, height) = image.level_size(level);
         width.max(height) <= MOST_TEXELS
@@ -93,41 +93,8 @@ fn shrunk([width, height]: [usize; 2], texels: &[u8]) -> ([usize; 2], Vec<u8>) {
 }
 
 /// The z of a direction whose x and y are in the map, so that the thumbnail has the usual blue.
-fn rebuilt_z(x: u8, y: u8) -> u8 {
+pub fn rebuilt_z(x: u8, y: u8) -> u8 {
     let [x, y] = [x, y].map(|encoded| f32::from(encoded) / 127.5 - 1.0);
     let z = (1.0 - x * x - y * y).max(0.0).sqrt();
     ((z + 1.0) * 127.5).round() as u8
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_direction_straight_out_of_the_map_is_blue() {
-        assert_eq!(rebuilt_z(128, 128), 255);
-        assert_eq!(rebuilt_z(255, 128), 128);
-        assert_eq!(rebuilt_z(255, 255), 128, "longer than 1");
-    }
-
-    #[test]
-    fn a_large_picture_without_levels_is_averaged() {
-        let texels = [[0, 8, 7, 0], [10, 8, 7, 255]].concat().repeat(200);
-        let image = Image::from_rgba8(200, 2, texels, "PNG").expect("a picture");
-        let small = small_picture(&image).expect("a thumbnail");
-        assert_eq!(
-            (small.size, small.pixels[5]),
-            ([50, 1], egui::Color32::from_rgb(5, 8, 7))
-        );
-    }
-
-    #[test]
-    fn a_small_picture_is_shown_as_it_is() {
-        let image = Image::from_rgba8(64, 2, [9, 8, 7, 0].repeat(128), "PNG").expect("a picture");
-        let small = small_picture(&image).expect("64 texels");
-        assert_eq!(
-            (small.size, small.pixels[5]),
-            ([64, 2], egui::Color32::from_rgb(9, 8, 7))
-        );
-    }
 }

@@ -1,7 +1,7 @@
 //! Numbers and names as people read them.
 
 /// A whole number with thousands grouped by narrow spaces: `13 748`.
-pub(super) fn grouped(number: usize) -> String {
+pub fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::with_capacity(digits.len() + digits.len() / 3 * 3);
     for (i, digit) in digits.chars().enumerate() {
@@ -14,7 +14,7 @@ pub(super) fn grouped(number: usize) -> String {
 }
 
 /// A length with about three significant digits: `73.4`, `0.0123`, `13 748`.
-pub(super) fn measured(length: f32) -> String {
+pub fn measured(length: f32) -> String {
     match length.abs() {
         _ if !length.is_finite() => "–".to_owned(),
         0.0 => "0".to_owned(),
@@ -33,14 +33,14 @@ pub(super) fn measured(length: f32) -> String {
 }
 
 /// A time in milliseconds: `0.42 ms`, `12.3 ms`.
-pub(super) fn milliseconds(secs: f32) -> String {
+pub fn milliseconds(secs: f32) -> String {
     let millisecs = secs * 1e3;
     let decimals = if millisecs < 9.995 { 2 } else { 1 };
     format!("{millisecs:.decimals$} ms")
 }
 
 /// An amount of data with about three digits: `96 B`, `1.54 kB`, `12.3 MB`.
-pub(super) fn bytes(count: u64) -> String {
+pub fn bytes(count: u64) -> String {
     if count < 1000 {
         return format!("{count} B");
     }
@@ -100,67 +100,5 @@ pub(super) fn counted_vertices(count: u32) -> String {
     match count {
         1 => "1 vertex".to_owned(),
         count => format!("{} vertices", grouped(count as usize)),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn thousands_are_grouped() {
-        let cases = [
-            (0, "0"),
-            (999, "999"),
-            (1000, "1\u{2009}000"),
-            (13_748, "13\u{2009}748"),
-            (1_234_567, "1\u{2009}234\u{2009}567"),
-        ];
-        for (number, text) in cases {
-            assert_eq!(grouped(number), text);
-        }
-    }
-
-    #[test]
-    fn times_and_amounts_of_data_keep_about_three_digits() {
-        let times = [
-            (0.0, "0.00 ms"),
-            (0.000_418, "0.42 ms"),
-            (0.009_996, "10.0 ms"),
-            (0.25, "250.0 ms"),
-        ];
-        for (secs, text) in times {
-            assert_eq!(milliseconds(secs), text);
-        }
-        let amounts = [
-            (0, "0 B"),
-            (999, "999 B"),
-            (1_540, "1.54 kB"),
-            (48_000, "48.0 kB"),
-            (999_600, "1.00 MB"),
-            (123_456_789, "123 MB"),
-            (5_000_000_000, "5.00 GB"),
-            (5_000_000_000_000, "5000 GB"),
-        ];
-        for (count, text) in amounts {
-            assert_eq!(bytes(count), text);
-        }
-    }
-
-    #[test]
-    fn lengths_keep_about_three_digits() {
-        let cases = [
-            (0.0, "0"),
-            (73.42, "73.4"),
-            (1.8, "1.80"),
-            (0.437_6, "0.438"),
-            (0.012_34, "0.0123"),
-            (1e9, "1.00e9"),
-            (-2000.0, "−2\u{2009}000"),
-            (f32::NAN, "–"),
-        ];
-        for (length, text) in cases {
-            assert_eq!(measured(length), text);
-        }
     }
 }

@@ -7,6 +7,7 @@ mod convert;
 mod folders;
 mod gltf;
 mod info;
+mod parts;
 mod pipe;
 mod pose;
 mod program;

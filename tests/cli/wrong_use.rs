@@ -238,3 +238,26 @@ fn every_key_is_explained_in_the_help() {
         }
     }
 }
+
+#[test]
+fn numbers_out_of_their_range_are_wrong_use() {
+    for (key, wrong, told) in [
+        (
+            "--sheet",
+            &["4", "0x3", "4x", "400x400", "70000x70000"],
+            "columns and rows of pictures, such as 4x3",
+        ),
+        (
+            "--fps",
+            &["0", "-1", "inf", "NaN", "fast"],
+            "a number of pictures a second above 0",
+        ),
+        ("--split", &["-0.1", "1.1", "NaN", "half", ""], "a fraction from 0 to 1"),
+    ] {
+        for wrong in wrong {
+            let refused = run(["render", FIGURE, "-o", "dir", &format!("{key}={wrong}")]);
+            assert_eq!(refused.code, Some(2), "{key}={wrong}");
+            assert!(refused.err.contains(told), "{key}={wrong}: {}", refused.err);
+        }
+    }
+}

@@ -20,4 +20,5 @@ mod range;
 mod sample;
 mod skin;
 mod skin_view;
+mod straight;
 mod trails;

@@ -1,5 +1,7 @@
 //! What the books' loaders make of files.
 
+mod stream;
+
 use std::fmt::Write as _;
 use std::path::Path;
 

@@ -5,6 +5,7 @@ mod mesh;
 mod real_files;
 mod rig;
 mod texture;
+mod told;
 
 use bindpose::diagnostic::Diagnostic;
 use bindpose::format::{Document, LineMap};

@@ -3,6 +3,7 @@
 mod damage;
 mod excerpt;
 mod fixtures;
+mod likeness;
 mod limits;
 mod numbers;
 mod real_files;

@@ -3,9 +3,11 @@
 mod blocks;
 mod damage;
 mod dds;
+mod directions;
 mod encode;
 mod errors;
 mod finding;
+mod half;
 mod layouts;
 mod mips;
 mod raster;

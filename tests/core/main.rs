@@ -1,5 +1,6 @@
 //! Tests of the core: they need neither GPU nor UI.
 
+mod actions;
 mod anim;
 mod book;
 mod chains;
@@ -19,6 +20,7 @@ mod order;
 mod properties;
 mod rigs;
 mod scene;
+mod script;
 mod session;
 mod shaders;
 #[path = "../common/shared.rs"]

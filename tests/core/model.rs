@@ -1,5 +1,6 @@
 //! Tests of `model`.
 
+mod bounds;
 mod clips;
 mod codes;
 mod curve;

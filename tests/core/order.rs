@@ -3,7 +3,7 @@
 //! A file uses the file in which a name is defined, wherever it takes the name from: a re-export is followed to its origin.
 //! So a `mod.rs` that only gathers names hides no circle and makes none. `super::` counts as every other path does. What a
 //! file re-exports it uses only if its own code names it too; `mod child;` alone is no use. Between modules a re-export counts
-//! as any use, and so does the module that a path goes through. Tests inside `src`, comments and method calls are not read.
+//! as any use, and so does the module that a path goes through. Comments and method calls are not read.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -18,6 +18,7 @@ struct Module {
     path: Vec<String>,
     file: String,
     source: Source,
+    has_tests: bool,
 }
 
 /// One file naming what another defines.
@@ -58,12 +59,14 @@ impl Crate {
                 if module.last().is_some_and(|last| last == "mod") || module == ["lib"] {
                     module.pop();
                 }
-                let source = Source::read(&fs::read_to_string(&path).expect("sources are UTF-8"));
+                let text = fs::read_to_string(&path).expect("sources are UTF-8");
+                let source = Source::read(&text);
                 let file = format!("src/{}", path.strip_prefix(&root).expect("a file of src").display());
                 modules.push(Module {
                     path: module,
                     file: file.replace('\\', "/"),
                     source,
+                    has_tests: text.contains("#[test]") || text.contains("#[cfg(test)]"),
                 });
             }
         }
@@ -264,6 +267,13 @@ fn files_do_not_use_each_other_in_a_circle() {
         message += &listed(&uses.iter().filter(inner).collect::<Vec<_>>());
     }
     assert!(message.is_empty(), "{message}");
+}
+
+/// `[lib] test = false` in Cargo.toml: they would never run.
+#[test]
+fn the_library_has_no_tests_inside() {
+    let with_tests = Crate::read().modules.into_iter().filter(|module| module.has_tests);
+    assert_eq!(with_tests.map(|module| module.file).collect::<Vec<_>>(), [""; 0]);
 }
 
 #[test]

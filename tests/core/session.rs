@@ -1,11 +1,13 @@
 //! Tests of `session`: what is open and how it is looked at, without a window.
 
+mod archive_limit;
 mod archives;
 mod clips;
 mod crowd;
 mod exporting;
 mod files;
 mod folders;
+mod ghosts;
 mod going_back;
 mod history;
 mod joining;
@@ -17,8 +19,11 @@ mod materials;
 mod mixing;
 mod models;
 mod motion;
+mod nearest;
 mod opening;
+mod pacing;
 mod picking;
+mod places;
 mod playing;
 mod random;
 mod replay;

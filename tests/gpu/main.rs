@@ -27,6 +27,7 @@ macro_rules! on_both_backends {
 mod alpha_clip;
 mod big_picture;
 mod book_light;
+mod contact_sheet;
 mod crowd;
 mod cut_out;
 mod exported;
@@ -43,7 +44,9 @@ mod map_uploads;
 mod maps;
 mod normal_maps;
 mod over_model;
+mod parts;
 mod passes;
+mod performance;
 mod picture;
 mod prepared;
 mod robust;

@@ -32,6 +32,7 @@ mod mirror;
 mod models;
 mod page;
 mod panels;
+mod parts;
 mod picture;
 mod pointer;
 mod popovers;

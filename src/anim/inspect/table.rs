@@ -49,23 +49,3 @@ impl RowMatrix {
         )
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_short_and_zero_has_no_sign() {
-        assert_eq!(number(-0.0), "0.000000");
-        assert_eq!(number(-1e-9), "0.000000");
-        assert_eq!(number(-1.5), "-1.500000");
-        assert_eq!(number(2.5e9), "2.5e9");
-        assert_eq!(number(f32::NAN), "NaN");
-    }
-
-    #[test]
-    fn cells_stand_to_the_right() {
-        let rows = [["1", "-20"], ["300", "4"]].map(|row| row.map(str::to_owned));
-        assert_eq!(aligned(&rows), ["  1  -20", "300    4"]);
-    }
-}

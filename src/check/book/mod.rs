@@ -17,7 +17,7 @@ pub use limits::{Known, Limit};
 pub use loader::{Counts, Reading, read};
 pub use outcome::Outcome;
 pub use row::Row;
-pub use stream::Trouble;
+pub use stream::{Stream, Trouble};
 
 pub use crate::diagnostic::limits::{MOST_BONES, MOST_MATERIALS, MOST_VERTICES};
 use crate::diagnostic::{Diagnostic, Position, codes};

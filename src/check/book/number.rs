@@ -49,29 +49,3 @@ pub(super) fn whole(word: &[u8]) -> Result<(usize, i64), Misfit> {
     let value = if word[0] == b'-' { -magnitude } else { magnitude };
     Ok((sign + length, value))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_longest_beginning_that_is_a_number_counts() {
-        for (word, length) in [
-            ("1.5", 3),
-            ("1,5", 1),
-            ("1.0f", 3),
-            (".5", 2),
-            ("5.", 2),
-            ("-2e-1x", 5),
-            ("1e", 1),
-            ("1e+", 1),
-            ("+7", 2),
-            ("0x10", 1),
-        ] {
-            assert_eq!(float_length(word.as_bytes()), Some(length), "{word}");
-        }
-        for word in ["", "-", ".", "-.", "e5", "nan"] {
-            assert_eq!(float_length(word.as_bytes()), None, "{word}");
-        }
-    }
-}

@@ -51,7 +51,7 @@ pub struct Trouble {
 }
 
 /// A file that is read with `>>`.
-pub(super) struct Stream<'a> {
+pub struct Stream<'a> {
     cursor: Cursor<'a>,
     /// What is being read, for messages.
     pub(super) row: Row,
@@ -61,7 +61,8 @@ pub(super) struct Stream<'a> {
 }
 
 impl<'a> Stream<'a> {
-    pub(super) fn new(bytes: &'a [u8]) -> Self {
+    /// A stream at its beginning.
+    pub fn new(bytes: &'a [u8]) -> Self {
         Self {
             // A byte order mark is a part of the first word.
             cursor: Cursor {
@@ -77,12 +78,12 @@ impl<'a> Stream<'a> {
     }
 
     /// Whether a read has failed, so that all others fail too.
-    pub(super) fn has_failed(&self) -> bool {
+    pub fn has_failed(&self) -> bool {
         self.stop.is_some()
     }
 
     /// The failed read, and the first mistake.
-    pub(super) fn into_troubles(self) -> (Option<Trouble>, Option<Trouble>) {
+    pub fn into_troubles(self) -> (Option<Trouble>, Option<Trouble>) {
         (self.stop, self.mistake)
     }
 
@@ -107,7 +108,7 @@ impl<'a> Stream<'a> {
     }
 
     /// Reads a word that nobody looks at: the label of a value. `others` are the labels that stand near it.
-    pub(super) fn label(&mut self, label: &'static str, others: &[&str]) {
+    pub fn label(&mut self, label: &'static str, others: &[&str]) {
         let row = self.row;
         let Some(word) = self.word(format_args!("the label {label} of {row}")) else {
             return;
@@ -133,14 +134,14 @@ impl<'a> Stream<'a> {
     }
 
     /// Reads a word that is kept, or `None` when the stream fails.
-    pub(super) fn name(&mut self, what: &'static str) -> Option<String> {
+    pub fn name(&mut self, what: &'static str) -> Option<String> {
         let row = self.row;
         let word = self.word(format_args!("{what} of {row}"))?;
         Some(String::from_utf8_lossy(word.text).into_owned())
     }
 
     /// Reads a brace or any other word that nobody looks at.
-    pub(super) fn skip(&mut self) {
+    pub fn skip(&mut self) {
         let row = self.row;
         self.word(format_args!("a word of {row}"));
     }
@@ -226,7 +227,7 @@ impl<'a> Stream<'a> {
     }
 
     /// Reads a `float`.
-    pub(super) fn float(&mut self, what: &'static str) -> f32 {
+    pub fn float(&mut self, what: &'static str) -> f32 {
         self.number(what, "number", |word| {
             let length = float_length(word).ok_or(Misfit::NoNumber)?;
             let value: f32 = fast_float2::parse(&word[..length]).map_err(|_| Misfit::NoNumber)?;
@@ -244,7 +245,7 @@ impl<'a> Stream<'a> {
     }
 
     /// Reads an `int`.
-    pub(super) fn int(&mut self, what: &'static str) -> i32 {
+    pub fn int(&mut self, what: &'static str) -> i32 {
         self.number(what, "whole number", |word| {
             let (length, value) = whole(word)?;
             Ok((length, i32::try_from(value).map_err(|_| Misfit::OutOfRange)?))
@@ -252,7 +253,7 @@ impl<'a> Stream<'a> {
     }
 
     /// Reads a `UINT`. A negative number counts down from the greatest one.
-    pub(super) fn uint(&mut self, what: &'static str) -> u32 {
+    pub fn uint(&mut self, what: &'static str) -> u32 {
         self.number(what, "whole number", |word| {
             let (length, value) = whole(word)?;
             let magnitude = u32::try_from(value.unsigned_abs()).map_err(|_| Misfit::OutOfRange)?;
@@ -261,7 +262,7 @@ impl<'a> Stream<'a> {
     }
 
     /// Reads a `USHORT`. A negative number counts down from the greatest one.
-    pub(super) fn ushort(&mut self, what: &'static str) -> u16 {
+    pub fn ushort(&mut self, what: &'static str) -> u16 {
         self.number(what, "16-bit number", |word| {
             let (length, value) = whole(word)?;
             let magnitude = u16::try_from(value.unsigned_abs()).map_err(|_| Misfit::OutOfRange)?;
@@ -270,7 +271,7 @@ impl<'a> Stream<'a> {
     }
 
     /// Reads a `bool`, which is 0 or 1: the loaders do not ask for words.
-    pub(super) fn boolean(&mut self, what: &'static str) -> bool {
+    pub fn boolean(&mut self, what: &'static str) -> bool {
         self.number(what, "0 or 1", |word| match whole(word)? {
             (length, 0) => Ok((length, false)),
             (length, 1) => Ok((length, true)),
@@ -281,100 +282,4 @@ impl<'a> Stream<'a> {
 
 fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t'..=b'\r')
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn stream(text: &str) -> Stream<'_> {
-        Stream::new(text.as_bytes())
-    }
-
-    #[test]
-    fn the_longest_beginning_that_is_a_number_is_taken_and_the_rest_stays() {
-        for (text, value, rest) in [
-            ("1.5 2", 1.5, "2"),
-            ("1,5", 1.0, ",5"),
-            ("1.0f", 1.0, "f"),
-            (".5", 0.5, ""),
-            ("5.", 5.0, ""),
-            ("-2e-1x", -0.2, "x"),
-            ("1e", 1.0, "e"),
-            ("-1.#IND", -1.0, "#IND"),
-            ("+7", 7.0, ""),
-            ("0x10", 0.0, "x10"),
-        ] {
-            let mut stream = stream(text);
-            assert_eq!(stream.float("a number"), value, "{text}");
-            assert!(!stream.has_failed(), "{text}");
-            assert_eq!(String::from_utf8_lossy(stream.peek().text), rest, "{text}");
-        }
-        let mut stream = stream("1.5");
-        assert_eq!((stream.int("a number"), stream.peek().text), (1, &b".5"[..]));
-    }
-
-    #[test]
-    fn a_failed_read_gives_zero_and_so_do_all_after_it() {
-        for text in ["nan 1", "inf 1", "Normal: 1", "1e99 1", "", "- 1", ". 1"] {
-            let mut stream = stream(text);
-            assert_eq!((stream.float("a"), stream.float("b")), (0.0, 0.0), "{text}");
-            assert!(stream.has_failed(), "{text}");
-        }
-    }
-
-    #[test]
-    fn whole_numbers_have_their_ranges() {
-        assert_eq!(stream("-1").uint("a"), u32::MAX);
-        assert_eq!(stream("-1").ushort("a"), u16::MAX);
-        assert_eq!(stream("65535").ushort("a"), 65_535);
-        for text in ["65536", "-65536", "99999999999999999999"] {
-            let mut stream = stream(text);
-            stream.ushort("a");
-            assert!(stream.has_failed(), "{text}");
-        }
-        for (text, value) in [
-            ("0", Some(false)),
-            ("1", Some(true)),
-            ("2", None),
-            ("true", None),
-            ("-1", None),
-        ] {
-            let mut stream = stream(text);
-            let read = stream.boolean("a");
-            assert_eq!((!stream.has_failed()).then_some(read), value, "{text}");
-        }
-    }
-
-    #[test]
-    fn lines_and_columns_are_counted() {
-        let mut stream = stream("a\r\n  b\tx\n");
-        stream.skip();
-        stream.skip();
-        stream.float("a number");
-        let (stop, _) = stream.into_troubles();
-        let stop = stop.expect("x is no number");
-        assert_eq!((stop.position.line, stop.position.column, stop.length), (2, 5, 1));
-        assert_eq!(
-            stop.why,
-            "It reads a number of the header and finds \"x\", which is no number."
-        );
-    }
-
-    #[test]
-    fn labels_of_other_values_are_mistakes_and_other_spellings_are_none() {
-        let mut right = stream("#materials: Tex_Coords: P:");
-        right.label("Materials", &["Vertices"]);
-        right.label("Tex-Coords", &["Normal"]);
-        right.label("Position", &["Normal"]);
-        assert_eq!(right.into_troubles(), (None, None));
-        let mut wrong = stream("Normal: ***Vertices***");
-        wrong.label("Tangent", &["Normal"]);
-        wrong.label("Tangent", &[]);
-        let (_, mistake) = wrong.into_troubles();
-        assert_eq!(
-            mistake.map(|mistake| mistake.why).as_deref(),
-            Some("It takes \"Normal:\" for the label Tangent of the header.")
-        );
-    }
 }

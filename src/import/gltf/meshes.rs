@@ -518,25 +518,3 @@ fn color(stored: &[f32; 4]) -> Vec4 {
     let clamped = stored.map(|number| if number.is_nan() { 1.0 } else { number.clamp(0.0, 1.0) });
     Vec4::from_array(clamped)
 }
-
-#[cfg(test)]
-mod tests {
-    use glam::DVec3;
-
-    use super::*;
-
-    #[test]
-    fn normals_stay_square_to_a_surface_that_is_stretched_or_mirrored() {
-        let surface = [DVec3::new(1.0, -1.0, 0.0), DVec3::Z];
-        let normal = DVec3::new(1.0, 1.0, 0.0);
-        for scale in [DVec3::new(2.0, 1.0, 1.0), DVec3::new(-2.0, 1.0, 3.0)] {
-            let transform = DAffine3::from_scale(scale);
-            let moved = normal_matrix(&transform) * normal;
-            for axis in surface {
-                assert!((transform.matrix3 * axis).dot(moved).abs() < 1e-12, "{scale}");
-            }
-            // It points to the side to which it pointed.
-            assert!(moved.dot(transform.matrix3 * normal) > 0.0, "{scale}");
-        }
-    }
-}

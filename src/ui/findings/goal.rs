@@ -10,7 +10,7 @@ use crate::ui::state::UiState;
 use crate::ui::wording::grouped;
 
 /// A part of the open model, and how to show it.
-pub(super) struct Goal {
+pub struct Goal {
     /// What it is called: `Bone 3`, `Submesh 0`, `Clip walk`.
     pub(super) words: String,
     commands: Vec<Command>,
@@ -20,7 +20,7 @@ pub(super) struct Goal {
 
 impl Goal {
     /// How to show a subject, and of a clip the moment. None if the model lacks it, or if no submesh has this material.
-    pub(super) fn of(session: &Session, open: &OpenModel, subject: Subject, moment: Moment) -> Option<Self> {
+    pub fn of(session: &Session, open: &OpenModel, subject: Subject, moment: Moment) -> Option<Self> {
         let mesh = &open.model.mesh;
         match subject {
             Subject::Bone(bone) => Some(Self::bone(session, joint_of(open, bone)?)),
@@ -119,33 +119,4 @@ impl Goal {
 /// The joint of a bone of the file.
 fn joint_of(open: &OpenModel, bone: u32) -> Option<JointIndex> {
     open.model.skeleton.joint_of_bone().get(bone as usize).copied()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::session::{File, FileCommand};
-
-    #[test]
-    fn what_is_not_there_has_no_goal() {
-        let mut session = Session::new(true);
-        session.apply(FileCommand::Add(vec![File::new(
-            "figure.m3d",
-            include_bytes!("../../../web/sample/figure.m3d").to_vec(),
-        )]));
-        let open = session.open_model().expect("the sample opens");
-        let beyond = [
-            Subject::Material(9_999_999),
-            Subject::Subset(9_999_999),
-            Subject::Vertex(9_999_999),
-            Subject::Triangle(u32::MAX),
-            Subject::Bone(9_999_999),
-            Subject::Clip(9_999_999),
-        ];
-        assert!(
-            beyond
-                .into_iter()
-                .all(|subject| Goal::of(&session, open, subject, Moment::default()).is_none())
-        );
-    }
 }

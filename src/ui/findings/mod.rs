@@ -3,7 +3,7 @@
 
 mod books;
 mod filter;
-mod goal;
+pub(super) mod goal;
 mod row;
 pub(super) mod state;
 

@@ -3,7 +3,7 @@
 //! egui says of its widgets what they are (AccessKit's tree), whole and in every pass. [`Mirror`] turns that into what ARIA knows: groups that
 //! only lay things out are gone, items stand in the containers that they need, and what did not change is not told again.
 
-mod aria;
+pub(super) mod aria;
 mod input;
 mod record;
 

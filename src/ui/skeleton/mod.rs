@@ -3,7 +3,7 @@
 mod in_view;
 mod joint_panel;
 mod naming;
-mod numbers;
+pub(super) mod numbers;
 pub(super) mod state;
 mod tree;
 mod vertex_panel;

@@ -1,6 +1,6 @@
 //! The panel at the bottom: transport and bar, and above them, when it is open, the dope sheet or curves of a joint.
 
-mod axis;
+pub(super) mod axis;
 mod bar;
 mod clips;
 mod controls;
@@ -10,16 +10,16 @@ mod curves;
 mod dope_sheet;
 mod joint_row;
 mod key_cursor;
-mod loop_gap;
-mod marks;
+pub(super) mod loop_gap;
+pub(super) mod marks;
 mod options;
-mod rows;
+pub(super) mod rows;
 mod sheet;
 pub(super) mod state;
-mod time_area;
+pub(super) mod time_area;
 mod transport;
-mod typed;
-mod value_axis;
+pub(super) mod typed;
+pub(super) mod value_axis;
 
 pub(super) use sheet::page;
 pub(super) use transport::{narrow, wide};

@@ -118,23 +118,23 @@ fn below(session: &Session, joint: JointIndex) -> &[JointIndex] {
 }
 
 /// Sorts by motion, the most first. Equal ones keep the skeleton's order.
-fn sort_by_motion(activity: &[JointActivity], sorted: &mut Vec<JointIndex>) {
+pub fn sort_by_motion(activity: &[JointActivity], sorted: &mut Vec<JointIndex>) {
     sorted.clear();
     sorted.extend((0..activity.len() as u32).map(JointIndex));
     sorted.sort_by(|a, b| activity[b.index()].fraction.total_cmp(&activity[a.index()].fraction));
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct FoldedBranch {
+pub struct FoldedBranch {
     /// Times of the keys of all its joints, in order.
-    pub(super) times_secs: Vec<f32>,
-    pub(super) constant: bool,
+    pub times_secs: Vec<f32>,
+    pub constant: bool,
     /// The most that a joint of it moves, as a fraction of the most of all joints.
-    pub(super) most_motion: f32,
+    pub most_motion: f32,
 }
 
 impl FoldedBranch {
-    fn new(clip: &Clip, below: &[JointIndex], activity: &[JointActivity]) -> Self {
+    pub fn new(clip: &Clip, below: &[JointIndex], activity: &[JointActivity]) -> Self {
         let activity = || below.iter().filter_map(|joint| activity.get(joint.index()));
         Self {
             times_secs: merged_key_times_of(clip, below),
@@ -148,14 +148,14 @@ impl FoldedBranch {
 
 /// The folded branches of rows that were in view. No two of them overlap, so together they hold no more keys than the clip.
 #[derive(Debug, Default)]
-struct FoldedBranches {
+pub struct FoldedBranches {
     of: Option<(u64, usize)>,
     branches: BTreeMap<JointIndex, FoldedBranch>,
 }
 
 impl FoldedBranches {
     /// Forgets branches of another clip; `of` tells clips apart.
-    fn keep_of(&mut self, of: (u64, usize)) {
+    pub fn keep_of(&mut self, of: (u64, usize)) {
         if self.of != Some(of) {
             self.of = Some(of);
             self.branches.clear();
@@ -163,12 +163,12 @@ impl FoldedBranches {
     }
 
     /// What is folded below a joint, if it was merged.
-    fn get(&self, joint: JointIndex) -> Option<&FoldedBranch> {
+    pub fn get(&self, joint: JointIndex) -> Option<&FoldedBranch> {
         self.branches.get(&joint)
     }
 
     /// Merges what is below a joint, if that is missing. `folded`: all joints whose rows are folded.
-    fn merge(
+    pub fn merge(
         &mut self,
         joint: JointIndex,
         clip: &Clip,
@@ -186,141 +186,34 @@ impl FoldedBranches {
 
 /// Key times of a row: the joint's own, and those folded below it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct RowKeys<'a>(pub(super) [&'a [f32]; 2]);
+pub struct RowKeys<'a>(pub [&'a [f32]; 2]);
 
 impl RowKeys<'_> {
-    pub(super) fn before(&self, secs: f32) -> Option<f32> {
+    pub fn before(&self, secs: f32) -> Option<f32> {
         let before = self
             .0
             .map(|times| times[..times.partition_point(|&key| key < secs)].last().copied());
         before.into_iter().flatten().max_by(f32::total_cmp)
     }
 
-    pub(super) fn after(&self, secs: f32) -> Option<f32> {
+    pub fn after(&self, secs: f32) -> Option<f32> {
         let after = self
             .0
             .map(|times| times.get(times.partition_point(|&key| key <= secs)).copied());
         after.into_iter().flatten().min_by(f32::total_cmp)
     }
 
-    pub(super) fn first(&self) -> Option<f32> {
+    pub fn first(&self) -> Option<f32> {
         self.after(f32::NEG_INFINITY)
     }
 
-    pub(super) fn last(&self) -> Option<f32> {
+    pub fn last(&self) -> Option<f32> {
         self.before(f32::INFINITY)
     }
 
-    pub(super) fn nearest(&self, secs: f32) -> Option<f32> {
+    pub fn nearest(&self, secs: f32) -> Option<f32> {
         let around = [self.before(secs), self.after(secs.next_down())];
         let away = |key: &f32| (key - secs).abs();
         around.into_iter().flatten().min_by(|a, b| away(a).total_cmp(&away(b)))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use glam::{Quat, Vec3};
-
-    use super::*;
-    use crate::anim::LocalJoint;
-    use crate::model::Track;
-
-    #[test]
-    fn by_motion_the_liveliest_is_first() {
-        let activity = [0.0, 0.25, 1.0, 0.25, 0.0].map(|fraction| JointActivity {
-            fraction,
-            ..JointActivity::default()
-        });
-        let mut sorted = vec![JointIndex(9)];
-        sort_by_motion(&activity, &mut sorted);
-        assert_eq!(sorted, [2, 1, 3, 0, 4].map(JointIndex));
-    }
-
-    const RATE: f32 = 30.0;
-
-    /// A clip whose joints have keys at these frames.
-    fn clip(frames: &[&[u32]]) -> Clip {
-        let key = |&frame: &u32| {
-            let joint = LocalJoint {
-                rotation: Quat::IDENTITY,
-                translation: Vec3::ZERO,
-                scale: Vec3::ONE,
-            };
-            (frame as f32 / RATE, joint)
-        };
-        let tracks = frames
-            .iter()
-            .map(|frames| Track::new(frames.iter().map(key)).expect("keys in order"));
-        Clip::new("clip", tracks.collect())
-    }
-
-    fn moving(fraction: f32) -> JointActivity {
-        JointActivity {
-            fraction,
-            constant: fraction == 0.0,
-            ..JointActivity::default()
-        }
-    }
-
-    #[test]
-    fn a_branch_has_the_keys_of_its_joints_and_the_share_of_the_liveliest() {
-        let clip = clip(&[&[0, 30], &[1, 5], &[5, 7], &[9]]);
-        let activity = [1.0, 0.2, 0.7, 0.0].map(moving);
-        let branch = |below: &[u32]| {
-            let below: Vec<_> = below.iter().copied().map(JointIndex).collect();
-            FoldedBranch::new(&clip, &below, &activity)
-        };
-        let frames = |branch: &FoldedBranch| {
-            let frames = branch.times_secs.iter().map(|secs| (secs * RATE).round() as u32);
-            frames.collect::<Vec<_>>()
-        };
-        let both = branch(&[1, 2]);
-        assert_eq!(
-            (frames(&both), both.most_motion, both.constant),
-            (vec![1, 5, 7], 0.7, false)
-        );
-        let one_key = branch(&[3]);
-        assert_eq!(
-            (frames(&one_key), one_key.most_motion, one_key.constant),
-            (vec![9], 0.0, false)
-        );
-        let nothing = branch(&[]);
-        assert!(nothing.times_secs.is_empty() && !nothing.constant && nothing.most_motion == 0.0);
-        let still = FoldedBranch::new(&clip, &[JointIndex(1)], &[0.0; 4].map(moving));
-        assert!(still.constant);
-    }
-
-    #[test]
-    fn branches_are_merged_once_and_forgotten_when_they_unfold_or_the_clip_changes() {
-        let clip = clip(&[&[0], &[1], &[2]]);
-        let [root, above] = [0, 1].map(JointIndex);
-        let mut branches = FoldedBranches::default();
-        branches.keep_of((1, 0));
-        branches.merge(above, &clip, &[JointIndex(2)], &[], [above].into_iter());
-        let at = branches.get(above).map(|branch| branch.times_secs.as_ptr());
-        branches.merge(above, &clip, &[JointIndex(2)], &[], [above].into_iter());
-        branches.keep_of((1, 0));
-        assert_eq!(branches.get(above).map(|branch| branch.times_secs.as_ptr()), at, "kept");
-        branches.merge(root, &clip, &[above, JointIndex(2)], &[], [root].into_iter());
-        assert!(branches.get(above).is_none() && branches.get(root).is_some());
-        branches.keep_of((1, 1));
-        assert!(branches.get(root).is_none());
-    }
-
-    #[test]
-    fn keys_of_a_row_are_those_of_its_joint_and_of_what_is_folded_below() {
-        let keys = RowKeys([&[0.0, 1.0], &[0.5, 1.0, 2.0]]);
-        assert_eq!([keys.first(), keys.last()], [Some(0.0), Some(2.0)]);
-        assert_eq!(
-            [keys.after(0.0), keys.after(0.5), keys.after(2.0)],
-            [Some(0.5), Some(1.0), None]
-        );
-        assert_eq!([keys.before(2.0), keys.before(0.0)], [Some(1.0), None]);
-        assert_eq!(
-            [keys.nearest(0.6), keys.nearest(1.0), keys.nearest(9.0)],
-            [Some(0.5), Some(1.0), Some(2.0)]
-        );
-        assert_eq!(RowKeys([&[], &[]]).nearest(1.0), None);
     }
 }

@@ -241,7 +241,7 @@ fn seen_frames(clip: &Clip, axis: &TimeAxis, step: u32) -> impl Iterator<Item = 
 }
 
 /// Frames from label to label: the least round number that leaves room. If the rate is whole, round in seconds.
-fn label_step(keys_per_sec: f32, least_frames: f32, last_frame: u32) -> u32 {
+pub fn label_step(keys_per_sec: f32, least_frames: f32, last_frame: u32) -> u32 {
     let rate = keys_per_sec.round().max(1.0);
     let is_whole = (keys_per_sec - rate).abs() < 0.01 * rate;
     let rate = rate as u32;
@@ -266,37 +266,7 @@ fn is_round(number: u32) -> bool {
 }
 
 /// Seconds to the thousandth, without trailing zeros.
-pub(super) fn seconds(time_secs: f32) -> String {
+pub fn seconds(time_secs: f32) -> String {
     let text = format!("{time_secs:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn labels_stand_at_round_numbers_of_frames_and_seconds() {
-        for (rate, least, step) in [
-            (30.0, 0.5, 1),
-            (30.0, 4.0, 5),
-            (30.0, 12.0, 15),
-            (30.0, 16.0, 30),
-            (30.0, 100.0, 150),
-            (24.0, 7.0, 8),
-            (29.5, 7.0, 10),
-            (30.0, 1e9, 77),
-            (1.0, 0.5, 1),
-        ] {
-            assert_eq!(label_step(rate, least, 77), step, "{rate} {least}");
-        }
-    }
-
-    #[test]
-    fn seconds_are_short() {
-        assert_eq!(
-            [0.0, 0.5, 1.25, 1.0 / 3.0, 10.0].map(seconds),
-            ["0", "0.5", "1.25", "0.333", "10"]
-        );
-    }
 }

@@ -9,7 +9,7 @@ const LINE_SPACING: f32 = 34.0;
 
 /// A range of values along a height, the greatest at the top.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct ValueAxis {
+pub struct ValueAxis {
     height: Rangef,
     values: [f32; 2],
 }
@@ -17,7 +17,7 @@ pub(super) struct ValueAxis {
 impl ValueAxis {
     /// An axis on which all values fit, with headroom. NaN is ignored. The span is at least a thousandth of the largest
     /// absolute value, so that noise is not magnified.
-    pub(super) fn fitted(height: Rangef, values: impl Iterator<Item = f32>) -> Self {
+    pub fn fitted(height: Rangef, values: impl Iterator<Item = f32>) -> Self {
         let finite = values.filter(|value| value.is_finite());
         let (least, most) = finite.fold((f32::INFINITY, f32::NEG_INFINITY), |(least, most), value| {
             (least.min(value), most.max(value))
@@ -32,13 +32,13 @@ impl ValueAxis {
         }
     }
 
-    pub(super) fn y_of(&self, value: f32) -> f32 {
+    pub fn y_of(&self, value: f32) -> f32 {
         let fraction = (value - self.values[0]) / (self.values[1] - self.values[0]);
         self.height.max - fraction * self.height.span()
     }
 
     /// Round values with room between them, and the decimals that tell them apart.
-    pub(super) fn lines(&self) -> (Vec<f32>, usize) {
+    pub fn lines(&self) -> (Vec<f32>, usize) {
         let [least, most] = self.values;
         let count = (self.height.span() / LINE_SPACING).max(1.0);
         let step = round_up((most - least) / count);
@@ -51,48 +51,9 @@ impl ValueAxis {
 }
 
 /// The next of 1, 2 and 5 times a power of ten.
-fn round_up(step: f32) -> f32 {
+pub fn round_up(step: f32) -> f32 {
     let power = 10.0_f32.powf(step.max(1e-9).log10().floor());
     let part = step / power;
     let round = [1.0, 2.0, 5.0].into_iter().find(|&round| part <= round * 1.0001);
     power * round.unwrap_or(10.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn axis(values: &[f32]) -> ValueAxis {
-        ValueAxis::fitted(Rangef::new(0.0, 200.0), values.iter().copied())
-    }
-
-    #[test]
-    fn all_values_are_inside_and_greater_ones_above() {
-        let axis = axis(&[-3.0, 7.0, 2.0, f32::NAN]);
-        let [low, high] = [-3.0, 7.0].map(|value| axis.y_of(value));
-        assert!(high > 5.0 && low < 195.0 && high < low);
-    }
-
-    #[test]
-    fn what_stands_still_is_in_the_middle() {
-        for value in [0.0, 5.0, -12_000.0] {
-            assert!((axis(&[value, value]).y_of(value) - 100.0).abs() < 1e-2);
-        }
-        assert!(axis(&[]).y_of(0.0).is_finite());
-    }
-
-    #[test]
-    fn lines_are_round_and_have_room() {
-        let (lines, decimals) = axis(&[-3.0, 7.0]).lines();
-        assert_eq!((lines, decimals), (vec![-2.0, 0.0, 2.0, 4.0, 6.0], 0));
-        let (lines, decimals) = axis(&[0.1, 0.2]).lines();
-        assert_eq!(decimals, 2);
-        assert!(
-            lines.windows(2).all(|pair| (pair[1] - pair[0] - 0.02).abs() < 1e-5),
-            "{lines:?}"
-        );
-        for step in [1e-4, 0.3, 1.0, 4.9, 700.0] {
-            assert!(round_up(step) >= step * 0.999 && round_up(step) <= step * 2.5);
-        }
-    }
 }

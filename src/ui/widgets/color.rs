@@ -207,12 +207,12 @@ fn color32([red, green, blue]: [u8; 3]) -> Color32 {
     Color32::from_rgb(red, green, blue)
 }
 
-fn hex([red, green, blue]: [u8; 3]) -> String {
+pub fn hex([red, green, blue]: [u8; 3]) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 /// Three or six hexadecimal digits, with or without the mark before them.
-fn from_hex(text: &str) -> Option<[u8; 3]> {
+pub fn from_hex(text: &str) -> Option<[u8; 3]> {
     let digits = text.trim().trim_start_matches('#');
     // A sign before the digits would be read as a part of the number.
     let value = u32::from_str_radix(digits, 16)
@@ -228,56 +228,11 @@ fn from_hex(text: &str) -> Option<[u8; 3]> {
 type Hsv = [f32; 3];
 
 /// Converts from sRGB. Grey has hue 0, black has saturation 0 too.
-fn hsv_from_srgb(srgb: [u8; 3]) -> Hsv {
+pub fn hsv_from_srgb(srgb: [u8; 3]) -> Hsv {
     hsv_from_rgb(srgb.map(|channel| f32::from(channel) / 255.0)).into()
 }
 
 /// Converts to sRGB, rounded.
-fn srgb_from_hsv(hsv: Hsv) -> [u8; 3] {
+pub fn srgb_from_hsv(hsv: Hsv) -> [u8; 3] {
     rgb_from_hsv(hsv.into()).map(|channel| (channel * 255.0).round() as u8)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn hexadecimal_colours_are_read_as_people_write_them() {
-        assert_eq!(from_hex("#5aa9FF"), Some([0x5A, 0xA9, 0xFF]));
-        assert_eq!(from_hex(" 5aa9ff "), Some([0x5A, 0xA9, 0xFF]));
-        assert_eq!(from_hex("#fa0"), Some([0xFF, 0xAA, 0x00]));
-        for bad in ["", "#", "#12", "#1234567", "red", "#12345g", "+12345", "１２３"] {
-            assert_eq!(from_hex(bad), None, "{bad:?}");
-        }
-        assert_eq!(hex([0x05, 0xA9, 0xFF]), "#05a9ff");
-    }
-
-    #[test]
-    fn known_colours_are_taken_apart() {
-        let cases = [
-            ([0, 0, 0], [0.0, 0.0, 0.0]),
-            ([255, 255, 255], [0.0, 0.0, 1.0]),
-            ([255, 0, 0], [0.0, 1.0, 1.0]),
-            ([0, 255, 0], [1.0 / 3.0, 1.0, 1.0]),
-            ([0, 0, 255], [2.0 / 3.0, 1.0, 1.0]),
-            ([255, 255, 0], [1.0 / 6.0, 1.0, 1.0]),
-        ];
-        for (srgb, hsv) in cases {
-            let found = hsv_from_srgb(srgb);
-            let off = found.iter().zip(hsv).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
-            assert!(off < 1e-6, "{srgb:?}: {found:?}");
-        }
-    }
-
-    #[test]
-    fn what_was_taken_apart_comes_together_again() {
-        for red in (0..=255).step_by(15) {
-            for green in (0..=255).step_by(15) {
-                for blue in (0..=255).step_by(15) {
-                    let srgb = [red as u8, green as u8, blue as u8];
-                    assert_eq!(srgb_from_hsv(hsv_from_srgb(srgb)), srgb);
-                }
-            }
-        }
-    }
 }

@@ -1,7 +1,7 @@
 //! The few controls that panels are made of.
 
 mod button;
-mod color;
+pub(super) mod color;
 mod control;
 mod number;
 mod row;

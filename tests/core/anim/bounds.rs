@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use bindpose::anim::{CompiledClip, PoseBuffers, animated_bounds, skin_positions};
+use bindpose::anim::{CompiledClip, PoseBuffers, animated_bounds, extreme_points, skin_positions};
 use bindpose::import::m3d;
-use bindpose::model::{Aabb, Clip};
+use bindpose::model::{Aabb, Clip, Mesh, Model};
 use glam::Vec3;
 
 use crate::documents::{arm, model_of, quad, real_file};
@@ -139,4 +139,34 @@ fn the_soldier_needs_the_box_of_the_textbook() {
     );
     // The run is far deeper than the bind pose, and the arms come down.
     assert!(bounds.size().z > 44.0 && bounds.size().x < 32.0, "{bounds:?}");
+}
+
+#[test]
+fn the_corners_of_a_box_are_kept_and_its_inside_is_not() {
+    let mut positions = vec![Vec3::ZERO, Vec3::splat(0.3)];
+    positions.extend(
+        Aabb {
+            min: Vec3::new(-1.0, -2.0, -3.0),
+            max: Vec3::new(4.0, 5.0, 6.0),
+        }
+        .corners(),
+    );
+    let mesh = Mesh {
+        positions: positions.clone(),
+        ..Mesh::default()
+    };
+    let points = extreme_points(
+        &Model {
+            mesh,
+            ..Model::default()
+        },
+        None,
+    );
+    assert!(positions[2..].iter().all(|corner| points.contains(corner)));
+    assert!(!points.contains(&Vec3::ZERO) && !points.contains(&Vec3::splat(0.3)));
+}
+
+#[test]
+fn nothing_has_no_extremes() {
+    assert!(extreme_points(&Model::default(), None).is_empty());
 }

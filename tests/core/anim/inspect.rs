@@ -259,3 +259,20 @@ fn the_soldiers_joints_are_rigid_and_put_together_again() {
         assert!(DMat3::from_quat(turned).abs_diff_eq(turned_about_axes(local.euler_xyz_degrees), 1e-5));
     }
 }
+
+#[test]
+fn numbers_are_short_zero_has_no_sign_and_cells_stand_to_the_right() {
+    let rows = [
+        [-0.0, -1e-9, -1.5, 2.5e9],
+        [f32::NAN, 1.0, 300.0, -20.0],
+        [0.0; 4],
+        [0.0; 4],
+    ];
+    assert_eq!(
+        RowMatrix(rows).lines()[..2],
+        [
+            "0.000000  0.000000   -1.500000       2.5e9",
+            "     NaN  1.000000  300.000000  -20.000000"
+        ]
+    );
+}

@@ -73,6 +73,22 @@ const EDGES: &[&str] = &[
     "1e21",
     "1e-37",
     "1e-38",
+    // As exporters write them.
+    "67.88861",
+    "-0.9983482",
+    "0.05002538",
+    "0.0001278553",
+    "-1.331581E-06",
+    "8.412415e-23",
+    "13748",
+    "100.25",
+    "-123.456789",
+    // What the quick path turns away.
+    "12345678",
+    "1e99",
+    "1e-99",
+    "16777217.0",
+    "1.00000000000001",
 ];
 
 #[test]
@@ -123,11 +139,37 @@ proptest! {
     }
 }
 
+#[test]
+fn what_is_no_number_is_not_read_as_one() {
+    for text in [
+        "", "-", "1x", "1x.5", "1.5x", "1.5.5", "1e", "1e+", "1.5f", "1,5", "nan", "--1", "- 1",
+    ] {
+        let file = file_of(&[text, "0", "0"].map(str::to_owned));
+        let told = parse(file.as_bytes()).map_or(1, |parsed| parsed.diagnostics.len());
+        assert!(told > 0, "{text:?}");
+    }
+}
+
 /// Puts the texts into the positions of a file. What `str::parse` takes for infinite must come back replaced.
 fn assert_exact(mut texts: Vec<String>) {
     while !texts.len().is_multiple_of(3) {
         texts.push("0".into());
     }
+    let file = file_of(&texts);
+    let parsed = parse(file.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{file}"));
+    let read = parsed.document.vertices.iter().flat_map(|vertex| vertex.position);
+    for (text, read) in texts.iter().zip(read) {
+        let expected = text.parse::<f32>().expect("the texts are numbers");
+        let expected = if expected.is_finite() { expected } else { 0.0 };
+        assert_eq!(
+            read.to_bits(),
+            expected.to_bits(),
+            "{text}: {read} instead of {expected}"
+        );
+    }
+}
+
+fn file_of(texts: &[String]) -> String {
     let mut file = String::from("***Header***\n#Materials 0\n");
     file += &format!(
         "#Vertices {}\n#Triangles 0\n#Bones 0\n#AnimationClips 0\n",
@@ -141,15 +183,5 @@ fn assert_exact(mut texts: Vec<String>) {
         );
     }
     file += "***Triangles***\n";
-    let parsed = parse(file.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{file}"));
-    let read = parsed.document.vertices.iter().flat_map(|vertex| vertex.position);
-    for (text, read) in texts.iter().zip(read) {
-        let expected = text.parse::<f32>().expect("the texts are numbers");
-        let expected = if expected.is_finite() { expected } else { 0.0 };
-        assert_eq!(
-            read.to_bits(),
-            expected.to_bits(),
-            "{text}: {read} instead of {expected}"
-        );
-    }
+    file
 }

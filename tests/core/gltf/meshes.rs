@@ -186,3 +186,27 @@ fn numbers_that_are_none_and_lists_that_do_not_fit_are_mended_and_told() {
     codes.sort_unstable();
     assert_eq!(codes, ["gltf-rule-broken", "gltf-rule-broken", "vertex-not-finite"]);
 }
+
+#[test]
+fn normals_stay_square_to_a_surface_that_is_stretched_or_mirrored() {
+    let normal = Vec3::new(1.0, 1.0, 0.0).normalize();
+    let corners = [Vec3::ZERO, Vec3::new(1.0, -1.0, 0.0), Vec3::Z];
+    for scale in [Vec3::new(2.0, 1.0, 1.0), Vec3::new(-2.0, 1.0, 3.0)] {
+        let nodes = json!([{ "mesh": 0, "scale": scale.to_array() }]);
+        let file = triangle(&json!({ "nodes": nodes }), |file| {
+            json!({
+                "POSITION": file.floats(&corners.map(|corner| corner.to_array())),
+                "NORMAL": file.floats(&[normal.to_array(); 3]),
+            })
+        });
+        for moved in read(&file).model.mesh.normals {
+            for axis in &corners[1..] {
+                assert!((scale * axis).dot(moved).abs() < 1e-6, "{scale}");
+            }
+            assert!(
+                moved.dot(scale * normal) > 0.0,
+                "it points to the side to which it pointed: {scale}"
+            );
+        }
+    }
+}

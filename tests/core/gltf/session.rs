@@ -1,6 +1,6 @@
 //! glTF in a session: drops of several files, pictures, names, and a model without a clip.
 
-use bindpose::model::{JointIndex, MapSlot};
+use bindpose::model::{AlphaMode, JointIndex, MapSlot, Material, Reflectance};
 use bindpose::scene::ViewPreset;
 use bindpose::session::{
     CameraCommand, File, FileCommand, FileFormat, FileSet, HistoryCommand, MaterialCommand, Session,
@@ -239,4 +239,53 @@ fn both_sides_of_all_are_drawn_and_that_is_taken_back() {
     let revision = session.materials_revision();
     session.apply(MaterialCommand::DrawBothSides(false));
     assert_eq!(session.materials_revision(), revision, "nothing changes");
+}
+
+#[test]
+fn an_edit_brings_over_what_gltf_has_and_light_above_one_stays() {
+    let shining = json!({
+        "pbrMetallicRoughness": { "metallicFactor": 0.5, "roughnessFactor": 0.5 },
+        "emissiveFactor": [1, 0, 0],
+        "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 5 } },
+    });
+    let file = triangle(
+        &json!({ "materials": [shining], "meshes": [{ "primitives": [{ "material": 0 }] }] }),
+        |_| json!({}),
+    );
+    let mut session = opened(vec![File::new("a.glb", file.glb())]);
+    let of_file = session.materials()[0].clone();
+    assert_eq!(of_file.emissive, [5.0, 0.0, 0.0]);
+    let mut edited = |material: Material| {
+        session.apply(MaterialCommand::Reset(0));
+        let material = Box::new(material);
+        session.apply(MaterialCommand::Edit { index: 0, material });
+        session.materials()[0].clone()
+    };
+    let metallic = |metallic| Reflectance::MetallicRoughness {
+        metallic,
+        roughness: 0.25,
+    };
+    let wanted = Material {
+        reflectance: metallic(2.0),
+        opacity: 0.5,
+        alpha: AlphaMode::Blend,
+        double_sided: !of_file.double_sided,
+        unlit: true,
+        emissive: [5.0, 7.0, 0.5],
+        normal_scale: -2.0,
+        occlusion_strength: f32::NAN,
+        ..of_file.clone()
+    };
+    let expected = Material {
+        reflectance: metallic(1.0),
+        emissive: [5.0, 1.0, 0.5],
+        occlusion_strength: 1.0,
+        ..wanted.clone()
+    };
+    assert_eq!(edited(wanted), expected);
+    let endless = Material {
+        alpha: AlphaMode::Mask { cutoff: f32::NAN },
+        ..of_file.clone()
+    };
+    assert_eq!(edited(endless), of_file);
 }

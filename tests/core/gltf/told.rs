@@ -2,6 +2,7 @@
 
 use bindpose::diagnostic::{Diagnostic, Severity};
 use bindpose::import::Imported;
+use bindpose::import::import;
 use bindpose::model::AlphaMode;
 use glam::{Quat, Vec4};
 use serde_json::{Value, json};
@@ -506,6 +507,52 @@ fn what_is_packed_is_refused_with_the_tool_that_unpacks_it() {
             )),
             "{}",
             told.message
+        );
+    }
+}
+
+#[test]
+fn a_broken_index_is_told_with_what_it_belongs_to() {
+    let view = json!({ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3" });
+    let beyond = json!({ "bufferView": 9, "componentType": 5126, "count": 3, "type": "VEC3" });
+    let primitive = |accessor: usize| json!({ "attributes": { "POSITION": accessor } });
+    for (pointer, value, expected) in [
+        (
+            "accessors",
+            json!([view, view, view, view, beyond]),
+            "Accessor 4 names buffer view 9, but",
+        ),
+        ("scenes", json!([{ "nodes": [0, 7] }]), "Scene 0 names node 7, but"),
+        (
+            "meshes",
+            json!([
+                { "primitives": [primitive(0)] },
+                { "primitives": [primitive(0)] },
+                { "primitives": [primitive(0), primitive(0), primitive(0), primitive(9)] },
+            ]),
+            "Primitive 3 of mesh 2 names accessor 9, but",
+        ),
+        ("scene", json!(7), "The file names scene 7, but"),
+    ] {
+        let mut file = triangle(&json!({ "nodes": [{ "mesh": 0 }] }), |_| json!({}));
+        file.json[pointer] = value;
+        if pointer == "meshes" {
+            file.json["nodes"][0]["mesh"] = json!(2);
+        }
+        if pointer == "accessors" {
+            file.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(4);
+        }
+        let messages: Vec<String> = match import(&file.glb()) {
+            Ok(imported) => imported
+                .diagnostics
+                .into_iter()
+                .map(|finding| finding.message)
+                .collect(),
+            Err(refused) => vec![refused.error.message],
+        };
+        assert!(
+            messages.iter().any(|message| message.starts_with(expected)),
+            "{messages:?}"
         );
     }
 }

@@ -22,7 +22,7 @@ pub(super) struct Import {
     pub(super) public: bool,
 }
 
-/// What one file names, outside `#[cfg(test)]`.
+/// What one file names.
 #[derive(Default)]
 pub(super) struct Source {
     pub(super) imports: Vec<Import>,
@@ -38,12 +38,6 @@ impl Source {
         let text_at = |index: usize| tokens.get(index).map_or("", |token| token.text.as_str());
         while at < tokens.len() {
             match text_at(at) {
-                "#" if (1..=6)
-                    .map(|step| text_at(at + step))
-                    .eq(["[", "cfg", "(", "test", ")", "]"]) =>
-                {
-                    at = end_of_item(&tokens, at + 7);
-                }
                 "pub" => {
                     public = true;
                     at += 1;
@@ -135,18 +129,6 @@ fn after_group(tokens: &[Token], mut at: usize) -> usize {
         at += 1;
         if depth == 0 {
             return at;
-        }
-    }
-}
-
-/// Index behind the item, with its other attributes, that begins at `at`: behind its `;` or its braces.
-fn end_of_item(tokens: &[Token], mut at: usize) -> usize {
-    loop {
-        match tokens[at].text.as_str() {
-            ";" => return at + 1,
-            "{" => return after_group(tokens, at),
-            "(" | "[" => at = after_group(tokens, at),
-            _ => at += 1,
         }
     }
 }

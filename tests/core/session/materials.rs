@@ -1,8 +1,8 @@
 //! Materials edited while one looks on.
 
 use bindpose::format;
-use bindpose::model::{Material, Reflectance};
-use bindpose::session::{File, FileCommand, MaterialCommand, Session};
+use bindpose::model::{AlphaMode, Material, Reflectance};
+use bindpose::session::{File, FileCommand, MAX_SPEC_POWER, MaterialCommand, Session};
 
 use super::models::{self, document};
 use super::opened;
@@ -134,4 +134,73 @@ fn another_model_comes_with_its_own() {
     assert_eq!(session.materials(), session.open_model().expect("open").model.materials);
     assert!(session.materials_revision() > revision && !session.is_edited(2));
     assert!(Session::new(false).materials().is_empty());
+}
+
+fn phong(ambient: f32, spec_power: f32) -> Reflectance {
+    Reflectance::Phong {
+        ambient: [ambient; 3],
+        specular: [0.2; 3],
+        spec_power,
+        reflectivity: [0.0; 3],
+    }
+}
+
+/// The first material of a file of the D3D11 book, drawn so, after an edit.
+fn phong_edited(of_file: &Reflectance, change: impl FnOnce(&mut Material)) -> [Material; 2] {
+    let Reflectance::Phong {
+        ambient, spec_power, ..
+    } = *of_file
+    else {
+        panic!("of that book")
+    };
+    let mut document = document();
+    for material in &mut document.materials {
+        material.reflectance = format::Reflectance::Phong {
+            ambient,
+            specular: [0.2; 3],
+            spec_power,
+            reflectivity: [0.0; 3],
+        };
+    }
+    let mut session = opened(models::file("a.m3d", &document));
+    let before = session.materials()[0].clone();
+    edit(&mut session, 0, change);
+    [before, session.materials()[0].clone()]
+}
+
+#[test]
+fn values_come_over_in_their_range_and_names_and_the_book_stay() {
+    const CUT: AlphaMode = AlphaMode::Mask { cutoff: 0.1 };
+    let [before, after] = phong_edited(&phong(0.1, 16.0), |material| {
+        material.name = "other".to_owned();
+        material.diffuse = [f32::NAN, -3.0, 7.0];
+        material.alpha = CUT;
+        material.diffuse_map = Some("other.dds".into());
+        material.reflectance = phong(0.25, 1e9);
+    });
+    let expected = Material {
+        diffuse: [before.diffuse[0], 0.0, 1.0],
+        alpha: CUT,
+        reflectance: phong(0.25, MAX_SPEC_POWER),
+        ..before
+    };
+    assert_eq!(after, expected);
+
+    let [before, after] = phong_edited(&phong(0.1, 16.0), |material| {
+        material.reflectance = Reflectance::Fresnel {
+            fresnel0: [0.1; 3],
+            roughness: 0.1,
+        };
+    });
+    assert_eq!(after, before, "values of the other book");
+}
+
+#[test]
+fn a_number_that_the_file_has_out_of_its_range_stays_while_another_is_edited() {
+    for (ambient, spec_power, expected) in [(3.0, 32.0, phong(3.0, 32.0)), (2.9, 16.0, phong(1.0, 16.0))] {
+        let [_, after] = phong_edited(&phong(3.0, 16.0), |material| {
+            material.reflectance = phong(ambient, spec_power);
+        });
+        assert_eq!(after.reflectance, expected);
+    }
 }

@@ -1,15 +1,13 @@
-//! What a frame takes, computed from the sizes and the taps of its passes: the table in PERFORMANCE.md. `BLESS=1 cargo test --lib
-//! performance` writes it anew.
+//! What a frame takes, computed from the sizes and the taps of its passes: the table in PERFORMANCE.md. `BLESS=1 cargo test --test gpu
+//! performance` writes it anew. This needs no GPU.
 
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::light_fit::CONTACT_MAP_SIZE;
-use super::light_maps::{CONTACT_BLURS, half, occlusion_blurs};
-use super::uniforms::SHADOW_TAPS;
-use super::{RendererOptions, SampleCount};
-use crate::scene::Light;
-use crate::shaders::{self, JOINTS_PER_ROW, Program};
+use bindpose::render::for_tests::{CONTACT_BLURS, CONTACT_MAP_SIZE, SHADOW_TAPS, half, occlusion_blurs};
+use bindpose::render::{RendererOptions, SampleCount};
+use bindpose::scene::Light;
+use bindpose::shaders::{self, JOINTS_PER_ROW, Program};
 
 /// Parts of the picture that the model covers, and in which the ground is seen beside it.
 const MODEL: f64 = 0.25;
