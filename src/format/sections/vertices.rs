@@ -1,7 +1,8 @@
 //! Vertices: `Position`, `Tangent`, `Normal`, `Tex-Coords` and, with bones, `BlendWeights` and `BlendIndices`.
 
+use crate::diagnostic::Fault;
 use crate::format::document::Vertex;
-use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
+use crate::format::error::Value;
 use crate::format::kind::DiagnosticKind;
 use crate::format::label::{Section, is_ruler, same, same_as_any};
 use crate::format::quick;
@@ -26,7 +27,7 @@ pub(in crate::format) struct Vertices {
     pub(in crate::format) short_labels: bool,
 }
 
-pub(in crate::format) fn vertices(reader: &mut Reader<'_>, count: u32, bones: u32) -> Result<Vertices, ParseError> {
+pub(in crate::format) fn vertices(reader: &mut Reader<'_>, count: u32, bones: u32) -> Result<Vertices, Fault> {
     /// Four labels of a letter, twelve digits, blanks and line ends.
     const SMALLEST: usize = 32;
     reader.begin_rows(Section::Vertices)?;
@@ -76,7 +77,7 @@ fn is_field(reader: &Reader<'_>, field: usize) -> bool {
 }
 
 /// Reads a vertex of any layout. Also gives the lines of its fields; without bones the last two are those that would follow.
-fn vertex(reader: &mut Reader<'_>, row: u32, count: u32, bones: u32) -> Result<(Vertex, [u32; 6]), ParseError> {
+fn vertex(reader: &mut Reader<'_>, row: u32, count: u32, bones: u32) -> Result<(Vertex, [u32; 6]), Fault> {
     pass_blend_data(reader, row, bones);
     let mut lines = [0; 6];
     lines[0] = field(reader, 0, row, count)?;
@@ -109,7 +110,7 @@ fn vertex(reader: &mut Reader<'_>, row: u32, count: u32, bones: u32) -> Result<(
 }
 
 /// Passes the label of a field, and unknown lines before it. Gives the label's line.
-fn field(reader: &mut Reader<'_>, field: usize, row: u32, count: u32) -> Result<u32, ParseError> {
+fn field(reader: &mut Reader<'_>, field: usize, row: u32, count: u32) -> Result<u32, Fault> {
     let (expected, names) = FIELDS[field];
     loop {
         let Some((label, behind)) = reader.peek_label() else {
@@ -138,7 +139,7 @@ fn field(reader: &mut Reader<'_>, field: usize, row: u32, count: u32) -> Result<
 }
 
 /// A bone index. One that names no bone is forgiven when it has no weight.
-fn blend_index(reader: &mut Reader<'_>, weight: f32, bones: u32) -> Result<u32, ParseError> {
+fn blend_index(reader: &mut Reader<'_>, weight: f32, bones: u32) -> Result<u32, Fault> {
     let token = reader.value_token(Value::BlendIndex)?;
     let largest = i64::from(bones) - 1;
     let unused = weight == 0.0
@@ -150,19 +151,8 @@ fn blend_index(reader: &mut Reader<'_>, weight: f32, bones: u32) -> Result<u32, 
         reader.note(token, DiagnosticKind::BlendIndexUnused);
         return Ok(0);
     }
-    match reader.whole_of(token, Value::BlendIndex, 0, largest) {
-        Ok(index) => Ok(u32::try_from(index).unwrap_or(0)),
-        Err(ParseError { position, length, .. }) => {
-            let found = quoted(token.text);
-            let kind = ParseErrorKind::NotInRange {
-                value: Value::BlendIndex,
-                smallest: 0,
-                largest,
-                found,
-            };
-            Err(ParseError { position, length, kind })
-        }
-    }
+    let index = reader.whole_of(token, Value::BlendIndex, 0, largest)?;
+    Ok(u32::try_from(index).unwrap_or(0))
 }
 
 /// Without bones, passes the blend data behind a vertex that has been read.

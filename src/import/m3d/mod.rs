@@ -22,7 +22,7 @@ pub(super) use crate::format::begins_like_model;
 
 pub(super) fn import(bytes: &[u8]) -> Result<Imported, Box<Refused>> {
     let refused = |error, diagnostics| Box::new(Refused { error, diagnostics });
-    let parsed = format::parse(bytes).map_err(|error| refused(error.diagnostic(), Vec::new()))?;
+    let parsed = format::parse(bytes).map_err(|fault| refused(*fault, Vec::new()))?;
     let (model, mut diagnostics) = from_parsed(&parsed).map_err(|fault| refused(*fault, parsed.diagnostics.clone()))?;
     diagnostics.sort_by_key(|diagnostic| diagnostic.position);
     Ok(Imported {
