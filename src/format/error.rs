@@ -3,28 +3,18 @@
 use crate::diagnostic::{Diagnostic, codes};
 
 /// What a number in the file stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug)]
 pub(super) enum Value {
     /// A count of the header, by its name there.
     Count(&'static str),
-    /// A number of a material line, by its label.
-    Material(&'static str),
-    /// A number of the subset table, by its label.
+    /// A whole number of the subset table, by its label.
     Subset(&'static str),
-    /// A number of a vertex, by its label.
-    Vertex(&'static str),
-    /// One of `BlendIndices`.
+    /// One of the numbers of a row, by its label.
+    Number(&'static str),
     BlendIndex,
-    /// A corner of a triangle.
     VertexIndex,
-    /// One of the sixteen numbers of a bone offset.
-    BoneOffset,
-    /// The parent of a bone.
     Parent,
-    /// `#Keyframes`.
     KeyframeCount,
-    /// A number of a key, by its label.
-    Keyframe(&'static str),
 }
 
 impl Value {
@@ -33,10 +23,9 @@ impl Value {
         match self {
             Self::Count(name) => format!("The header's count of {name}"),
             Self::Subset(label) => label.into(),
-            Self::Material(label) | Self::Vertex(label) | Self::Keyframe(label) => format!("A value of {label}"),
+            Self::Number(label) => format!("A value of {label}"),
             Self::BlendIndex => "A blend index".into(),
             Self::VertexIndex => "A vertex index".into(),
-            Self::BoneOffset => "A value of a bone offset".into(),
             Self::Parent => "A parent index".into(),
             Self::KeyframeCount => "The number of keyframes".into(),
         }
@@ -45,11 +34,7 @@ impl Value {
     /// What it is a part of, to be said behind what was expected.
     fn owner(self) -> String {
         match self {
-            Self::Material(label) | Self::Subset(label) | Self::Vertex(label) | Self::Keyframe(label) => {
-                format!(" of {label}")
-            }
-            Self::BoneOffset => " of a bone offset".into(),
-            Self::Count(name) => format!(" of {name}"),
+            Self::Count(name) | Self::Subset(name) | Self::Number(name) => format!(" of {name}"),
             Self::BlendIndex | Self::VertexIndex | Self::Parent | Self::KeyframeCount => String::new(),
         }
     }
@@ -58,8 +43,8 @@ impl Value {
     pub(super) fn expected(self) -> &'static str {
         match self {
             Self::Count(_) => "a count",
-            Self::Material(_) | Self::Vertex(_) | Self::BoneOffset | Self::Keyframe(_) => "a number",
             Self::Subset(_) => "a whole number",
+            Self::Number(_) => "a number",
             Self::BlendIndex => "a bone index",
             Self::VertexIndex => "a vertex index",
             Self::Parent => "a parent index",

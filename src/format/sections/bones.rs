@@ -83,7 +83,10 @@ fn offset(reader: &mut Reader<'_>, bone: u32) -> Result<[f32; 16], Fault> {
             .iter()
             .all(|&byte| byte.is_ascii_alphabetic() || b":=_#".contains(&byte));
         if !letters {
-            return Err(Reader::error_at(word, Value::BoneOffset.not_a_number(word.text)));
+            return Err(Reader::error_at(
+                word,
+                Value::Number("a bone offset").not_a_number(word.text),
+            ));
         }
         reader.cursor.token();
         reader.note(word, DiagnosticKind::BoneOffsetLabel);
@@ -96,7 +99,7 @@ fn offset(reader: &mut Reader<'_>, bone: u32) -> Result<[f32; 16], Fault> {
         reader.cursor.token();
         reader.note(number, DiagnosticKind::BoneOffsetLabel);
     }
-    Ok(reader.numbers(Value::BoneOffset, 16, [0.0; 16])?.0)
+    Ok(reader.numbers(Value::Number("a bone offset"), 16, [0.0; 16])?.0)
 }
 
 /// How many numbers come next, up to 18.

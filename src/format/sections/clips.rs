@@ -200,7 +200,7 @@ fn field<const N: usize>(reader: &mut Reader<'_>, field: usize, defaults: [f32; 
     let (label, names) = FIELDS[field];
     reader.label(label, names)?;
     reader
-        .numbers(Value::Keyframe(label), N, defaults)
+        .numbers(Value::Number(label), N, defaults)
         .map(|(numbers, _)| numbers)
 }
 

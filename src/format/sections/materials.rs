@@ -294,7 +294,7 @@ fn numbers<const N: usize>(
     defaults: [f32; N],
 ) -> Result<[f32; N], Fault> {
     let Some(value) = value else { return Ok(defaults) };
-    let what = Value::Material(line.label());
+    let what = Value::Number(line.label());
     let mut numbers = defaults;
     let mut words = words(value);
     for number in &mut numbers {

@@ -82,24 +82,24 @@ fn vertex(reader: &mut Reader<'_>, row: u32, count: u32, bones: u32) -> Result<(
     let mut lines = [0; 6];
     lines[0] = field(reader, 0, row, count)?;
     let mut vertex = Vertex {
-        position: reader.numbers(Value::Vertex("Position"), 3, [0.0; 3])?.0,
+        position: reader.numbers(Value::Number("Position"), 3, [0.0; 3])?.0,
         ..Vertex::default()
     };
     lines[1] = field(reader, 1, row, count)?;
     let place = reader.cursor.position();
-    let (tangent, given) = reader.numbers(Value::Vertex("Tangent"), 3, [0.0, 0.0, 0.0, 1.0])?;
+    let (tangent, given) = reader.numbers(Value::Number("Tangent"), 3, [0.0, 0.0, 0.0, 1.0])?;
     if given < 4 {
         reader.kinds.add(DiagnosticKind::TangentSignMissing, place, 0);
     }
     vertex.tangent = tangent;
     lines[2] = field(reader, 2, row, count)?;
-    vertex.normal = reader.numbers(Value::Vertex("Normal"), 3, [0.0; 3])?.0;
+    vertex.normal = reader.numbers(Value::Number("Normal"), 3, [0.0; 3])?.0;
     lines[3] = field(reader, 3, row, count)?;
-    vertex.tex_coords = reader.numbers(Value::Vertex("Tex-Coords"), 2, [0.0; 2])?.0;
+    vertex.tex_coords = reader.numbers(Value::Number("Tex-Coords"), 2, [0.0; 2])?.0;
     [lines[4], lines[5]] = [1, 2].map(|more| lines[3].saturating_add(more));
     if bones > 0 {
         lines[4] = field(reader, 4, row, count)?;
-        vertex.blend_weights = reader.numbers(Value::Vertex("BlendWeights"), 4, [0.0; 4])?.0;
+        vertex.blend_weights = reader.numbers(Value::Number("BlendWeights"), 4, [0.0; 4])?.0;
         lines[5] = field(reader, 5, row, count)?;
         for (index, weight) in vertex.blend_indices.iter_mut().zip(vertex.blend_weights) {
             *index = blend_index(reader, weight, bones)?;
