@@ -146,7 +146,7 @@ impl Failure {
                 match self {
                     Self::Overflows { .. }
                     | Self::Edit {
-                        error: EditError::Overflows { .. } | EditError::TooLarge { .. },
+                        error: EditError::Overflows(_) | EditError::TooLarge(_),
                         ..
                     } => Outcome::FileHasErrors,
                     _ => Outcome::Failed,

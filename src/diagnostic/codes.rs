@@ -805,7 +805,7 @@ table! {
             "Leave the key out, or give it numbers and a quaternion of length 1.";
     }
 
-    /// What reading a picture gives ([`ImageError`](crate::image::ImageError)). A model shows without its maps.
+    /// What reading a picture gives ([`image::decode`](crate::image::decode)). A model shows without its maps.
     OF_IMAGES {
         IMAGE_EMPTY = "image-empty", Warning,
             "The picture's file is empty.",

@@ -114,6 +114,9 @@ impl Moment {
     }
 }
 
+/// What stops a stage. It is boxed, so that results stay small.
+pub type Fault = Box<Diagnostic>;
+
 /// One thing that is worth telling about a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
@@ -178,6 +181,50 @@ impl Diagnostic {
         }
     }
 
+    /// The same at a place; `length` bytes from there on are meant.
+    #[must_use]
+    pub(crate) fn at(self, position: Position, length: u32) -> Self {
+        Self {
+            position: Some(position),
+            places: vec![position],
+            length,
+            ..self
+        }
+    }
+
+    /// The same at the start of a line, where there is one.
+    #[must_use]
+    pub(crate) fn on_line(self, line: Option<u32>) -> Self {
+        match line {
+            Some(line) => self.at(Position { line, column: 1 }, 0),
+            None => self,
+        }
+    }
+
+    #[must_use]
+    pub(crate) fn about(self, subject: Subject) -> Self {
+        Self {
+            subject: Some(subject),
+            ..self
+        }
+    }
+
+    #[must_use]
+    pub(crate) fn expected(self, expected: impl Into<String>) -> Self {
+        Self {
+            expected: Some(expected.into()),
+            ..self
+        }
+    }
+
+    #[must_use]
+    pub(crate) fn found(self, found: impl Into<String>) -> Self {
+        Self {
+            found: Some(found.into()),
+            ..self
+        }
+    }
+
     /// When and on which bone the first occurrence is, as far as that is known.
     pub fn moment(&self) -> Moment {
         self.moments.first().copied().unwrap_or_default()
@@ -199,6 +246,17 @@ impl Diagnostic {
         })
     }
 }
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(position) = self.position {
+            write!(f, "{position}: ")?;
+        }
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Diagnostic {}
 
 /// One kind of diagnostic: a row of the table [`codes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -23,15 +23,13 @@ pub(super) fn close_loops(edited: &mut Edited, secs: f32) -> Result<(), EditErro
             continue;
         }
         if too_short(secs) {
-            return Err(EditError::LoopTooShort {
-                clip: clip.name.clone(),
-                duration_secs,
-                secs,
-            });
+            return Err(EditError::Refused(format!(
+                "\"{}\" is {duration_secs} s long; its end cannot be eased over {secs} s.",
+                clip.name
+            )));
         }
-        let (closed, joints) = close(clip, secs).ok_or_else(|| EditError::Overflows {
-            what: format!("\"{}\" has keys that are too far apart.", clip.name),
-        })?;
+        let (closed, joints) = close(clip, secs)
+            .ok_or_else(|| EditError::Overflows(format!("\"{}\" has keys that are too far apart.", clip.name)))?;
         *clip = closed;
         if joints > 0 {
             let bones = counted(joints, "bone", "bones");

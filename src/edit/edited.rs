@@ -19,6 +19,11 @@ impl Change {
             message: message.into(),
         }
     }
+
+    /// A change of so many parts, unless it is none: what one of them or several do, and what that means.
+    pub(crate) fn counted(code: &'static str, count: usize, [one, many]: [&str; 2], rest: &str) -> Option<Self> {
+        (count > 0).then(|| Self::new(code, format!("{} {rest}", counted(count, one, many))))
+    }
 }
 
 /// A changed model.

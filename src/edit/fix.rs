@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3, Vec4};
 
-use super::edited::{Change, Edited, counted, with_tracks};
+use super::edited::{Change, Edited, with_tracks};
 use crate::check::{flat_triangles, is_still, repeated_triangles, surplus_keys, tangents_against, used_vertices};
 use crate::diagnostic::{Code, codes};
 use crate::model::{Clip, Influences, Mesh, Track};
@@ -11,39 +11,31 @@ use crate::model::{Clip, Influences, Mesh, Track};
 /// round that contradict the texture coordinates; leaves one key to bones that keep still.
 pub(super) fn fix(edited: &mut Edited) {
     let model = &mut edited.model;
-    let mut mended = |code: &Code, count: usize, message: String| {
-        if count > 0 {
-            edited.changes.push(Change::new(code.name, message));
-        }
+    let mut mended = |code: &Code, count: usize, words: [&str; 2], rest: &str| {
+        edited.changes.extend(Change::counted(code.name, count, words, rest));
     };
     let flat: Vec<u32> = flat_triangles(&model.mesh).collect();
     leave_triangles_out(&mut model.mesh, &flat);
     mended(
         &codes::TRIANGLES_WITHOUT_AREA,
         flat.len(),
-        format!(
-            "{} left out that had no area.",
-            counted(flat.len(), "triangle is", "triangles are")
-        ),
+        ["triangle is", "triangles are"],
+        "left out that had no area.",
     );
     let repeated = repeated(&model.mesh);
     leave_triangles_out(&mut model.mesh, &repeated);
     mended(
         &codes::TRIANGLES_REPEATED,
         repeated.len(),
-        format!(
-            "{} left out that lay on another one of the same vertices.",
-            counted(repeated.len(), "triangle is", "triangles are")
-        ),
+        ["triangle is", "triangles are"],
+        "left out that lay on another one of the same vertices.",
     );
     let unused = leave_unused_vertices_out(&mut model.mesh);
     mended(
         &codes::VERTICES_UNUSED,
         unused,
-        format!(
-            "{} left out that no triangle used.",
-            counted(unused, "vertex is", "vertices are")
-        ),
+        ["vertex is", "vertices are"],
+        "left out that no triangle used.",
     );
     let against: Vec<u32> = tangents_against(model).collect();
     for &vertex in &against {
@@ -52,10 +44,8 @@ pub(super) fn fix(edited: &mut Edited) {
     mended(
         &codes::TANGENT_SIGN_AGAINST_UV,
         against.len(),
-        format!(
-            "{} another sign, as the texture coordinates ask for.",
-            counted(against.len(), "tangent has", "tangents have")
-        ),
+        ["tangent has", "tangents have"],
+        "another sign, as the texture coordinates ask for.",
     );
     for clip in &mut model.clips {
         if surplus_keys(clip).is_some() {
@@ -65,11 +55,8 @@ pub(super) fn fix(edited: &mut Edited) {
             mended(
                 &codes::KEYS_ALL_EQUAL,
                 left_out,
-                format!(
-                    "{} left out of \"{}\", of bones that keep still.",
-                    counted(left_out, "key is", "keys are"),
-                    clip.name
-                ),
+                ["key is", "keys are"],
+                &format!("left out of \"{}\", of bones that keep still.", clip.name),
             );
         }
     }

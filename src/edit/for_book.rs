@@ -7,11 +7,9 @@ use super::error::EditError;
 use super::space;
 use crate::anim::{CompiledClip, PoseBuffers, skin_positions, straight};
 use crate::check::book::{DEMO_CLIP, DEMO_MATERIALS, DEMO_SCALE, MOST_BONES, MOST_VERTICES, SEEN_HEIGHTS};
-use crate::diagnostic::codes;
 use crate::diagnostic::collect::{few, quoted};
-use crate::model::{
-    Aabb, Clip, Influences, JointIndex, JointNames, LocalJoint, Model, ModelError, Skeleton, Track, unique_words,
-};
+use crate::diagnostic::{Code, Fault, codes};
+use crate::model::{Aabb, Clip, Influences, JointIndex, JointNames, LocalJoint, Model, Skeleton, Track, unique_words};
 
 /// So many nodes that keep still stand above an armature at most: it, and what it was put into. More are not folded, since each takes a pass
 /// over the model.
@@ -19,8 +17,8 @@ const MOST_FOLDED: usize = 8;
 
 const SOLDIER_HEIGHT: f32 = 72.0;
 
-/// What no edit makes small enough for the books' demo: [`EditError::TooManyVertices`] and [`EditError::TooManyBones`], where they hold.
-pub fn too_large_for_book(model: &Model) -> Vec<EditError> {
+/// What no edit makes small enough for the books' demo: too many bones or vertices, each with its code and a sentence.
+pub fn too_large_for_book(model: &Model) -> Vec<(&'static Code, String)> {
     if !(1..=MOST_FOLDED).contains(&bone_count(model).saturating_sub(MOST_BONES)) {
         return too_large(model);
     }
@@ -37,24 +35,29 @@ pub(super) fn check_size(edited: &mut Edited) -> Result<(), EditError> {
     fold_still_roots(edited)?;
     let why = too_large(&edited.model);
     if why.is_empty() {
-        Ok(())
-    } else {
-        Err(EditError::TooLarge { why })
+        return Ok(());
     }
+    let sentences: Vec<String> = why.into_iter().map(|(_, sentence)| sentence).collect();
+    Err(EditError::TooLarge(sentences.join(" ")))
 }
 
-fn too_large(model: &Model) -> Vec<EditError> {
+fn too_large(model: &Model) -> Vec<(&'static Code, String)> {
     let (bones, vertices) = (bone_count(model), model.mesh.vertex_count());
-    let of_bones = (bones > MOST_BONES).then_some(EditError::TooManyBones {
-        bones,
-        added: needs_root(model),
-        most: MOST_BONES,
-    });
-    let of_vertices = (vertices > MOST_VERTICES).then_some(EditError::TooManyVertices {
-        vertices,
-        most: MOST_VERTICES,
-    });
-    of_bones.into_iter().chain(of_vertices).collect()
+    let mut why = Vec::new();
+    if bones > MOST_BONES {
+        let with_root = if needs_root(model) {
+            " with the root that all hang from"
+        } else {
+            ""
+        };
+        let sentence = format!("The model has {bones} bones{with_root}; the books' demo has room for {MOST_BONES}.");
+        why.push((&codes::MANY_BONES, sentence));
+    }
+    if vertices > MOST_VERTICES {
+        let sentence = format!("The model has {vertices} vertices; the books' demo can number {MOST_VERTICES}.");
+        why.push((&codes::MANY_VERTICES, sentence));
+    }
+    why
 }
 
 /// How many bones it has for the demo, with the root that it may lack.
@@ -62,7 +65,7 @@ fn bone_count(model: &Model) -> usize {
     model.skeleton.joint_count() + usize::from(needs_root(model))
 }
 
-fn fold_still_roots(edited: &mut Edited) -> Result<(), ModelError> {
+fn fold_still_roots(edited: &mut Edited) -> Result<(), Fault> {
     let excess = bone_count(&edited.model).saturating_sub(MOST_BONES);
     if excess > MOST_FOLDED {
         return Ok(());
@@ -100,7 +103,7 @@ fn still_root(model: &Model) -> Option<usize> {
 }
 
 /// Takes a root out; its only child does what it did.
-fn fold(edited: &mut Edited, root: usize) -> Result<(), ModelError> {
+fn fold(edited: &mut Edited, root: usize) -> Result<(), Fault> {
     let model = &mut edited.model;
     let old = &model.skeleton;
     let (bone, still) = (old.file_bones()[root], old.rest()[root]);
@@ -220,7 +223,7 @@ fn is_free(influences: &Influences) -> bool {
 }
 
 /// Hangs all roots from a bone 0 that keeps still, and gives it the vertices that nothing moves.
-fn add_root(edited: &mut Edited) -> Result<(), ModelError> {
+fn add_root(edited: &mut Edited) -> Result<(), Fault> {
     let model = &mut edited.model;
     let old = &model.skeleton;
     let roots = old.parents().iter().filter(|parent| parent.is_none()).count();
@@ -275,7 +278,7 @@ fn add_root(edited: &mut Edited) -> Result<(), ModelError> {
 }
 
 /// Numbers the bones with parents first, where they are not.
-fn order_bones(edited: &mut Edited) -> Result<(), ModelError> {
+fn order_bones(edited: &mut Edited) -> Result<(), Fault> {
     let old = &edited.model.skeleton;
     let bones = old.file_bones();
     let is_before = |(joint, parent): (usize, &Option<JointIndex>)| {
@@ -313,7 +316,7 @@ fn renumbered(names: &JointNames, new: impl Fn(u32) -> Option<u32>) -> JointName
 }
 
 /// A model without clips gets one that keeps still.
-fn add_clip(edited: &mut Edited) -> Result<(), ModelError> {
+fn add_clip(edited: &mut Edited) -> Result<(), Fault> {
     let model = &mut edited.model;
     if model.clips.is_empty() {
         let still = model.skeleton.rest().iter().map(|&rest| Track::new([(0.0, rest)]));

@@ -5,7 +5,8 @@ use glam::Vec4;
 use super::edited::{Change, Edited, with_tracks};
 use super::error::EditError;
 use crate::anim::straight;
-use crate::model::{Clip, Curve, CurveValue, Curves, ModelError, Track};
+use crate::diagnostic::Fault;
+use crate::model::{Clip, Curve, CurveValue, Curves, Track};
 
 /// A quaternion is of unit length within this: what rounding leaves.
 const UNIT_TOLERANCE: f32 = 1e-5;
@@ -13,19 +14,17 @@ const UNIT_TOLERANCE: f32 = 1e-5;
 /// Cuts the only clip to a range of its own time. What is left begins at 0 s, so that no player waits for it.
 pub(super) fn cut(edited: &mut Edited, range_secs: [f32; 2]) -> Result<(), EditError> {
     let [clip] = &mut edited.model.clips[..] else {
-        return Err(EditError::RangeNeedsOneClip {
-            clips: edited.model.clips.len(),
-        });
+        let count = edited.model.clips.len();
+        return Err(EditError::Refused(format!(
+            "A range is of one clip, and there are {count}; choose one."
+        )));
     };
     let [from, to] = range_secs;
     if !(clip.start_secs <= from && from < to && to <= clip.end_secs) {
-        return Err(EditError::RangeOutside {
-            clip: clip.name.clone(),
-            from,
-            to,
-            start_secs: clip.start_secs,
-            end_secs: clip.end_secs,
-        });
+        return Err(EditError::Refused(format!(
+            "The range from {from} s to {to} s is not inside \"{}\", which goes from {} s to {} s.",
+            clip.name, clip.start_secs, clip.end_secs
+        )));
     }
     if from == clip.start_secs && to == clip.end_secs {
         return Ok(());
@@ -39,7 +38,7 @@ pub(super) fn cut(edited: &mut Edited, range_secs: [f32; 2]) -> Result<(), EditE
     Ok(())
 }
 
-fn part(clip: &Clip, range_secs: [f32; 2]) -> Result<Clip, ModelError> {
+fn part(clip: &Clip, range_secs: [f32; 2]) -> Result<Clip, Fault> {
     let mut tracks = clip
         .tracks
         .iter()
@@ -56,7 +55,7 @@ fn part(clip: &Clip, range_secs: [f32; 2]) -> Result<Clip, ModelError> {
     Ok(with_tracks(clip, tracks))
 }
 
-fn part_of_track(track: &Track, range_secs: [f32; 2]) -> Result<Track, ModelError> {
+fn part_of_track(track: &Track, range_secs: [f32; 2]) -> Result<Track, Fault> {
     if !track.has_keys() {
         return Ok(track.clone());
     }
@@ -99,7 +98,7 @@ fn inside(times_secs: &[f32], [from, to]: [f32; 2]) -> std::ops::Range<usize> {
     first..times_secs.partition_point(|&secs| secs < to).max(first)
 }
 
-fn part_of_curve<T: CurveValue>(curve: &Curve<T>, range_secs: [f32; 2]) -> Result<Curve<T>, ModelError> {
+fn part_of_curve<T: CurveValue>(curve: &Curve<T>, range_secs: [f32; 2]) -> Result<Curve<T>, Fault> {
     let [from, to] = range_secs;
     let inner = inside(curve.times_secs(), range_secs).map(|key| curve.times_secs()[key]);
     let times_secs = [from].into_iter().chain(inner).chain([to]);

@@ -42,10 +42,9 @@ pub(super) struct Reducing {
 impl Reducing {
     pub(super) fn new(edited: &Edited, tolerance: f32) -> Result<Self, EditError> {
         if !(tolerance > 0.0 && tolerance <= MOST_TOLERANCE) {
-            return Err(EditError::Tolerance {
-                tolerance,
-                most: MOST_TOLERANCE,
-            });
+            return Err(EditError::Refused(format!(
+                "The tolerance of reduced keys cannot be {tolerance}: it is a part of the model's size, above 0 and at most {MOST_TOLERANCE}."
+            )));
         }
         let diagonal = diagonal(&edited.model);
         Ok(Self {

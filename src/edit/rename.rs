@@ -19,7 +19,9 @@ pub(super) fn rename_clips(edited: &mut Edited, names: &[(String, String)]) -> R
         let new: String = new.chars().filter(|letter| !letter.is_control()).collect();
         let new = new.trim();
         if new.is_empty() {
-            return Err(EditError::ClipName { name: String::new() });
+            return Err(EditError::Refused(
+                "A clip cannot be named \"\": that is no name.".into(),
+            ));
         }
         if clips[clip].name != new {
             new.clone_into(&mut clips[clip].name);
@@ -31,9 +33,10 @@ pub(super) fn rename_clips(edited: &mut Edited, names: &[(String, String)]) -> R
     }
     let mut taken = HashSet::new();
     match clips.iter().find(|clip| !taken.insert(clip.name.as_str())) {
-        Some(clip) if !names.is_empty() => Err(EditError::ClipName {
-            name: clip.name.clone(),
-        }),
+        Some(clip) if !names.is_empty() => Err(EditError::Refused(format!(
+            "A clip cannot be named \"{}\": another one is.",
+            clip.name
+        ))),
         _ => Ok(()),
     }
 }
@@ -43,10 +46,10 @@ pub(super) fn rename_bones(edited: &mut Edited, names: &[(u32, String)]) -> Resu
     let skeleton = &edited.model.skeleton;
     for (bone, name) in names {
         let Some(&joint) = skeleton.joint_of_bone().get(*bone as usize) else {
-            return Err(EditError::UnknownBone {
-                bone: *bone,
-                bone_count: skeleton.joint_count(),
-            });
+            let bone_count = skeleton.joint_count();
+            return Err(EditError::Refused(format!(
+                "There is no bone {bone}; there are {bone_count}."
+            )));
         };
         let before = edited.names.get(*bone).or(skeleton.name(joint)).map(str::to_owned);
         edited.names.set(*bone, name);

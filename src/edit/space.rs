@@ -8,7 +8,8 @@ use glam::{Affine3A, Mat3, Mat3A, Quat, Vec3, Vec3A, Vec4};
 
 use super::edited::{Change, Edited, with_tracks};
 use super::error::EditError;
-use crate::model::{Front, Handedness, JointIndex, LocalJoint, Model, ModelError, Skeleton, UpAxis, world_from_model};
+use crate::diagnostic::Fault;
+use crate::model::{Front, Handedness, JointIndex, LocalJoint, Model, Skeleton, UpAxis, world_from_model};
 
 /// The space to come out with; `None` leaves what is.
 #[derive(Clone, Copy, Debug)]
@@ -84,10 +85,7 @@ fn winds_against(model: &Model) -> bool {
 
 pub(super) fn scale(edited: &mut Edited, factor: f32) -> Result<(), EditError> {
     if !(factor.is_finite() && factor > 0.0) {
-        return Err(EditError::Nonsense {
-            what: "The factor of a scale",
-            value: factor,
-        });
+        return Err(EditError::Refused(format!("The factor of a scale cannot be {factor}.")));
     }
     if factor == 1.0 {
         return Ok(());
@@ -139,7 +137,7 @@ impl Map {
                     |value| self.scale(value),
                 )
             });
-            *clip = with_tracks(clip, tracks.collect::<Result<_, ModelError>>()?);
+            *clip = with_tracks(clip, tracks.collect::<Result<_, Fault>>()?);
         }
         Ok(())
     }
@@ -148,8 +146,8 @@ impl Map {
         let joint_from_bind = skeleton.joint_from_bind().iter().map(|matrix| self.matrix(matrix));
         let rest: Vec<LocalJoint> = skeleton.rest().iter().map(|joint| self.joint(joint)).collect();
         if let Some(joint) = rest.iter().position(|joint| !joint.is_finite()) {
-            let what = format!("Bone {} is too far away at rest.", skeleton.file_bones()[joint]);
-            return Err(EditError::Overflows { what });
+            let bone = skeleton.file_bones()[joint];
+            return Err(EditError::Overflows(format!("Bone {bone} is too far away at rest.")));
         }
         let turned = Skeleton::new(
             skeleton.parents().to_vec(),

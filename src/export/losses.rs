@@ -13,4 +13,9 @@ impl Losses {
             self.0.push(Loss { code, message, count });
         }
     }
+
+    /// Adds a loss that so many parts meet: what one of them or several do, and what that means.
+    pub(super) fn count(&mut self, code: &'static str, count: usize, words: [&str; 2], rest: &str) {
+        self.0.extend(Loss::counted(code, count, words, rest));
+    }
 }

@@ -9,6 +9,7 @@ mod m3d;
 
 use std::collections::BTreeMap;
 
+use crate::diagnostic::collect::counted;
 use crate::image::Image;
 use crate::model::{MapSlot, Skeleton};
 
@@ -36,6 +37,14 @@ pub struct Loss {
     pub message: String,
     /// How many parts of the model it is about.
     pub count: usize,
+}
+
+impl Loss {
+    /// A loss that so many parts meet, unless none does: what one of them or several do, and what that means.
+    pub(crate) fn counted(code: &'static str, count: usize, [one, many]: [&str; 2], rest: &str) -> Option<Self> {
+        let message = format!("{} {rest}", counted(count, one, many));
+        (count > 0).then_some(Self { code, message, count })
+    }
 }
 
 /// Why no file was written.

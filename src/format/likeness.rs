@@ -1,73 +1,62 @@
 //! What a file is, by its beginning: whether it may be a model, and what it is instead, so that the message can say so.
 
-use std::fmt;
-
 use super::cursor::is_space;
 use super::label::{Section, is_ruler, same, whole};
+use crate::diagnostic::{Diagnostic, codes};
 
 /// What a file is instead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Stranger {
+pub(super) enum Stranger {
     /// Another format, by name with its article: `a PNG image`.
     Other(&'static str),
-    /// bzt's "Model 3D", which has the same extension: `binary` or `ASCII`.
+    /// bzt's "Model 3D", which has the same extension: `a binary` or `an ASCII`.
     Model3d(&'static str),
     /// A variant of this format that the books' loaders do not read either, by what gave it away.
     Relative(&'static str),
-    /// Text in two bytes a character.
-    Utf16,
-    /// Text in four bytes a character.
-    Utf32,
+    /// Text in two or four bytes a character: `UTF-16` or `UTF-32`.
+    Text(&'static str),
     /// Bytes that are no text.
     Binary,
 }
 
 impl Stranger {
-    /// True for the variants of this very format.
-    pub(super) fn is_relative(self) -> bool {
-        matches!(self, Self::Relative(_))
-    }
-
-    /// What it is, in a few words.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Other(name) | Self::Relative(name) => name,
-            Self::Model3d("binary") => "a binary Model 3D file",
-            Self::Model3d(_) => "an ASCII Model 3D file",
-            Self::Utf16 => "UTF-16 text",
-            Self::Utf32 => "UTF-32 text",
-            Self::Binary => "binary data",
-        }
-    }
-}
-
-impl fmt::Display for Stranger {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Other(name) => write!(f, "This is {name}, not an .m3d file."),
-            Self::Model3d(kind) => write!(
-                f,
-                "This is {} \"Model 3D\" file by bzt. It has a similar name, but is another format.",
-                if *kind == "binary" { "a binary" } else { "an ASCII" }
+    /// The same as what stops the reading.
+    pub(super) fn diagnostic(self) -> Diagnostic {
+        let (code, name, message) = match self {
+            Self::Other(name) => (
+                &codes::OTHER_FORMAT,
+                name.into(),
+                format!("This is {name}, not an .m3d file."),
             ),
-            Self::Relative(mark) => {
-                write!(
-                    f,
-                    "This file is a relative of the .m3d format with {mark}, which cannot be read."
-                )
-            }
-            Self::Utf16 | Self::Utf32 => write!(f, "This file is {}. Save it as UTF-8 or ASCII.", self.name()),
-            Self::Binary => write!(
-                f,
+            Self::Model3d(kind) => (
+                &codes::OTHER_FORMAT,
+                format!("{kind} Model 3D file"),
+                format!("This is {kind} \"Model 3D\" file by bzt. It has a similar name, but is another format."),
+            ),
+            Self::Relative(mark) => (
+                &codes::RELATIVE_FORMAT,
+                mark.into(),
+                format!("This file is a relative of the .m3d format with {mark}, which cannot be read."),
+            ),
+            Self::Text(encoding) => (
+                &codes::OTHER_FORMAT,
+                format!("{encoding} text"),
+                format!("This file is {encoding} text. Save it as UTF-8 or ASCII."),
+            ),
+            Self::Binary => (
+                &codes::OTHER_FORMAT,
+                "binary data".into(),
                 "This file is binary data: no .m3d file, which is text, and no .glb file, which begins with the letters glTF."
+                    .into(),
             ),
-        }
+        };
+        code.says(message).expected("an m3d file header").found(name)
     }
 }
 
 /// First bytes of formats that are dropped by mistake.
 const SIGNATURES: &[(&[u8], Stranger)] = &[
-    (b"3DMO", Stranger::Model3d("binary")),
+    (b"3DMO", Stranger::Model3d("a binary")),
     (b"\x89PNG", Stranger::Other("a PNG image")),
     (b"\xFF\xD8\xFF", Stranger::Other("a JPEG image")),
     (b"GIF8", Stranger::Other("a GIF image")),
@@ -106,15 +95,15 @@ const SIGNATURES: &[(&[u8], Stranger)] = &[
         Stranger::Other("a Git LFS pointer (the file itself was not downloaded)"),
     ),
     // Before the mark of UTF-16, which it begins with.
-    (b"\xFF\xFE\0\0", Stranger::Utf32),
-    (b"\0\0\xFE\xFF", Stranger::Utf32),
-    (b"\xFF\xFE", Stranger::Utf16),
-    (b"\xFE\xFF", Stranger::Utf16),
+    (b"\xFF\xFE\0\0", Stranger::Text("UTF-32")),
+    (b"\0\0\xFE\xFF", Stranger::Text("UTF-32")),
+    (b"\xFF\xFE", Stranger::Text("UTF-16")),
+    (b"\xFE\xFF", Stranger::Text("UTF-16")),
 ];
 
 /// Beginnings of texts, compared behind blanks and without case.
 const TEXT_SIGNATURES: &[(&[u8], Stranger)] = &[
-    (b"3dmodel ", Stranger::Model3d("ASCII")),
+    (b"3dmodel ", Stranger::Model3d("an ASCII")),
     (b"<!doctype html", Stranger::Other("a web page (HTML)")),
     (b"<html", Stranger::Other("a web page (HTML)")),
     (b"<svg", Stranger::Other("an SVG image")),

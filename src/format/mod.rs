@@ -51,15 +51,15 @@ mod write;
 
 pub(crate) use cursor::Cursor;
 pub use document::*;
-pub use error::{ParseError, ParseErrorKind, Value};
 pub use excerpt::{Excerpt, LineIndex, excerpt, is_printable};
 pub use label::Section;
-pub use likeness::{Stranger, begins_like_model};
+pub use likeness::begins_like_model;
 pub use write::write;
 
 use self::reader::Reader;
-use crate::diagnostic::{Diagnostic, Position};
+use crate::diagnostic::{Diagnostic, Fault, Position, codes};
 use kind::DiagnosticKind;
+use likeness::Stranger;
 
 /// A file that was understood.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,24 +78,21 @@ pub struct Parsed {
 /// them than of anything else is damaged, and refused.
 ///
 /// Never panics, reads the bytes once from front to back, and makes room for no more than the bytes can hold.
-pub fn parse(bytes: &[u8]) -> Result<Parsed, ParseError> {
+pub fn parse(bytes: &[u8]) -> Result<Parsed, Fault> {
     let text_len = bytes.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
     let (text, zeros) = bytes.split_at(text_len);
     let mut reader = Reader::new(text);
-    let at_start = |kind| ParseError {
-        position: Position { line: 1, column: 1 },
-        length: 0,
-        kind,
-    };
+    let at_start = |fault: Diagnostic| Fault::from(fault.at(Position { line: 1, column: 1 }, 0));
     if reader.cursor.peek_token().is_none() {
         return Err(at_start(if zeros.is_empty() {
-            ParseErrorKind::Empty
+            let fault = codes::EMPTY_FILE.says(codes::EMPTY_FILE.sentence);
+            fault.expected("an m3d file header")
         } else {
-            ParseErrorKind::Stranger(Stranger::Binary)
+            Stranger::Binary.diagnostic()
         }));
     }
     if let Some(stranger) = likeness::recognise(text) {
-        return Err(at_start(ParseErrorKind::Stranger(stranger)));
+        return Err(at_start(stranger.diagnostic()));
     }
     let counts = sections::header(&mut reader)?;
     let (materials, material_lines) = sections::materials(&mut reader, counts.materials)?;
@@ -145,17 +142,18 @@ pub fn parse(bytes: &[u8]) -> Result<Parsed, ParseError> {
 }
 
 /// Bytes of value 0 behind the text: padding, or an error where they are most of the file.
-fn note_zeros(reader: &mut Reader<'_>, zeros: usize) -> Result<(), ParseError> {
+fn note_zeros(reader: &mut Reader<'_>, zeros: usize) -> Result<(), Fault> {
     while reader.cursor.peek().is_some() {
         reader.cursor.rest_of_line();
     }
     let position = reader.cursor.position();
     if zeros > reader.cursor.bytes.len() {
-        return Err(ParseError {
-            position,
-            length: 1,
-            kind: ParseErrorKind::MostlyZeros { zeros },
-        });
+        let message = format!(
+            "The file ends in {zeros} bytes of value 0, more than stand before them: it was not written or copied whole."
+        );
+        let fault = codes::MOSTLY_ZEROS.says(message).expected("the end of the file");
+        let fault = fault.found(format!("{zeros} bytes of value 0"));
+        return Err(fault.at(position, 1).into());
     }
     reader.kinds.add(DiagnosticKind::ZerosSurplus(zeros), position, 1);
     Ok(())

@@ -3,11 +3,11 @@
 //! The long sections try [`quick`](super::quick) first and come here for the rows that it turns away.
 
 use super::cursor::{Cursor, Token, length_of};
-use super::error::{ParseError, ParseErrorKind, Value, quoted};
+use super::error::{Value, quoted, row_count};
 use super::kind::{DiagnosticKind, KindCounts};
 use super::label::{Section, is_bare_ruler, is_ruler, same, same_as_any};
 use super::number::{self, Reading};
-use crate::diagnostic::Position;
+use crate::diagnostic::{Diagnostic, Fault, Position, codes};
 
 /// What the reader is at, and what it noticed on the way.
 #[derive(Clone, Debug)]
@@ -43,25 +43,17 @@ impl<'a> Reader<'a> {
         }
     }
 
-    pub(super) fn error_at(token: Token<'_>, kind: ParseErrorKind) -> ParseError {
-        ParseError {
-            position: token.position,
-            length: token.length(),
-            kind,
-        }
+    pub(super) fn error_at(token: Token<'_>, fault: Diagnostic) -> Fault {
+        fault.at(token.position, token.length()).into()
     }
 
     /// The error of a file that ends where `expected` should come.
-    pub(super) fn end(&self, expected: impl Into<String>) -> ParseError {
-        let kind = ParseErrorKind::UnexpectedEnd {
-            section: self.section,
-            expected: expected.into(),
-        };
-        ParseError {
-            position: self.cursor.end_position(),
-            length: 0,
-            kind,
-        }
+    pub(super) fn end(&self, expected: impl Into<String>) -> Fault {
+        let (section, expected) = (self.section.name(), expected.into());
+        let message = format!("The file ends inside the {section} section, where {expected} was expected.");
+        let fault = codes::UNEXPECTED_END.says(message).expected(expected);
+        let fault = fault.found("the end of the file");
+        fault.at(self.cursor.end_position(), 0).into()
     }
 
     /// Counts an occurrence of a kind at a token.
@@ -75,7 +67,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Passes the ruler of `section`. What the books ask of a ruler is only that it is there.
-    pub(super) fn begin(&mut self, section: Section) -> Result<Beginning, ParseError> {
+    pub(super) fn begin(&mut self, section: Section) -> Result<Beginning, Fault> {
         loop {
             let Some(ruler) = self.peek_ruler() else {
                 return Ok(if self.cursor.peek_token().is_none() {
@@ -87,13 +79,11 @@ impl<'a> Reader<'a> {
             self.dashes |= ruler.text.starts_with(b"-");
             let named = Section::of_ruler(ruler.text);
             if let Some(found) = named.filter(|&found| found != section) {
-                return Err(Self::error_at(
-                    ruler,
-                    ParseErrorKind::WrongSection {
-                        expected: section,
-                        found,
-                    },
-                ));
+                let [expected, found] = [section, found].map(|section| format!("{} section", section.name()));
+                let message = format!("The {expected} must come here, but the {found} was found.");
+                let fault = codes::WRONG_SECTION.says(message);
+                let fault = fault.expected(format!("the {expected}")).found(format!("the {found}"));
+                return Err(Self::error_at(ruler, fault));
             }
             self.cursor.skip_space();
             self.cursor.rest_of_line();
@@ -123,7 +113,7 @@ impl<'a> Reader<'a> {
     }
 
     /// [`begin`](Self::begin) for a section that has rows: it must come, though its ruler may be missing.
-    pub(super) fn begin_rows(&mut self, section: Section) -> Result<(), ParseError> {
+    pub(super) fn begin_rows(&mut self, section: Section) -> Result<(), Fault> {
         match self.begin(section)? {
             Beginning::Ruler => {}
             Beginning::End => return Err(self.end(format!("the {} section", section.name()))),
@@ -174,7 +164,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads the label that comes next, which must be one of `names`; errors call it `label`.
-    pub(super) fn label(&mut self, label: &'static str, names: &[&str]) -> Result<Token<'a>, ParseError> {
+    pub(super) fn label(&mut self, label: &'static str, names: &[&str]) -> Result<Token<'a>, Fault> {
         let Some((token, behind)) = self.peek_label() else {
             return Err(self.end(format!("{label}:")));
         };
@@ -186,13 +176,15 @@ impl<'a> Reader<'a> {
     }
 
     /// The error of a label that is not `expected`.
-    pub(super) fn wrong_label(token: Token<'_>, expected: &'static str) -> ParseError {
+    pub(super) fn wrong_label(token: Token<'_>, expected: &'static str) -> Fault {
         let found = quoted(token.text.strip_suffix(b":").unwrap_or(token.text));
-        Self::error_at(token, ParseErrorKind::WrongLabel { expected, found })
+        let message = format!("{expected} must come here, but \"{found}\" was found.");
+        let fault = codes::WRONG_LABEL.says(message);
+        Self::error_at(token, fault.expected(expected).found(found))
     }
 
     /// The next token of this line, which must be there.
-    pub(super) fn value_token(&mut self, value: Value) -> Result<Token<'a>, ParseError> {
+    pub(super) fn value_token(&mut self, value: Value) -> Result<Token<'a>, Fault> {
         self.cursor.skip_blanks();
         if self.cursor.at_line_end() {
             return Err(self.value_missing(value));
@@ -200,19 +192,15 @@ impl<'a> Reader<'a> {
         self.cursor.token().ok_or_else(|| self.end(value.expected()))
     }
 
-    fn value_missing(&self, value: Value) -> ParseError {
+    fn value_missing(&self, value: Value) -> Fault {
         if self.cursor.peek_token().is_none() {
             return self.end(value.expected());
         }
-        ParseError {
-            position: self.cursor.position(),
-            length: 0,
-            kind: ParseErrorKind::ValueMissing { value },
-        }
+        value.missing().at(self.cursor.position(), 0).into()
     }
 
     /// A token as a number; one that is not finite becomes `replacement`, with a diagnostic unless that is not finite either.
-    pub(super) fn number_of(&mut self, token: Token<'_>, value: Value, replacement: f32) -> Result<f32, ParseError> {
+    pub(super) fn number_of(&mut self, token: Token<'_>, value: Value, replacement: f32) -> Result<f32, Fault> {
         match number::read(token.text) {
             Some(Reading::Plain(number)) => Ok(number),
             Some(Reading::Mended(number)) => {
@@ -225,13 +213,7 @@ impl<'a> Reader<'a> {
                 }
                 Ok(replacement)
             }
-            None => Err(Self::error_at(
-                token,
-                ParseErrorKind::NotANumber {
-                    value,
-                    found: quoted(token.text),
-                },
-            )),
+            None => Err(Self::error_at(token, value.not_a_number(token.text))),
         }
     }
 
@@ -242,7 +224,7 @@ impl<'a> Reader<'a> {
         value: Value,
         required: usize,
         defaults: [f32; N],
-    ) -> Result<([f32; N], usize), ParseError> {
+    ) -> Result<([f32; N], usize), Fault> {
         let mut numbers = defaults;
         let mut split = false;
         for (index, number) in numbers.iter_mut().enumerate() {
@@ -295,7 +277,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads a whole number on this line, `smallest..=largest`.
-    pub(super) fn whole(&mut self, value: Value, smallest: i64, largest: i64) -> Result<i64, ParseError> {
+    pub(super) fn whole(&mut self, value: Value, smallest: i64, largest: i64) -> Result<i64, Fault> {
         let token = self.value_token(value)?;
         self.whole_of(token, value, smallest, largest)
     }
@@ -307,7 +289,7 @@ impl<'a> Reader<'a> {
         value: Value,
         smallest: i64,
         largest: i64,
-    ) -> Result<i64, ParseError> {
+    ) -> Result<i64, Fault> {
         let digits = token.text.strip_suffix(b",").unwrap_or(token.text);
         match std::str::from_utf8(digits).ok().and_then(|digits| digits.parse().ok()) {
             Some(number) if (smallest..=largest).contains(&number) => {
@@ -316,53 +298,39 @@ impl<'a> Reader<'a> {
                 }
                 Ok(number)
             }
-            _ => {
-                let kind = ParseErrorKind::NotInRange {
-                    value,
-                    smallest,
-                    largest,
-                    found: quoted(token.text),
-                };
-                Err(Self::error_at(token, kind))
-            }
+            _ => Err(Self::error_at(token, value.not_in_range(smallest, largest, token.text))),
         }
     }
 
     /// Reads a whole number on this line, from 0 to the largest count.
-    pub(super) fn count(&mut self, value: Value) -> Result<u32, ParseError> {
+    pub(super) fn count(&mut self, value: Value) -> Result<u32, Fault> {
         // In range, so the conversion holds.
         self.whole(value, 0, i64::from(u32::MAX))
             .map(|count| u32::try_from(count).unwrap_or(u32::MAX))
     }
 
-    /// The error of rows that are not as many as announced. Stands where the rows end: at the next ruler or word, or at the
+    /// The error of rows that are not as many as announced, where they end: at the next ruler or word, or at the
     /// end of the file.
-    pub(super) fn row_count(&self, kind: ParseErrorKind) -> ParseError {
+    pub(super) fn where_rows_end(&self, fault: Diagnostic) -> Fault {
         let (position, length) = match self.peek_ruler().or_else(|| self.cursor.peek_token()) {
             Some(token) => (token.position, length_of(token.text)),
             None => (self.cursor.end_position(), 0),
         };
-        ParseError { position, length, kind }
+        fault.at(position, length).into()
     }
 
     /// The error of a section whose rows are not as many as the header announced. Stands at the count of the header, if it has one.
-    pub(super) fn section_row_count(&self, rows: &'static str, announced: u32, counted: usize) -> ParseError {
-        let kind = |holder| ParseErrorKind::RowCount {
-            announcer: "The header".into(),
-            rows,
-            holder,
-            announced,
-            counted: u32::try_from(counted).unwrap_or(u32::MAX),
-        };
+    pub(super) fn section_row_count(&self, rows: &'static str, announced: u32, counted: usize) -> Fault {
+        let fault = |holder: &str| row_count("The header", rows, holder, announced, counted);
         let section = format!("the {} section", self.section.name());
         let count = |rows| self.counts.iter().rfind(|(names, _)| names.contains(&rows));
         // Without a count of its own the subset table has a row for each material.
         match count(rows).or_else(|| count("materials").filter(|_| rows == "subsets")) {
             Some(&(_, count)) => {
                 let end = self.next_position().line;
-                Self::error_at(count, kind(format!("{section}, which ends at line {end},")))
+                Self::error_at(count, fault(&format!("{section}, which ends at line {end},")))
             }
-            None => self.row_count(kind(section)),
+            None => self.where_rows_end(fault(&section)),
         }
     }
 

@@ -1,9 +1,6 @@
 //! What stops the reading.
 
-use crate::diagnostic::{Code, Diagnostic};
-
-/// Something that stops the reading.
-pub type Fault = Box<Diagnostic>;
+use crate::diagnostic::{Code, Fault};
 
 /// A fault at a place in the JSON.
 pub(crate) fn fault(code: &Code, pointer: impl Into<String>, message: impl Into<String>) -> Fault {

@@ -13,12 +13,12 @@ mod places;
 mod rules;
 mod uri;
 
+pub use crate::diagnostic::Fault;
 pub(crate) use accessor::Fit;
 pub use accessor::{Effort, Reader, Wanted};
 pub(crate) use buffers::out_of_range;
 pub use buffers::{Buffers, FindFile};
 pub use container::{Container, begins_like_gltf, open};
-pub use fault::Fault;
 pub(crate) use fault::fault;
 pub use json::{
     Accessor, Animation, Channel, Image, Index, Interpolation, Material, Mesh, Node, NormalTexture, OcclusionTexture,

@@ -1,10 +1,10 @@
 //! Reads DDS files to an [`Image`], once their length was checked against the header.
 
-use super::dds_header::Header;
+use super::dds_header::{Header, expect};
 use super::dds_layout::{Layout, Texels};
-use super::error::{ImageErrorKind, Layer};
 use super::format::{Channels, ImageFormat};
 use super::picture::{Image, ImageKind, check_size, full_level_count, level_size};
+use crate::diagnostic::{Fault, codes};
 
 const CAPS2_CUBE: u32 = 0x200;
 const CAPS2_FACES: u32 = 0xfc00;
@@ -15,8 +15,10 @@ const DIMENSION_2D: u32 = 3;
 const DIMENSION_3D: u32 = 4;
 const MISC_CUBE: u32 = 0x4;
 
+const FACES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
+
 /// Reads a DDS file. Bytes after the last texel are ignored.
-pub(super) fn decode(bytes: &[u8]) -> Result<Image, ImageErrorKind> {
+pub(super) fn decode(bytes: &[u8]) -> Result<Image, Fault> {
     let (extent, layout, shown) = open(bytes)?;
     let Extent {
         width,
@@ -52,18 +54,19 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Image, ImageErrorKind> {
 }
 
 /// Whether [`decode`] would accept the file; decodes nothing.
-pub(super) fn check(bytes: &[u8]) -> Result<(), ImageErrorKind> {
+pub(super) fn check(bytes: &[u8]) -> Result<(), Fault> {
     open(bytes).map(drop)
 }
 
 /// The content of a valid file, and the texels that are shown.
-fn open(bytes: &[u8]) -> Result<(Extent, Layout, &[u8]), ImageErrorKind> {
+fn open(bytes: &[u8]) -> Result<(Extent, Layout, &[u8]), Fault> {
     let header = Header::read(bytes)?;
     let (width, height) = (header.width, header.height);
     check_size(width, height)?;
     let (kind, layer_count) = kind(&header)?;
     if kind == ImageKind::Cube && width != height {
-        return Err(ImageErrorKind::CubeNotSquare { width, height });
+        let message = format!("the faces of a cube must be square, and these are {width} × {height}");
+        return Err(codes::IMAGE_CUBE.says(message).into());
     }
     let level_count = level_count(&header)?;
     let layout = Layout::of(&header)?;
@@ -90,19 +93,15 @@ pub(super) fn cube_side(bytes: &[u8]) -> Option<u32> {
 }
 
 /// Levels of each face. Some writers leave the count at 0 when there are no mips.
-fn level_count(header: &Header) -> Result<u32, ImageErrorKind> {
+fn level_count(header: &Header) -> Result<u32, Fault> {
     let (width, height) = (header.width, header.height);
     let most = full_level_count(width, height);
     let found = header.mip_count.max(1);
     if found <= most {
         return Ok(found);
     }
-    Err(ImageErrorKind::MipCount {
-        found,
-        most,
-        width,
-        height,
-    })
+    let message = format!("the header gives {found} mips, and a picture of {width} × {height} has at most {most}");
+    Err(codes::IMAGE_MIP_COUNT.says(message).into())
 }
 
 /// What the header says about the length of the file. Neither side is 0.
@@ -118,7 +117,7 @@ struct Extent {
 
 impl Extent {
     /// The texels of the layers that are shown, once it is checked that the file holds all layers.
-    fn shown_texels<'a>(&self, bytes: &'a [u8], data_start: usize) -> Result<&'a [u8], ImageErrorKind> {
+    fn shown_texels<'a>(&self, bytes: &'a [u8], data_start: usize) -> Result<&'a [u8], Fault> {
         let shown_layers = if self.kind == ImageKind::Cube { 6 } else { 1 };
         let texels = bytes.get(data_start..).unwrap_or_default();
         let found = texels.len() as u64;
@@ -135,18 +134,16 @@ impl Extent {
             level += 1;
         }
         let (width, height) = level_size(self.width, self.height, level);
-        Err(ImageErrorKind::Cut {
-            missing: needed - found,
-            level,
-            width,
-            height,
-            layer: match self.kind {
-                ImageKind::Texture2d => Layer::Only,
-                ImageKind::Cube if layer < 6 => Layer::Face(layer as u32),
-                ImageKind::Cube | ImageKind::Array { .. } => Layer::Slice(layer as u32),
-            },
-            offset: data_start as u64 + offset,
-        })
+        let layer = match self.kind {
+            ImageKind::Texture2d => "the picture".into(),
+            ImageKind::Cube if layer < 6 => format!("face {}", FACES[layer as usize]),
+            ImageKind::Cube | ImageKind::Array { .. } => format!("slice {layer}"),
+        };
+        let (missing, offset) = (needed - found, data_start as u64 + offset);
+        let message = format!(
+            "the file ends {missing} bytes early, in mip {level} ({width} × {height}) of {layer} at byte {offset}"
+        );
+        Err(codes::IMAGE_CUT.says(message).into())
     }
 
     fn level_len(&self, level: u32) -> u64 {
@@ -156,37 +153,38 @@ impl Extent {
 }
 
 /// What the texture is and how many flat pictures its file holds.
-fn kind(header: &Header) -> Result<(ImageKind, u64), ImageErrorKind> {
+fn kind(header: &Header) -> Result<(ImageKind, u64), Fault> {
     if let Some(dx10) = &header.dx10 {
         match dx10.dimension {
-            DIMENSION_2D => {}
-            DIMENSION_3D => return Err(ImageErrorKind::Dimension("three dimensions")),
-            2 => return Err(ImageErrorKind::Dimension("one dimension")),
-            found => {
-                return Err(ImageErrorKind::DdsHeaderField {
-                    field: "its dimension",
-                    expected: DIMENSION_2D,
-                    found,
-                });
-            }
+            DIMENSION_3D => return Err(not_flat("three dimensions")),
+            2 => return Err(not_flat("one dimension")),
+            found => expect("its dimension", DIMENSION_2D, found)?,
         }
         return match (dx10.misc_flags & MISC_CUBE != 0, dx10.array_size) {
-            (_, 0) => Err(ImageErrorKind::NoSlices),
+            (_, 0) => Err(codes::IMAGE_NO_SLICES.says("the array has no slices").into()),
             (true, cubes) => Ok((ImageKind::Cube, 6 * u64::from(cubes))),
             (false, 1) => Ok((ImageKind::Texture2d, 1)),
             (false, slices) => Ok((ImageKind::Array { slices }, u64::from(slices))),
         };
     }
     if header.caps2 & CAPS2_VOLUME != 0 {
-        return Err(ImageErrorKind::Dimension("three dimensions"));
+        return Err(not_flat("three dimensions"));
     }
     if header.caps2 & CAPS2_CUBE == 0 {
         return Ok((ImageKind::Texture2d, 1));
     }
     match (header.caps2 & CAPS2_FACES).count_ones() {
         6 => Ok((ImageKind::Cube, 6)),
-        faces => Err(ImageErrorKind::PartialCube(faces)),
+        faces => {
+            let message = format!("a cube has 6 faces, and this one {faces}");
+            Err(codes::IMAGE_CUBE.says(message).into())
+        }
     }
+}
+
+fn not_flat(dimensions: &str) -> Fault {
+    let message = format!("a texture with {dimensions} is not supported, only flat ones and cubes are");
+    codes::IMAGE_DIMENSION.says(message).into()
 }
 
 /// Whether a picture in BC1 has a clear texel: the first colour of its block is not the larger, and its index is 3.

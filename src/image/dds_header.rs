@@ -2,7 +2,7 @@
 //!
 //! No crate reads it: the known ones lack `BC5U`, drop the masks of grey files, and do not say where a file is wrong.
 
-use super::error::ImageErrorKind;
+use crate::diagnostic::{Fault, codes};
 
 /// Bytes of signature and header.
 pub(super) const HEADER_LEN: usize = 4 + 124;
@@ -60,11 +60,13 @@ pub(super) struct Dx10 {
 
 impl Header {
     /// Reads the header at the beginning of a file.
-    pub(super) fn read(bytes: &[u8]) -> Result<Self, ImageErrorKind> {
+    pub(super) fn read(bytes: &[u8]) -> Result<Self, Fault> {
         if let Some(&signature) = bytes.first_chunk::<4>()
             && signature != *b"DDS "
         {
-            return Err(ImageErrorKind::DdsSignature(signature));
+            let begins = signature.escape_ascii();
+            let message = format!("a DDS file begins with \"DDS \", and this one with \"{begins}\"");
+            return Err(codes::DDS_SIGNATURE.says(message).into());
         }
         let fields: [u32; 32] = words(bytes, 0)?;
         expect("its size", 124, fields[1])?;
@@ -101,20 +103,22 @@ impl Header {
 }
 
 /// Little-endian words from an offset on.
-fn words<const N: usize>(bytes: &[u8], offset: usize) -> Result<[u32; N], ImageErrorKind> {
+fn words<const N: usize>(bytes: &[u8], offset: usize) -> Result<[u32; N], Fault> {
     let words = bytes
         .get(offset..)
         .and_then(|rest| rest.as_chunks::<4>().0.first_chunk::<N>());
-    let words = words.ok_or(ImageErrorKind::DdsHeaderCut {
-        needed: offset + 4 * N,
-        found: bytes.len(),
+    let words = words.ok_or_else(|| {
+        let (needed, found) = (offset + 4 * N, bytes.len());
+        let message = format!("the DDS header takes {needed} bytes, and the file has {found}");
+        codes::DDS_HEADER_CUT.says(message)
     })?;
     Ok(words.map(u32::from_le_bytes))
 }
 
-fn expect(field: &'static str, expected: u32, found: u32) -> Result<(), ImageErrorKind> {
+pub(super) fn expect(field: &str, expected: u32, found: u32) -> Result<(), Fault> {
     if found == expected {
         return Ok(());
     }
-    Err(ImageErrorKind::DdsHeaderField { field, expected, found })
+    let message = format!("the DDS header gives {field} as {found}; it must be {expected}");
+    Err(codes::DDS_HEADER_FIELD.says(message).into())
 }

@@ -1,9 +1,9 @@
 //! The layout of a DDS file's texels, from the three ways in which a header can give it.
 
 use super::dds_header::{Dx10, Header, PixelFormat};
-use super::error::ImageErrorKind;
 use super::format::{Channels, ImageFormat};
 use super::masks::Masks;
+use crate::diagnostic::{Fault, codes};
 
 /// How the file stores texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +35,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    pub(super) fn of(header: &Header) -> Result<Self, ImageErrorKind> {
+    pub(super) fn of(header: &Header) -> Result<Self, Fault> {
         let pixels = &header.pixels;
         if let Some(dx10) = &header.dx10 {
             Self::of_dxgi(dx10)
@@ -46,7 +46,7 @@ impl Layout {
         }
     }
 
-    fn of_four_cc(code: u32) -> Result<Self, ImageErrorKind> {
+    fn of_four_cc(code: u32) -> Result<Self, Fault> {
         /// Half floats have a number of Direct3D 9 instead of letters.
         const A16B16G16R16F: u32 = 113;
         if code == A16B16G16R16F {
@@ -60,7 +60,7 @@ impl Layout {
             b"BC4S" => ImageFormat::Bc4Signed,
             b"ATI2" | b"BC5U" => ImageFormat::Bc5,
             b"BC5S" => ImageFormat::Bc5Signed,
-            _ => return Err(ImageErrorKind::DdsFourCc(code)),
+            _ => return Err(unsupported(&format!("of the kind {}", four_cc(code)))),
         };
         let premultiplied = matches!(&code.to_le_bytes(), b"DXT2" | b"DXT4");
         Ok(Self {
@@ -71,7 +71,7 @@ impl Layout {
 
     /// Formats without a type count as unsigned; sRGB formats are treated like linear ones, since the slot that uses a
     /// map decides how its colours are meant.
-    fn of_dxgi(dx10: &Dx10) -> Result<Self, ImageErrorKind> {
+    fn of_dxgi(dx10: &Dx10) -> Result<Self, Fault> {
         const R: u32 = 0xff;
         const G: u32 = 0xff00;
         const B: u32 = 0xff_0000;
@@ -99,7 +99,7 @@ impl Layout {
             96 => Self::verbatim(ImageFormat::Bc6hSigned),
             97..=99 => Self::verbatim(ImageFormat::Bc7),
             115 => masks(16, 0xf00, 0xf0, 0xf, 0xf000)?,
-            other => return Err(ImageErrorKind::DdsDxgiFormat(other)),
+            other => return Err(unsupported(&format!("of the DXGI format {other}"))),
         };
         let channels = match (dx10.alpha_mode, layout.channels) {
             (3, Channels::Rgba) => Channels::Rgb,
@@ -113,7 +113,7 @@ impl Layout {
     }
 
     /// Masks without their flag are ignored.
-    fn of_masks(pixels: &PixelFormat) -> Result<Self, ImageErrorKind> {
+    fn of_masks(pixels: &PixelFormat) -> Result<Self, Fault> {
         let [r, g, b, a] = pixels.masks;
         let a = if pixels.flags & (PixelFormat::ALPHA_PIXELS | PixelFormat::ALPHA) != 0 {
             a
@@ -127,7 +127,11 @@ impl Layout {
         } else if pixels.flags & PixelFormat::ALPHA != 0 {
             [0, 0, 0, a]
         } else {
-            return Err(ImageErrorKind::DdsPixelFlags(pixels.flags));
+            let message = format!(
+                "DDS pixels with the flags {:#x} are not supported; there must be a four-character code, colour, grey or alpha",
+                pixels.flags
+            );
+            return Err(codes::DDS_UNSUPPORTED.says(message).into());
         };
         Masks::rgba(pixels.bit_count, masks).map(Self::masked)
     }
@@ -162,5 +166,21 @@ impl Layout {
             premultiplied: false,
             label: label.to_owned(),
         }
+    }
+}
+
+fn unsupported(which: &str) -> Fault {
+    codes::DDS_UNSUPPORTED
+        .says(format!("DDS pixels {which} are not supported"))
+        .into()
+}
+
+/// The letters of a four-character code, or its number where it is one.
+fn four_cc(code: u32) -> String {
+    let letters = code.to_le_bytes();
+    if letters.iter().all(u8::is_ascii_graphic) {
+        letters.escape_ascii().to_string()
+    } else {
+        code.to_string()
     }
 }

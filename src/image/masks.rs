@@ -1,7 +1,7 @@
 //! Uncompressed texels whose channels are given by bit masks.
 
-use super::error::ImageErrorKind;
 use super::format::Channels;
+use crate::diagnostic::{Fault, codes};
 
 /// Where a channel's bits lie in a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,7 +14,7 @@ struct Field {
 
 impl Field {
     /// `None` for an empty mask.
-    fn new(channel: &'static str, mask: u32, bits: u32) -> Result<Option<Self>, ImageErrorKind> {
+    fn new(channel: &'static str, mask: u32, bits: u32) -> Result<Option<Self>, Fault> {
         if mask == 0 {
             return Ok(None);
         }
@@ -22,7 +22,7 @@ impl Field {
         let max = mask >> shift;
         let has_gaps = max.checked_add(1).is_some_and(|next| !next.is_power_of_two());
         if has_gaps || u64::from(mask) >> bits != 0 {
-            return Err(ImageErrorKind::DdsMask { channel, mask, bits });
+            return Err(unfit(channel, mask, bits));
         }
         Ok(Some(Self { mask, shift, max }))
     }
@@ -42,6 +42,11 @@ impl Field {
     }
 }
 
+fn unfit(channel: &str, mask: u32, bits: u32) -> Fault {
+    let message = format!("the mask {mask:#x} for {channel} does not fit a pixel of {bits} bits");
+    codes::DDS_MASK.says(message).into()
+}
+
 /// A layout of pixels of 1 to 4 bytes, little-endian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Masks {
@@ -53,9 +58,10 @@ pub(super) struct Masks {
 
 impl Masks {
     /// Colour by masks of red, green, blue and alpha, of which some may be 0. Red alone counts as grey.
-    pub(super) fn rgba(bits: u32, masks: [u32; 4]) -> Result<Self, ImageErrorKind> {
+    pub(super) fn rgba(bits: u32, masks: [u32; 4]) -> Result<Self, Fault> {
         if !matches!(bits, 8 | 16 | 24 | 32) {
-            return Err(ImageErrorKind::DdsBitCount(bits));
+            let message = format!("DDS pixels of {bits} bits are not supported; there must be 8, 16, 24 or 32");
+            return Err(codes::DDS_UNSUPPORTED.says(message).into());
         }
         let [r, g, b, a] = masks;
         let fields = [
@@ -65,11 +71,7 @@ impl Masks {
             Field::new("alpha", a, bits)?,
         ];
         if fields.iter().all(Option::is_none) {
-            return Err(ImageErrorKind::DdsMask {
-                channel: "colour and alpha",
-                mask: 0,
-                bits,
-            });
+            return Err(unfit("colour and alpha", 0, bits));
         }
         Ok(Self {
             pixel_len: bits as usize / 8,

@@ -12,7 +12,7 @@ mod dds;
 mod dds_header;
 mod dds_layout;
 mod encode;
-mod error;
+mod file_kind;
 mod format;
 pub mod half;
 mod masks;
@@ -21,8 +21,11 @@ mod picture;
 mod raster;
 pub(crate) mod srgb;
 
+use file_kind::FileKind;
+
+use crate::diagnostic::{Diagnostic, Fault, codes};
+
 pub use encode::{EncodeError, encode_dds, encode_png};
-pub use error::{FileKind, ImageError, ImageErrorKind, Layer};
 pub use format::{Channels, ImageFormat, MAX_SIDE};
 pub use mips::MapKind;
 pub use picture::{Image, ImageKind};
@@ -45,12 +48,12 @@ pub use picture::{Image, ImageKind};
 /// assert_eq!(error.to_string(), "textures/notes.png: this is none of DDS, PNG, JPEG, WebP, TGA and BMP");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn decode(bytes: &[u8], name: &str) -> Result<Image, ImageError> {
+pub fn decode(bytes: &[u8], name: &str) -> Result<Image, Fault> {
     let decoded = kind_of(bytes, name).and_then(|kind| match kind {
         FileKind::Dds => dds::decode(bytes),
         kind => raster::decode(bytes, kind),
     });
-    decoded.map_err(|kind| named(kind, name))
+    decoded.map_err(|fault| naming(*fault, name))
 }
 
 /// Checks whether [`decode`] can read a picture, by its header and the length of the file. Compressed data may still
@@ -58,28 +61,38 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<Image, ImageError> {
 ///
 /// # Errors
 /// Those of [`decode`].
-pub fn check(bytes: &[u8], name: &str) -> Result<(), ImageError> {
+pub fn check(bytes: &[u8], name: &str) -> Result<(), Fault> {
     let checked = kind_of(bytes, name).and_then(|kind| match kind {
         FileKind::Dds => dds::check(bytes),
         kind => raster::check(bytes, kind),
     });
-    checked.map_err(|kind| named(kind, name))
+    checked.map_err(|fault| naming(*fault, name))
 }
 
-fn kind_of(bytes: &[u8], name: &str) -> Result<FileKind, ImageErrorKind> {
+fn kind_of(bytes: &[u8], name: &str) -> Result<FileKind, Fault> {
     let is_high_range = bytes.starts_with(b"#?") || bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]);
-    FileKind::of(bytes, name).ok_or(match bytes {
-        [] => ImageErrorKind::Empty,
-        _ if is_high_range => ImageErrorKind::HighRange,
-        _ => ImageErrorKind::Unrecognized,
+    FileKind::of(bytes, name).ok_or_else(|| {
+        let (code, message) = match bytes {
+            [] => (&codes::IMAGE_EMPTY, "the file is empty"),
+            _ if is_high_range => (
+                &codes::IMAGE_UNRECOGNIZED,
+                "Radiance (.hdr) and OpenEXR (.exr) cannot be read yet; a cube map as .dds can",
+            ),
+            _ => (
+                &codes::IMAGE_UNRECOGNIZED,
+                "this is none of DDS, PNG, JPEG, WebP, TGA and BMP",
+            ),
+        };
+        code.says(message).into()
     })
 }
 
-fn named(kind: ImageErrorKind, name: &str) -> ImageError {
-    ImageError {
-        name: name.to_owned(),
-        kind,
-    }
+/// The fault with the name of its file.
+fn naming(fault: Diagnostic, name: &str) -> Fault {
+    Box::new(Diagnostic {
+        message: format!("{name}: {}", fault.message),
+        ..fault
+    })
 }
 
 /// Bytes from the beginning of a file that [`cube_side`] reads at most.

@@ -3,9 +3,9 @@
 use std::fmt;
 use std::ops::Range;
 
-use super::error::ImageErrorKind;
 use super::format::{Channels, ImageFormat};
 use super::{MAX_SIDE, blocks};
+use crate::diagnostic::{Fault, codes};
 
 /// The kind of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,16 +43,13 @@ impl Image {
     ///
     /// # Errors
     /// When a side is 0 or more than [`MAX_SIDE`], or `data` is not `4 × width × height` long.
-    pub fn from_rgba8(width: u32, height: u32, data: Vec<u8>, source: &str) -> Result<Self, ImageErrorKind> {
+    pub fn from_rgba8(width: u32, height: u32, data: Vec<u8>, source: &str) -> Result<Self, Fault> {
         check_size(width, height)?;
         let expected = ImageFormat::Rgba8.level_len(width, height);
         if data.len() as u64 != expected {
-            return Err(ImageErrorKind::DataLength {
-                width,
-                height,
-                expected,
-                found: data.len() as u64,
-            });
+            let found = data.len();
+            let message = format!("{found} bytes of texels are not the {expected} of {width} × {height}");
+            return Err(codes::IMAGE_DATA_LENGTH.says(message).into());
         }
         Ok(Self {
             width,
@@ -217,11 +214,11 @@ pub(super) fn full_level_count(width: u32, height: u32) -> u32 {
 }
 
 /// Whether a picture of this size is read at all.
-pub(super) fn check_size(width: u32, height: u32) -> Result<(), ImageErrorKind> {
+pub(super) fn check_size(width: u32, height: u32) -> Result<(), Fault> {
     let allowed = 1..=MAX_SIDE;
     if allowed.contains(&width) && allowed.contains(&height) {
-        Ok(())
-    } else {
-        Err(ImageErrorKind::Size { width, height })
+        return Ok(());
     }
+    let message = format!("a picture of {width} × {height} cannot be shown; a side may have 1 to {MAX_SIDE} texels");
+    Err(codes::IMAGE_SIZE.says(message).into())
 }

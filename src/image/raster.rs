@@ -5,9 +5,10 @@ use std::io::Cursor;
 use image::{ColorType, ImageDecoder, ImageReader, Limits};
 
 use super::MAX_SIDE;
-use super::error::{FileKind, ImageErrorKind};
+use super::file_kind::FileKind;
 use super::format::{Channels, ImageFormat};
 use super::picture::{Image, ImageKind, check_size};
+use crate::diagnostic::{Fault, codes};
 
 /// Bytes that decoding may take: a picture of 8192 × 8192 with 4 channels of 8 bits as the file has it, and as RGBA.
 const MAX_DECODED_LEN: u64 = 512 << 20;
@@ -17,7 +18,7 @@ const MAX_DECODED_LEN: u64 = 512 << 20;
 const MAX_TEXELS_PER_BYTE: u64 = 8 * 1032;
 
 /// Reads a picture of a kind other than DDS.
-pub(super) fn decode(bytes: &[u8], kind: FileKind) -> Result<Image, ImageErrorKind> {
+pub(super) fn decode(bytes: &[u8], kind: FileKind) -> Result<Image, Fault> {
     let decoder = open(bytes, kind)?;
     let (width, height) = decoder.dimensions();
     let channels = match decoder.color_type() {
@@ -48,16 +49,17 @@ pub(super) fn decode(bytes: &[u8], kind: FileKind) -> Result<Image, ImageErrorKi
 }
 
 /// Whether the header and the size of the file allow to decode it.
-pub(super) fn check(bytes: &[u8], kind: FileKind) -> Result<(), ImageErrorKind> {
+pub(super) fn check(bytes: &[u8], kind: FileKind) -> Result<(), Fault> {
     open(bytes, kind).map(drop)
 }
 
 /// Reads the header and checks it, its size and the end of the file. The texels may still be damaged.
-fn open(bytes: &[u8], kind: FileKind) -> Result<impl ImageDecoder + '_, ImageErrorKind> {
+fn open(bytes: &[u8], kind: FileKind) -> Result<impl ImageDecoder + '_, Fault> {
     let undecodable = |error: image::ImageError| undecodable(kind, &error);
     // The decoder would fill the rest of a truncated picture with grey.
     if kind == FileKind::Jpeg && memchr::memmem::rfind(bytes, b"\xff\xd9").is_none() {
-        return Err(ImageErrorKind::JpegCut);
+        let message = "the JPEG file has no end marker: its last part is missing";
+        return Err(codes::IMAGE_CUT.says(message).into());
     }
     let mut limits = Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
@@ -71,11 +73,11 @@ fn open(bytes: &[u8], kind: FileKind) -> Result<impl ImageDecoder + '_, ImageErr
     check_size(width, height)?;
     let texel_count = u64::from(width) * u64::from(height);
     if texel_count > MAX_TEXELS_PER_BYTE * bytes.len() as u64 {
-        return Err(ImageErrorKind::Implausible {
-            width,
-            height,
-            bytes: bytes.len(),
-        });
+        let message = format!(
+            "the header says {width} × {height}, which cannot fit into the {} bytes of the file",
+            bytes.len()
+        );
+        return Err(codes::IMAGE_IMPLAUSIBLE.says(message).into());
     }
     // The texels as the file has them, and the same as RGBA.
     let decoded_len = decoder.total_bytes();
@@ -89,11 +91,9 @@ fn open(bytes: &[u8], kind: FileKind) -> Result<impl ImageDecoder + '_, ImageErr
     Ok(decoder)
 }
 
-fn undecodable(kind: FileKind, error: &image::ImageError) -> ImageErrorKind {
-    ImageErrorKind::Undecodable {
-        kind,
-        reason: error.to_string(),
-    }
+fn undecodable(kind: FileKind, reason: &image::ImageError) -> Fault {
+    let message = format!("the {kind} file could not be read: {reason}");
+    codes::IMAGE_UNDECODABLE.says(message).into()
 }
 
 fn format_of(kind: FileKind) -> image::ImageFormat {

@@ -3,7 +3,6 @@
 //! A format decides what its files mean, mends what can be mended and notes it with its place; what has no place is
 //! [`Model`](crate::model::Model)'s to prove. Normals and tangents are computed for any format.
 
-mod error;
 mod gltf;
 mod imported;
 mod keys;
@@ -12,7 +11,6 @@ mod normals;
 mod tangents;
 mod weights;
 
-pub use error::{ImportError, ImportErrorKind};
 pub use imported::{FileFormat, Imported, Picture, Refused};
 
 use crate::gltf::FindFile;

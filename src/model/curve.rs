@@ -2,7 +2,7 @@
 
 use glam::{Vec3, Vec4};
 
-use super::ModelError;
+use crate::diagnostic::{Fault, codes};
 
 /// The values of one part of a joint: held from key to key, or along cubic splines. Times are in seconds and strictly increasing;
 /// there is at least one, and all streams have one length. Outside its range it holds its first or last value.
@@ -41,12 +41,26 @@ impl CurveValue for Vec4 {
     }
 }
 
+pub(super) fn no_keys() -> Fault {
+    codes::NO_KEYS.says(codes::NO_KEYS.sentence).into()
+}
+
+pub(super) fn key_not_after(key: usize) -> Fault {
+    let message = format!("Key {key} is not after the key before it; key times must increase.");
+    codes::KEY_NOT_AFTER.says(message).into()
+}
+
+pub(super) fn key_not_finite(key: usize) -> Fault {
+    let message = format!("Key {key} holds a number that is not finite, or a rotation without a direction.");
+    codes::KEY_NOT_FINITE.says(message).into()
+}
+
 impl<T: CurveValue> Curve<T> {
     /// Each value holds until the next key: time in seconds and value.
     ///
     /// # Errors
     /// When there is no key, a time is not after the one before, or a number is not finite.
-    pub fn step(keys: impl IntoIterator<Item = (f32, T)>) -> Result<Self, ModelError> {
+    pub fn step(keys: impl IntoIterator<Item = (f32, T)>) -> Result<Self, Fault> {
         let (times_secs, values) = keys.into_iter().unzip();
         let curve = Self {
             times_secs,
@@ -60,7 +74,7 @@ impl<T: CurveValue> Curve<T> {
     ///
     /// # Errors
     /// As [`Curve::step`], and when a number between two keys could overflow.
-    pub fn cubic(keys: impl IntoIterator<Item = (f32, T, [T; 2])>) -> Result<Self, ModelError> {
+    pub fn cubic(keys: impl IntoIterator<Item = (f32, T, [T; 2])>) -> Result<Self, Fault> {
         let keys = keys
             .into_iter()
             .map(|(time_secs, value, tangents)| ((time_secs, value), tangents));
@@ -73,20 +87,20 @@ impl<T: CurveValue> Curve<T> {
         curve.checked()
     }
 
-    fn checked(self) -> Result<Self, ModelError> {
+    fn checked(self) -> Result<Self, Fault> {
         if self.times_secs.is_empty() {
-            return Err(ModelError::NoKeys);
+            return Err(no_keys());
         }
         for (key, (time_secs, value)) in self.times_secs.iter().zip(&self.values).enumerate() {
             let mut slopes = self.tangents.iter().flat_map(|tangents| tangents[key]);
             if !time_secs.is_finite() || !value.is_finite() || !slopes.all(CurveValue::is_finite) {
-                return Err(ModelError::KeyNotFinite { key });
+                return Err(key_not_finite(key));
             }
             if key > 0 && *time_secs <= self.times_secs[key - 1] {
-                return Err(ModelError::KeyNotAfter { key });
+                return Err(key_not_after(key));
             }
             if key > 0 && !self.stays_finite(key - 1) {
-                return Err(ModelError::KeyNotFinite { key });
+                return Err(key_not_finite(key));
             }
         }
         Ok(self)
@@ -107,7 +121,7 @@ impl<T: CurveValue> Curve<T> {
     ///
     /// # Errors
     /// As [`Curve::step`].
-    pub(crate) fn mapped(&self, map: impl Fn(T) -> T) -> Result<Self, ModelError> {
+    pub(crate) fn mapped(&self, map: impl Fn(T) -> T) -> Result<Self, Fault> {
         let tangents = self.tangents.as_ref();
         let curve = Self {
             times_secs: self.times_secs.clone(),
@@ -121,7 +135,7 @@ impl<T: CurveValue> Curve<T> {
     ///
     /// # Errors
     /// As [`Curve::step`].
-    pub(crate) fn with_times(&self, times_secs: Vec<f32>) -> Result<Self, ModelError> {
+    pub(crate) fn with_times(&self, times_secs: Vec<f32>) -> Result<Self, Fault> {
         let curve = Self {
             times_secs,
             values: self.values.clone(),

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3, Vec4};
 
-use super::ModelError;
+use crate::diagnostic::{Fault, Subject, codes};
 
 /// Up to four joints that move a vertex. Weights are normalised: they sum to 1, or all are zero and the vertex stays where
 /// bind space has it. Unused slots have joint 0 and weight 0.
@@ -73,7 +73,7 @@ impl Mesh {
     ///
     /// # Errors
     /// When one of them does not hold.
-    pub fn check(&self) -> Result<(), ModelError> {
+    pub fn check(&self) -> Result<(), Fault> {
         let vertex_count = self.vertex_count();
         let or_none = |length: usize| if length == 0 { vertex_count } else { length };
         let streams = [
@@ -85,32 +85,37 @@ impl Mesh {
         ];
         for (stream, length) in streams {
             if length != vertex_count {
-                return Err(ModelError::StreamLength {
-                    stream,
-                    length,
-                    vertex_count,
-                });
+                return Err(stream_length(stream, length, vertex_count));
             }
         }
         // Nearly always all are sound. Looking at all of them without a branch is the quickest way to know.
         let are_finite = self.positions.iter().fold(true, |are, at| are & at.is_finite());
         let faulty = (!are_finite).then(|| self.positions.iter().position(|at| !at.is_finite()));
         if let Some(vertex) = faulty.flatten() {
-            return Err(ModelError::PositionNotFinite { vertex });
+            let message = format!("The position of vertex {vertex} holds a number that is not finite.");
+            return Err(codes::POSITION_NOT_FINITE.says(message).into());
         }
         if !self.indices.len().is_multiple_of(3) {
-            return Err(ModelError::IncompleteTriangle {
-                index_count: self.indices.len(),
-            });
+            let message = format!("There are {} indices; three make a triangle.", self.indices.len());
+            return Err(codes::INCOMPLETE_TRIANGLE.says(message).into());
         }
-        out_of_range(&self.indices, vertex_count).map_or(Ok(()), |place| {
-            Err(ModelError::VertexOutOfRange {
-                triangle: (place / 3) as u32,
-                vertex: self.indices[place],
-                vertex_count: vertex_count as u32,
-            })
-        })
+        let Some(place) = out_of_range(&self.indices, vertex_count) else {
+            return Ok(());
+        };
+        let (triangle, vertex) = ((place / 3) as u32, self.indices[place]);
+        let message = format!("Triangle {triangle} names vertex {vertex}, but there are {vertex_count} vertices.");
+        let fault = codes::VERTEX_OUT_OF_RANGE.says(message);
+        let fault = fault.expected(format!("a vertex below {vertex_count}"));
+        Err(fault
+            .found(vertex.to_string())
+            .about(Subject::Triangle(triangle))
+            .into())
     }
+}
+
+pub(super) fn stream_length(stream: &str, length: usize, vertex_count: usize) -> Fault {
+    let message = format!("There are {length} {stream} for {vertex_count} vertices; every vertex has one.");
+    codes::STREAM_LENGTH.says(message).into()
 }
 
 /// The first place of an index that names no vertex.

@@ -1,14 +1,13 @@
 //! A model in our words, every index and order proved.
 //!
 //! A model knows no format: [`import`](crate::import) makes its parts of what a file says. [`Skeleton::new`], [`Track::new`] and
-//! [`Model::checked`] prove them, or give a [`ModelError`]. What is proved here no later stage looks at again.
+//! [`Model::checked`] prove them, or give a [`Fault`]. What is proved here no later stage looks at again.
 
 mod between;
 mod bitangents;
 mod bounds;
 mod clip;
 mod curve;
-mod error;
 mod joint_names;
 mod local_joint;
 mod material;
@@ -28,7 +27,6 @@ pub use bitangents::Green;
 pub use bounds::Aabb;
 pub use clip::Clip;
 pub use curve::{Curve, CurveValue, Curves};
-pub use error::ModelError;
 pub use joint_names::{JointNames, SavedNames, hierarchy_fingerprint};
 pub use local_joint::LocalJoint;
 pub use material::{AlphaMode, MapSlot, Material, MaterialMap, Reflectance, Sampling, Wrap};
@@ -43,6 +41,8 @@ pub use space::{Front, Handedness, UpAxis, world_from_model};
 pub use track::Track;
 pub(crate) use track::unit as unit_rotation;
 pub use tree::{JointTree, VertexCounts};
+
+use crate::diagnostic::{Fault, codes};
 
 /// A model that can be animated and drawn. After [`Model::checked`] no later stage can fail.
 #[derive(Clone, Debug, Default)]
@@ -71,22 +71,22 @@ impl Model {
     ///
     /// # Errors
     /// When one of these does not hold.
-    pub fn checked(self) -> Result<Self, ModelError> {
+    pub fn checked(self) -> Result<Self, Fault> {
         self.mesh.check()?;
         self.check_influences()?;
         self.check_submeshes()?;
         let joint_count = self.skeleton.joint_count();
         match self.clips.iter().position(|clip| clip.tracks.len() != joint_count) {
             None => Ok(self),
-            Some(clip) => Err(ModelError::TrackCount {
-                clip,
-                tracks: self.clips[clip].tracks.len(),
-                joint_count,
-            }),
+            Some(clip) => {
+                let tracks = self.clips[clip].tracks.len();
+                let message = format!("Clip {clip} has {tracks} tracks for {joint_count} joints; every joint has one.");
+                Err(codes::TRACK_COUNT.says(message).into())
+            }
         }
     }
 
-    fn check_influences(&self) -> Result<(), ModelError> {
+    fn check_influences(&self) -> Result<(), Fault> {
         let influences = &self.mesh.influences;
         let joint_count = self.skeleton.joint_count();
         let vertex_count = self.mesh.vertex_count();
@@ -94,30 +94,26 @@ impl Model {
             return Ok(());
         }
         if influences.len() != vertex_count {
-            return Err(ModelError::StreamLength {
-                stream: "influences",
-                length: influences.len(),
-                vertex_count,
-            });
+            return Err(mesh::stream_length("influences", influences.len(), vertex_count));
         }
         for (vertex, influences) in influences.iter().enumerate() {
             if let Some(&joint) = influences.joints.iter().find(|&&joint| joint as usize >= joint_count) {
-                return Err(ModelError::JointOutOfRange {
-                    vertex,
-                    joint,
-                    joint_count,
-                });
+                let message = format!("Vertex {vertex} names joint {joint}, but there are {joint_count} joints.");
+                return Err(codes::JOINT_OUT_OF_RANGE.says(message).into());
             }
         }
         Ok(())
     }
 
-    fn check_submeshes(&self) -> Result<(), ModelError> {
+    fn check_submeshes(&self) -> Result<(), Fault> {
         let outside = self.mesh.submeshes.iter().position(|submesh| {
             let end = u64::from(submesh.triangle_start) + u64::from(submesh.triangle_count);
             end > self.mesh.triangle_count() as u64 || submesh.material as usize >= self.materials.len()
         });
-        outside.map_or(Ok(()), |submesh| Err(ModelError::SubmeshOutOfRange { submesh }))
+        outside.map_or(Ok(()), |submesh| {
+            let message = format!("Submesh {submesh} names triangles or a material that are not there.");
+            Err(codes::SUBMESH_OUT_OF_RANGE.says(message).into())
+        })
     }
 
     /// Box of all vertices in bind space, also those that no triangle uses.

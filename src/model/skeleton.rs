@@ -2,7 +2,8 @@
 
 use glam::{Affine3A, DAffine3};
 
-use super::{LocalJoint, ModelError};
+use super::LocalJoint;
+use crate::diagnostic::{Fault, codes};
 
 /// Index of a joint in its skeleton (parents-first order).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -43,24 +44,29 @@ impl Skeleton {
         parents: Vec<Option<JointIndex>>,
         joint_from_bind: Vec<Affine3A>,
         file_bones: Vec<u32>,
-    ) -> Result<Self, ModelError> {
+    ) -> Result<Self, Fault> {
         let joint_count = parents.len();
         if joint_from_bind.len() != joint_count || file_bones.len() != joint_count {
-            return Err(ModelError::JointCountMismatch {
-                parents: joint_count,
-                matrices: joint_from_bind.len(),
-                file_bones: file_bones.len(),
-            });
+            let message = format!(
+                "{joint_count} parents, {} inverse bind matrices and {} file bones; every joint has one of each.",
+                joint_from_bind.len(),
+                file_bones.len()
+            );
+            return Err(codes::JOINT_COUNT_MISMATCH.says(message).into());
         }
         for (joint, parent) in (0u32..).zip(&parents) {
             if let &Some(JointIndex(parent)) = parent
                 && parent >= joint
             {
-                return Err(ModelError::ParentNotBefore { joint, parent });
+                let message = format!(
+                    "Joint {joint} lists joint {parent} as its parent; a parent must come before its children."
+                );
+                return Err(codes::PARENT_NOT_BEFORE.says(message).into());
             }
         }
-        if let Some(joint) = (0u32..).zip(&joint_from_bind).find(|(_, matrix)| !matrix.is_finite()) {
-            return Err(ModelError::MatrixNotFinite { joint: joint.0 });
+        if let Some(joint) = joint_from_bind.iter().position(|matrix| !matrix.is_finite()) {
+            let message = format!("The inverse bind matrix of joint {joint} holds a number that is not finite.");
+            return Err(codes::MATRIX_NOT_FINITE.says(message).into());
         }
         let joint_of_bone = inverse_order(&file_bones)?;
         let (model_from_joint, bind) = bind_pose(&parents, &joint_from_bind);
@@ -149,12 +155,17 @@ impl Skeleton {
 }
 
 /// Where each file bone stands; an error unless the numbers are an order of all joints.
-fn inverse_order(file_bones: &[u32]) -> Result<Vec<JointIndex>, ModelError> {
+fn inverse_order(file_bones: &[u32]) -> Result<Vec<JointIndex>, Fault> {
     let mut joint_of_bone = vec![None; file_bones.len()];
     for (joint, &bone) in (0u32..).zip(file_bones) {
         match joint_of_bone.get_mut(bone as usize) {
             Some(place @ None) => *place = Some(JointIndex(joint)),
-            _ => return Err(ModelError::FileBoneNotUnique { joint, bone }),
+            _ => {
+                let message = format!(
+                    "File bone {bone} of joint {joint} is out of range or taken; the file bones are an order of all joints."
+                );
+                return Err(codes::FILE_BONE_NOT_UNIQUE.says(message).into());
+            }
         }
     }
     // As many distinct numbers in range as there are places: none is left empty.

@@ -2,9 +2,11 @@
 
 use glam::{Quat, Vec3, Vec4};
 
+use super::LocalJoint;
 use super::between::{part_of_way, rotation_between, vector_between};
 use super::curve::{Curve, Curves};
-use super::{LocalJoint, ModelError};
+use super::curve::{key_not_after, key_not_finite, no_keys};
+use crate::diagnostic::Fault;
 
 /// Keys of one joint relative to its parent. Times are in seconds and strictly increasing; there is at least one key, and
 /// all streams have one length. Outside its range a track holds its first or last value, since the tracks of a clip may
@@ -33,23 +35,23 @@ impl Track {
     ///
     /// # Errors
     /// When there is no key, a time is not after the one before, a number is not finite, or a rotation is zero.
-    pub fn new(keys: impl IntoIterator<Item = (f32, LocalJoint)>) -> Result<Self, ModelError> {
+    pub fn new(keys: impl IntoIterator<Item = (f32, LocalJoint)>) -> Result<Self, Fault> {
         let keys = keys.into_iter();
         let mut track = Self::with_capacity(keys.size_hint().0);
         for (key, (time_secs, joint)) in keys.enumerate() {
             if track.times_secs.last().is_some_and(|&before| time_secs <= before) {
-                return Err(ModelError::KeyNotAfter { key });
+                return Err(key_not_after(key));
             }
             let Some(rotation) = unit(joint.rotation) else {
-                return Err(ModelError::KeyNotFinite { key });
+                return Err(key_not_finite(key));
             };
             if !time_secs.is_finite() || !joint.is_finite() {
-                return Err(ModelError::KeyNotFinite { key });
+                return Err(key_not_finite(key));
             }
             track.push(time_secs, LocalJoint { rotation, ..joint });
         }
         if track.times_secs.is_empty() {
-            return Err(ModelError::NoKeys);
+            return Err(no_keys());
         }
         Ok(track)
     }
@@ -94,7 +96,7 @@ impl Track {
         translation: impl Fn(Vec3) -> Vec3,
         rotation: impl Fn(Vec4) -> Vec4,
         scale: impl Fn(Vec3) -> Vec3,
-    ) -> Result<Self, ModelError> {
+    ) -> Result<Self, Fault> {
         let joint = |key: usize| LocalJoint {
             rotation: Quat::from_vec4(rotation(self.rotations[key].into())),
             translation: translation(self.translations[key]),
@@ -119,13 +121,13 @@ impl Track {
     ///
     /// # Errors
     /// When a time is no longer finite.
-    pub(crate) fn sooner(&self, secs: f32) -> Result<Self, ModelError> {
+    pub(crate) fn sooner(&self, secs: f32) -> Result<Self, Fault> {
         if self.at_rest {
             return Ok(self.clone());
         }
         let times_secs = increasing(self.times_secs.iter().map(|time_secs| time_secs - secs));
         if let Some(key) = times_secs.iter().position(|time_secs| !time_secs.is_finite()) {
-            return Err(ModelError::KeyNotFinite { key });
+            return Err(key_not_finite(key));
         }
         // A curve's keys stay among the track's.
         let of_curve = |curve_secs: &[f32]| {

@@ -7,7 +7,6 @@ use super::export_maps::{KnownMaps, MapFiles, MapsAsked, plan_maps, unreadable_m
 use super::export_plan::ExportPlan;
 use super::load::Progress;
 use super::maps::Maps;
-use crate::diagnostic::collect::counted;
 use crate::edit::{Change, EditError, EditJob, Edited, Edits};
 use crate::export::{self, EncodedMaps, ExportError, Exported, Loss};
 use crate::format::Dialect;
@@ -354,15 +353,12 @@ fn plan_glb(model: &Model, known: &KnownMaps, plan: &mut ExportPlan) {
     let images = &known.lent();
     let turned = export::turned_materials(model, images);
     let count = turned.iter().filter(|turned| **turned).count();
-    if count > 0 {
-        plan.changes.push(Change {
-            code: "normal-green-turned",
-            message: format!(
-                "{} green up, as glTF has it, and the tangents' sign follows.",
-                counted(count, "normal map has", "normal maps have")
-            ),
-        });
-    }
+    plan.changes.extend(Change::counted(
+        "normal-green-turned",
+        count,
+        ["normal map has", "normal maps have"],
+        "green up, as glTF has it, and the tangents' sign follows.",
+    ));
     let unreadable = known.unreadable(&MapSlot::ALL);
     plan.losses.extend(export::glb_losses(model, images, &unreadable));
     plan.losses.extend(unreadable_maps(unreadable.len()));

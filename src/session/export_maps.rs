@@ -274,14 +274,8 @@ fn say_looks(model: &Model, looks: &[Look], known: &KnownMaps, plan: &mut Export
 
 /// The loss of maps whose pictures are there and cannot be read.
 pub(super) fn unreadable_maps(count: usize) -> Option<Loss> {
-    (count > 0).then(|| Loss {
-        code: "maps-unreadable",
-        message: format!(
-            "{} there and cannot be read; `check --textures` says why.",
-            counted(count, "map is", "maps are")
-        ),
-        count,
-    })
+    let rest = "there and cannot be read; `check --textures` says why.";
+    Loss::counted("maps-unreadable", count, ["map is", "maps are"], rest)
 }
 
 /// Turns the bitangents of materials whose green points up, where no picture that is left as it is says otherwise. Whether each is turned.
@@ -304,25 +298,12 @@ fn turn(model: &mut Model, known: &KnownMaps, asked: MapsAsked, plan: &mut Expor
         kept += usize::from(!turned[material]);
     }
     model.turn_bitangents(|material| turned[material]);
-    if pictures > 0 {
-        plan.changes.push(Change {
-            code: "normal-green-turned",
-            message: format!(
-                "{} green down, as the books have it, and the tangents' sign follows.",
-                counted(pictures, "normal map has", "normal maps have")
-            ),
-        });
-    }
-    if kept > 0 {
-        plan.losses.push(Loss {
-            code: "normal-green-up",
-            message: format!(
-                "{} green up, as glTF has it, and no picture is written; the books have it down.",
-                counted(kept, "normal map has", "normal maps have")
-            ),
-            count: kept,
-        });
-    }
+    let maps = ["normal map has", "normal maps have"];
+    let rest = "green down, as the books have it, and the tangents' sign follows.";
+    plan.changes
+        .extend(Change::counted("normal-green-turned", pictures, maps, rest));
+    let rest = "green up, as glTF has it, and no picture is written; the books have it down.";
+    plan.losses.extend(Loss::counted("normal-green-up", kept, maps, rest));
     turned
 }
 
@@ -396,37 +377,31 @@ fn say_unwritten(model: &Model, known: &KnownMaps, asked: MapsAsked, plan: &mut 
 }
 
 fn say_written(count: usize, [added, missing]: [usize; 2], asked: MapsAsked, plan: &mut ExportPlan) {
-    if count > 0 {
-        let way = if asked.for_book { " as DDS with mips" } else { "" };
-        plan.changes.push(Change {
-            code: "maps-written",
-            message: format!(
-                "{} beside the file{way}.",
-                counted(count, "map is written", "maps are written")
-            ),
-        });
-    }
-    if added > 0 {
-        plan.changes.push(Change {
-            code: "maps-added",
-            message: format!(
-                "{} without a map {} a plain one, since the demo opens one for each.",
-                counted(added, "slot of a material", "slots of materials"),
-                if added == 1 { "gets" } else { "get" }
-            ),
-        });
-    }
-    if missing > 0 {
-        plan.losses.push(Loss {
-            code: codes::MAP_MISSING.name,
-            message: format!(
-                "{} not found and replaced by {}, since the demo opens them all.",
-                counted(missing, "map is", "maps are"),
-                if missing == 1 { "a plain one" } else { "plain ones" }
-            ),
-            count: missing,
-        });
-    }
+    let way = if asked.for_book { " as DDS with mips" } else { "" };
+    plan.changes.extend(Change::counted(
+        "maps-written",
+        count,
+        ["map is", "maps are"],
+        &format!("written beside the file{way}."),
+    ));
+    plan.changes.extend(Change::counted(
+        "maps-added",
+        added,
+        [
+            "slot of a material without a map gets",
+            "slots of materials without a map get",
+        ],
+        "a plain one, since the demo opens one for each.",
+    ));
+    plan.losses.extend(Loss::counted(
+        codes::MAP_MISSING.name,
+        missing,
+        [
+            "map is not found and replaced by a plain one,",
+            "maps are not found and replaced by plain ones,",
+        ],
+        "since the demo opens them all.",
+    ));
 }
 
 #[derive(Default)]

@@ -4,7 +4,6 @@ use super::Session;
 use super::export::{Export, ExportCommand, ExportOptions, ExportRange, Exporting, Made, Stamp};
 use super::export_job::{ExportJob, ExportStep, ExportedFile, ToExport};
 use super::load::Progress;
-use crate::diagnostic::collect::counted;
 use crate::edit::{Change, Edits};
 use crate::model::Front;
 
@@ -117,17 +116,8 @@ impl Session {
             model.mesh.turn_triangles();
         }
         (model.handedness, model.up_axis) = (self.handedness(), self.up_axis());
-        let edited = (edited > 0).then(|| Change {
-            code: "materials-edited",
-            message: format!(
-                "{} edited here.",
-                counted(
-                    edited,
-                    "material is written as it was",
-                    "materials are written as they were"
-                )
-            ),
-        });
+        let words = ["material is written as it was", "materials are written as they were"];
+        let edited = Change::counted("materials-edited", edited, words, "edited here.");
         let materials = model.materials.iter();
         let is_mapped: Vec<bool> = materials.map(|material| material.normal_map.is_some()).collect();
         let green_flipped = self.look().normal_green_flipped && is_mapped.contains(&true);

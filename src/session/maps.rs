@@ -183,7 +183,7 @@ impl Maps {
         } else {
             image::check(&picture.bytes, name).map(|()| Decoded::Unused)
         };
-        self.decoded[index] = looked_at.unwrap_or_else(|error| Decoded::Failed(error.diagnostic()));
+        self.decoded[index] = looked_at.unwrap_or_else(|fault| Decoded::Failed(*fault));
         true
     }
 

@@ -58,8 +58,9 @@ impl Sky {
         cubes.sort_by_key(|file| std::cmp::Reverse((image::cube_side(&file.bytes), file.bytes.len())));
         cubes.retain(|file| {
             let checked = image::check(&file.bytes, file.base_name());
-            diagnostics.extend(checked.as_ref().err().map(|error| error.diagnostic()));
-            checked.is_ok()
+            let is_sound = checked.is_ok();
+            diagnostics.extend(checked.err().map(|fault| *fault));
+            is_sound
         });
         for cube in &cubes {
             match self.found.iter_mut().find(|known| known.path == cube.path) {
@@ -78,8 +79,8 @@ impl Sky {
         }
         let image = match image::decode(&file.bytes, file.base_name()) {
             Ok(image) => Arc::new(image),
-            Err(error) => {
-                self.diagnostics.push(error.diagnostic());
+            Err(fault) => {
+                self.diagnostics.push(*fault);
                 return false;
             }
         };

@@ -6,7 +6,7 @@ use super::maps::Maps;
 use super::open_model::OpenModel;
 use crate::check::book::{self, Book, Known, Limit, MOST_MATERIALS, Verdict};
 use crate::diagnostic::codes;
-use crate::edit::{EditError, too_large_for_book};
+use crate::edit::too_large_for_book;
 use crate::format;
 use crate::model::Model;
 
@@ -58,20 +58,13 @@ impl Verdicts {
 /// What a model of another format exceeds in the demos of these books even when it is converted for them: what the export for the book
 /// refuses, and more materials than the demo has room for. Each submesh becomes a material there.
 pub fn limits_once_converted(model: &Model, books: &[Book]) -> Vec<Limit> {
-    let of_edits = too_large_for_book(model).into_iter().map(|error| {
-        let code = match error {
-            EditError::TooManyBones { .. } => &codes::MANY_BONES,
-            _ => &codes::MANY_VERTICES,
-        };
-        (code, error.to_string())
-    });
     let count = model.mesh.submeshes.len();
     let message = format!(
         "It has {count} materials, counting each for each part that it is on; the demo reaches the maps of {MOST_MATERIALS}."
     );
     let is_many = books.contains(&Book::D3d12) && count > MOST_MATERIALS;
     let of_materials = is_many.then_some((&codes::BOOK_MANY_MATERIALS, message));
-    let all = of_edits.chain(of_materials);
+    let all = too_large_for_book(model).into_iter().chain(of_materials);
     all.map(|(code, message)| Limit {
         code: code.name,
         message,

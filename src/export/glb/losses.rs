@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashSet};
 
 use super::animation::has_keys;
 use super::skeleton::is_unweighted;
-use crate::diagnostic::collect::{counted, named};
+use crate::diagnostic::collect::named;
 use crate::export::losses::Losses;
 use crate::export::{Loss, MapImages};
 use crate::model::{Clip, MapSlot, Model, Sampling};
@@ -17,63 +17,54 @@ pub fn glb_losses(model: &Model, maps: &MapImages<'_>, unreadable: &BTreeSet<(us
     let mut losses = Losses::default();
     let mesh = &model.mesh;
     let undrawn = mesh.triangle_count() - model.triangles_of(|_| true).count();
-    losses.add(
+    losses.count(
         "triangles-undrawn",
         undrawn,
-        format!(
-            "{} left out, since no subset draws them.",
-            counted(undrawn, "triangle is", "triangles are")
-        ),
+        ["triangle is", "triangles are"],
+        "left out, since no subset draws them.",
     );
     let empty = mesh
         .submeshes
         .iter()
         .filter(|submesh| submesh.triangle_count == 0)
         .count();
-    losses.add(
+    losses.count(
         "subsets-empty",
         empty,
-        format!(
-            "{} left out, which have no triangles.",
-            counted(empty, "subset is", "subsets are")
-        ),
+        ["subset is", "subsets are"],
+        "left out, which have no triangles.",
     );
     let unweighted = mesh
         .influences
         .iter()
         .filter(|influences| is_unweighted(influences))
         .count();
-    losses.add(
+    losses.count(
         "vertices-unweighted",
         unweighted,
-        format!(
-            "{} moved by no bone; a joint that stands still is added to hold them.",
-            counted(unweighted, "vertex is", "vertices are")
-        ),
+        ["vertex is", "vertices are"],
+        "moved by no bone; a joint that stands still is added to hold them.",
     );
     let names = |is: &dyn Fn(&Clip) -> bool| -> Vec<&str> {
         let clips = model.clips.iter().filter(|clip| is(clip));
         clips.map(|clip| clip.name.as_str()).collect()
     };
     let early = names(&|clip| has_keys(clip) && clip.start_secs < 0.0);
-    losses.add(
+    losses.count(
         "negative-times",
         early.len(),
-        format!(
-            "{} before 0 s, where glTF has no time, and moved to begin there: {}.",
-            counted(early.len(), "clip begins", "clips begin"),
+        ["clip begins", "clips begin"],
+        &format!(
+            "before 0 s, where glTF has no time, and moved to begin there: {}.",
             named(early)
         ),
     );
     let still = names(&|clip| !has_keys(clip));
-    losses.add(
+    losses.count(
         "clips-without-keys",
         still.len(),
-        format!(
-            "{} left out for having no keys: {}.",
-            counted(still.len(), "clip is", "clips are"),
-            named(still)
-        ),
+        ["clip is", "clips are"],
+        &format!("left out for having no keys: {}.", named(still)),
     );
     // A picture that several materials name is one.
     let missing: HashSet<&str> = (0..)
@@ -88,27 +79,22 @@ pub fn glb_losses(model: &Model, maps: &MapImages<'_>, unreadable: &BTreeSet<(us
         .collect();
     let mut missing: Vec<&str> = missing.into_iter().collect();
     missing.sort_unstable();
-    losses.add(
+    losses.count(
         "maps-missing",
         missing.len(),
-        format!(
-            "{} left out, since there is no picture: {}.",
-            counted(missing.len(), "map is", "maps are"),
-            named(missing)
-        ),
+        ["map is", "maps are"],
+        &format!("left out, since there is no picture: {}.", named(missing)),
     );
     let named = model
         .materials
         .iter()
         .flat_map(|material| MapSlot::ALL.map(|slot| material.map(slot)));
     let sheared = named.flatten().filter(|map| is_sheared(&map.sampling)).count();
-    losses.add(
+    losses.count(
         "texture-shear",
         sheared,
-        format!(
-            "{} texture coordinates, which glTF's transform cannot say; the rest of it is kept.",
-            counted(sheared, "map shears", "maps shear")
-        ),
+        ["map shears", "maps shear"],
+        "texture coordinates, which glTF's transform cannot say; the rest of it is kept.",
     );
     losses.0
 }

@@ -3,7 +3,7 @@
 use super::document::{names_materials, of_subsets, rests_apart};
 use crate::anim::STRAIGHT_ERROR;
 use crate::diagnostic::codes;
-use crate::diagnostic::collect::{counted, few, named, quoted};
+use crate::diagnostic::collect::{few, named, quoted};
 use crate::diagnostic::limits::{MOST_BONE_INDEX, MOST_BONES, MOST_MATERIALS, MOST_VERTICES};
 use crate::export::Loss;
 use crate::export::losses::Losses;
@@ -58,32 +58,25 @@ fn space(model: &Model, dialect: Dialect, losses: &mut Losses) {
 
 fn mesh(model: &Model, losses: &mut Losses) {
     let mesh = &model.mesh;
-    let vertices = |count| counted(count, "vertex has", "vertices have");
-    losses.add(
+    let vertices = ["vertex has", "vertices have"];
+    losses.count(
         "vertex-colors",
         mesh.colors.len(),
-        format!(
-            "{} a colour; the format has no vertex colours.",
-            vertices(mesh.colors.len())
-        ),
+        vertices,
+        "a colour; the format has no vertex colours.",
     );
-    let second = mesh.second_tex_coords.len();
-    losses.add(
+    losses.count(
         "second-tex-coords",
-        second,
-        format!(
-            "{} a second UV map (texture coordinates); the format has one.",
-            vertices(second)
-        ),
+        mesh.second_tex_coords.len(),
+        vertices,
+        "a second UV map (texture coordinates); the format has one.",
     );
     let beyond = mesh.vertex_count().saturating_sub(MOST_VERTICES);
-    losses.add(
+    losses.count(
         codes::MANY_VERTICES.name,
         beyond,
-        format!(
-            "{} beyond the {MOST_VERTICES} that the books' 16-bit indices can number.",
-            counted(beyond, "vertex is", "vertices are")
-        ),
+        ["vertex is", "vertices are"],
+        &format!("beyond the {MOST_VERTICES} that the books' 16-bit indices can number."),
     );
 }
 
@@ -93,22 +86,18 @@ fn skeleton(model: &Model, names: &JointNames, losses: &mut Losses) {
         .zip(skeleton.file_bones())
         .filter(|&(joint, &bone)| skeleton.name(JointIndex(joint)).is_some() || names.get(bone).is_some())
         .count();
-    losses.add(
+    losses.count(
         "joint-names",
         named,
-        format!(
-            "{} a name; the format numbers its bones.",
-            counted(named, "bone has", "bones have")
-        ),
+        ["bone has", "bones have"],
+        "a name; the format numbers its bones.",
     );
     let beyond = skeleton.joint_count().saturating_sub(MOST_BONES);
-    losses.add(
+    losses.count(
         codes::MANY_BONES.name,
         beyond,
-        format!(
-            "{} beyond the {MOST_BONES} that the books' shaders have room for.",
-            counted(beyond, "bone is", "bones are")
-        ),
+        ["bone is", "bones are"],
+        &format!("beyond the {MOST_BONES} that the books' shaders have room for."),
     );
     let is_above = |influences: &&crate::model::Influences| {
         let slots = influences.joints.iter().zip(influences.weights);
@@ -116,22 +105,19 @@ fn skeleton(model: &Model, names: &JointNames, losses: &mut Losses) {
         used.any(|(&joint, _)| skeleton.file_bones()[joint as usize] > MOST_BONE_INDEX)
     };
     let above = model.mesh.influences.iter().filter(is_above).count();
-    losses.add(
+    losses.count(
         codes::BONE_INDEX_ABOVE_BYTE.name,
         above,
-        format!(
-            "{} a bone above {MOST_BONE_INDEX}, of which the books' loaders keep a byte.",
-            counted(above, "vertex names", "vertices name")
-        ),
+        ["vertex names", "vertices name"],
+        &format!("a bone above {MOST_BONE_INDEX}, of which the books' loaders keep a byte."),
     );
     let apart = rests_apart(model).iter().flatten().count();
-    losses.add(
+    losses.count(
         "rest-pose",
         apart,
-        format!(
-            "{} elsewhere than in the bind pose. A clip without keys for such a bone gets one; without a clip the bind pose is seen.",
-            counted(apart, "bone rests", "bones rest")
-        ),
+        ["bone rests", "bones rest"],
+        "elsewhere than in the bind pose. A clip without keys for such a bone gets one; without a clip the bind pose is \
+         seen.",
     );
 }
 
@@ -141,22 +127,20 @@ fn keys(model: &Model, losses: &mut Losses) {
         tracks.filter(|track| is(track)).count()
     };
     let stepped = curved(|track| track.curves().is_some_and(|curves| curves.holds()));
-    losses.add(
+    losses.count(
         "step-keys",
         stepped,
-        format!(
-            "{} from key to key (constant interpolation); each such key becomes two, the second just before the next.",
-            counted(stepped, "track holds its values", "tracks hold their values")
-        ),
+        ["track holds its values", "tracks hold their values"],
+        "from key to key (constant interpolation); each such key becomes two, the second just before the next.",
     );
     let cubic = curved(|track| track.curves().is_some_and(|curves| curves.bends()));
-    losses.add(
+    losses.count(
         "cubic-keys",
         cubic,
-        format!(
-            "{} splines (Bézier curves); straight pieces take their place, off by at most {STRAIGHT_ERROR:e} of the track's range, for \
-             rotations {STRAIGHT_ERROR:e} radians.",
-            counted(cubic, "track follows", "tracks follow")
+        ["track follows", "tracks follow"],
+        &format!(
+            "splines (Bézier curves); straight pieces take their place, off by at most {STRAIGHT_ERROR:e} of the track's range, \
+             for rotations {STRAIGHT_ERROR:e} radians."
         ),
     );
     // One that rests apart gets a key there.
@@ -168,12 +152,12 @@ fn keys(model: &Model, losses: &mut Losses) {
         .flat_map(|clip| clip.tracks.iter().zip(&rests))
         .filter(is_empty)
         .count();
-    losses.add(
+    losses.count(
         codes::TRACK_EMPTY.name,
         empty,
-        format!(
-            "{} no keys in a clip and {} none; the books' demos need one. Without `--keep-empty` each gets one at rest.",
-            counted(empty, "bone has", "bones have"),
+        ["bone has", "bones have"],
+        &format!(
+            "no keys in a clip and {} none; the books' demos need one. Without `--keep-empty` each gets one at rest.",
             if empty == 1 { "gets" } else { "get" }
         ),
     );
@@ -191,22 +175,20 @@ fn subsets(model: &Model, dialect: Dialect, losses: &mut Losses) {
         uses[submesh.material as usize] += 1;
     }
     let shared: usize = uses.iter().map(|uses| uses.saturating_sub(1)).sum();
-    losses.add(
+    losses.count(
         "materials-shared",
         shared,
-        format!(
-            "{} a material with another one: each gets its own copy, since the format has one material for each subset.",
-            counted(shared, "subset shares", "subsets share")
-        ),
+        ["subset shares", "subsets share"],
+        "a material with another one: each gets its own copy, since the format has one material for each subset.",
     );
     let unused = model.materials.iter().zip(&uses).filter(|(_, uses)| **uses == 0);
     let unused: Vec<&str> = unused.map(|(material, _)| material.name.as_str()).collect();
-    losses.add(
+    losses.count(
         "materials-unused",
         unused.len(),
-        format!(
-            "{} left out, since nothing is drawn with {}: {}.",
-            counted(unused.len(), "material is", "materials are"),
+        ["material is", "materials are"],
+        &format!(
+            "left out, since nothing is drawn with {}: {}.",
             if unused.len() == 1 { "it" } else { "them" },
             named(unused)
         ),
@@ -232,27 +214,22 @@ fn single_words(model: &Model, dialect: Dialect, losses: &mut Losses) {
         .filter(several)
         .count();
     let count = clips + materials + maps;
-    losses.add(
+    losses.count(
         "names-of-one-word",
         count,
-        format!(
-            "{} more than one word; the books' loaders read names to the first blank, so blanks become underscores.",
-            counted(
-                count,
-                "name of a clip, material or map has",
-                "names of clips, materials and maps have"
-            )
-        ),
+        [
+            "name of a clip, material or map has",
+            "names of clips, materials and maps have",
+        ],
+        "more than one word; the books' loaders read names to the first blank, so blanks become underscores.",
     );
     let named = (0..).zip(of_subsets(model)).filter(is_named);
     let unnamed = if names_materials(dialect) { 0 } else { named.count() };
-    losses.add(
+    losses.count(
         "material-names",
         unnamed,
-        format!(
-            "{} a name; the dialect has none.",
-            counted(unnamed, "material has", "materials have")
-        ),
+        ["material has", "materials have"],
+        "a name; the dialect has none.",
     );
 }
 
@@ -269,29 +246,23 @@ fn surfaces(materials: &[&Material], dialect: Dialect, losses: &mut Losses) {
         IS,
         "metal, for which the format has no number: the colour gets darker and the reflection (Fresnel0) takes it on",
     );
-    let are = |count| counted(count, IS[0], IS[1]);
     let is_phong = |material: &&&Material| matches!(material.reflectance, Reflectance::Phong { .. });
     let phong = materials.iter().filter(is_phong).count();
     if dialect == Dialect::D3d12 {
-        losses.all.add(
+        losses.all.count(
             "phong-to-fresnel",
             phong,
-            format!(
-                "{} of the DirectX 11 book: Fresnel0 is a twentieth of Specular, with Reflectivity for the rest; Roughness^4 is 2 / (SpecPower + \
-                 2) (Walter and others 2007); Ambient is left out.",
-                are(phong)
-            ),
+            IS,
+            "of the DirectX 11 book: Fresnel0 is a twentieth of Specular, with Reflectivity for the rest; Roughness^4 is 2 / (SpecPower + 2) \
+             (Walter and others 2007); Ambient is left out.",
         );
     } else {
-        let fresnel = materials.len() - phong;
-        losses.all.add(
+        losses.all.count(
             "fresnel-to-phong",
-            fresnel,
-            format!(
-                "{} not of the DirectX 11 book: Diffuse, Specular and SpecPower are those with which its light comes nearest to the other \
-                 book's; Ambient is what was Diffuse.",
-                are(fresnel)
-            ),
+            materials.len() - phong,
+            IS,
+            "not of the DirectX 11 book: Diffuse, Specular and SpecPower are those with which its light comes nearest to the other book's; \
+             Ambient is what was Diffuse.",
         );
     }
     losses.add(
@@ -358,12 +329,11 @@ struct OfMaterials<'a> {
 }
 
 impl OfMaterials<'_> {
-    fn add(&mut self, code: &'static str, is: &dyn Fn(&Material) -> bool, [one, many]: Verb, what: &str) {
+    fn add(&mut self, code: &'static str, is: &dyn Fn(&Material) -> bool, verb: Verb, what: &str) {
         let those = self.materials.iter().filter(|material| is(material));
         let names: Vec<&str> = those.map(|material| material.name.as_str()).collect();
         let count = names.len();
-        let message = format!("{} {what}: {}.", counted(count, one, many), named(names));
-        self.all.add(code, count, message);
+        self.all.count(code, count, verb, &format!("{what}: {}.", named(names)));
     }
 }
 
@@ -379,14 +349,11 @@ fn maps(materials: &[&Material], losses: &mut Losses) {
             .map(|material| material.name.as_str())
             .collect();
         let (one, many) = (format!("{} is", slot.label()), format!("{}s are", slot.label()));
-        losses.add(
+        losses.count(
             code,
             with.len(),
-            format!(
-                "{} left out; the format has diffuse and normal maps: of {}.",
-                counted(with.len(), &one, &many),
-                named(with)
-            ),
+            [&one, &many],
+            &format!("left out; the format has diffuse and normal maps: of {}.", named(with)),
         );
     }
     let places = materials
@@ -397,12 +364,12 @@ fn maps(materials: &[&Material], losses: &mut Losses) {
         Some(format!("{} of {} ({how})", slot.label(), quoted(&material.name)))
     });
     let sampled: Vec<String> = sampled.collect();
-    losses.add(
+    losses.count(
         "map-sampling",
         sampled.len(),
-        format!(
-            "{} on the model otherwise than in the books, which repeat a map by the first UVs as they are: {}.",
-            counted(sampled.len(), "map lies", "maps lie"),
+        ["map lies", "maps lie"],
+        &format!(
+            "on the model otherwise than in the books, which repeat a map by the first UVs as they are: {}.",
             few(&sampled)
         ),
     );

@@ -1,17 +1,15 @@
 //! Bones: `BoneOffset0` with sixteen numbers, and `ParentIndexOfBone0: -1`.
 
+use crate::diagnostic::Fault;
 use crate::format::cursor::Token;
-use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
+use crate::format::error::Value;
 use crate::format::kind::DiagnosticKind;
 use crate::format::label::{Section, is_ruler, same, same_as_any, split_number};
 use crate::format::quick;
 use crate::format::reader::{Reader, looks_like_number};
 
 /// Reads the bone offsets, with the line of each.
-pub(in crate::format) fn offsets(
-    reader: &mut Reader<'_>,
-    bones: u32,
-) -> Result<(Vec<[f32; 16]>, Vec<u32>), ParseError> {
+pub(in crate::format) fn offsets(reader: &mut Reader<'_>, bones: u32) -> Result<(Vec<[f32; 16]>, Vec<u32>), Fault> {
     /// A label and sixteen digits with blanks.
     const SMALLEST: usize = 34;
     const NAMES: &[&str] = &["boneoffset", "b"];
@@ -27,7 +25,7 @@ pub(in crate::format) fn offsets(
 }
 
 /// Reads the parents, with the line of each: −1 or a bone.
-pub(in crate::format) fn hierarchy(reader: &mut Reader<'_>, bones: u32) -> Result<(Vec<i32>, Vec<u32>), ParseError> {
+pub(in crate::format) fn hierarchy(reader: &mut Reader<'_>, bones: u32) -> Result<(Vec<i32>, Vec<u32>), Fault> {
     /// `P0: 0` and a line end.
     const SMALLEST: usize = 6;
     const NAMES: &[&str] = &["parentindexofbone", "parentofbone", "p"];
@@ -52,7 +50,7 @@ fn bone_label<'a>(
     names: &[&str],
     bone: u32,
     bones: u32,
-) -> Result<Token<'a>, ParseError> {
+) -> Result<Token<'a>, Fault> {
     let Some((label, behind)) = reader.peek_label() else {
         return Err(reader.end(format!("{expected}{bone}")));
     };
@@ -71,7 +69,7 @@ fn bone_label<'a>(
 }
 
 /// Sixteen numbers, on one line or more. A second word of the label, or the bone's number, may stand before them.
-fn offset(reader: &mut Reader<'_>, bone: u32) -> Result<[f32; 16], ParseError> {
+fn offset(reader: &mut Reader<'_>, bone: u32) -> Result<[f32; 16], Fault> {
     if let Some(offset) = quick::offset(&mut reader.cursor) {
         return Ok(offset);
     }
@@ -85,11 +83,10 @@ fn offset(reader: &mut Reader<'_>, bone: u32) -> Result<[f32; 16], ParseError> {
             .iter()
             .all(|&byte| byte.is_ascii_alphabetic() || b":=_#".contains(&byte));
         if !letters {
-            let kind = ParseErrorKind::NotANumber {
-                value: Value::BoneOffset,
-                found: quoted(word.text),
-            };
-            return Err(Reader::error_at(word, kind));
+            return Err(Reader::error_at(
+                word,
+                Value::Number("a bone offset").not_a_number(word.text),
+            ));
         }
         reader.cursor.token();
         reader.note(word, DiagnosticKind::BoneOffsetLabel);
@@ -102,7 +99,7 @@ fn offset(reader: &mut Reader<'_>, bone: u32) -> Result<[f32; 16], ParseError> {
         reader.cursor.token();
         reader.note(number, DiagnosticKind::BoneOffsetLabel);
     }
-    Ok(reader.numbers(Value::BoneOffset, 16, [0.0; 16])?.0)
+    Ok(reader.numbers(Value::Number("a bone offset"), 16, [0.0; 16])?.0)
 }
 
 /// How many numbers come next, up to 18.
@@ -119,7 +116,7 @@ fn numbers_follow(reader: &Reader<'_>) -> usize {
 }
 
 /// An error when more rows follow than there are bones.
-fn surplus_rows(reader: &mut Reader<'_>, names: &[&str], bones: u32) -> Result<(), ParseError> {
+fn surplus_rows(reader: &mut Reader<'_>, names: &[&str], bones: u32) -> Result<(), Fault> {
     let ours = |label: &[u8]| {
         same_as_any(
             split_number(label.split(|&b| b == b':').next().unwrap_or(label)).0,
@@ -141,7 +138,7 @@ impl Reader<'_> {
         section: Section,
         rows: u32,
         rest_present: bool,
-    ) -> Result<bool, ParseError> {
+    ) -> Result<bool, Fault> {
         if rows > 0 {
             self.begin_rows(section)?;
             return Ok(true);

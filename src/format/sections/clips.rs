@@ -1,7 +1,8 @@
 //! Clips: `AnimationClip NAME { Bone0 #Keyframes: N { Time: t Pos: … Scale: … Quat: … } }`
 
+use crate::diagnostic::Fault;
 use crate::format::document::{AnimationClip, BoneAnimation, ClipLines, KeyRun, Keyframe};
-use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
+use crate::format::error::{Value, quoted, row_count};
 use crate::format::kind::DiagnosticKind;
 use crate::format::label::{is_ruler, same, same_as_any, split_number};
 use crate::format::quick;
@@ -22,7 +23,7 @@ pub(in crate::format) fn clips(
     reader: &mut Reader<'_>,
     count: u32,
     bones: u32,
-) -> Result<(Vec<AnimationClip>, Vec<ClipLines>), ParseError> {
+) -> Result<(Vec<AnimationClip>, Vec<ClipLines>), Fault> {
     const SMALLEST: usize = 16;
     let room = reader.room_for(count, SMALLEST);
     let (mut clips, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
@@ -64,7 +65,7 @@ fn is_clip(label: &[u8]) -> bool {
 }
 
 /// Reads a clip from behind its label, with the lines of its bones and keys.
-fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, ClipLines), ParseError> {
+fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, ClipLines), Fault> {
     /// `B0 0 {}` and a blank.
     const SMALLEST: usize = 7;
     let name = reader.cursor.rest_of_line();
@@ -107,7 +108,7 @@ fn bone_animation(
     bone: u32,
     bones: u32,
     lines: &mut ClipLines,
-) -> Result<BoneAnimation, ParseError> {
+) -> Result<BoneAnimation, Fault> {
     /// Four labels of a letter, eleven digits, blanks and a line end.
     const SMALLEST: usize = 30;
     let Some((label, behind)) = reader.peek_label() else {
@@ -174,7 +175,7 @@ fn bone_animation(
 }
 
 /// Reads a key of any layout. Also gives its line.
-fn keyframe(reader: &mut Reader<'_>, bone: u32, key: u32, count: u32) -> Result<(Keyframe, u32), ParseError> {
+fn keyframe(reader: &mut Reader<'_>, bone: u32, key: u32, count: u32) -> Result<(Keyframe, u32), Fault> {
     let Some((label, _)) = reader.peek_label() else {
         return Err(reader.end(format!("key {} of {count} of bone {bone}", key + 1)));
     };
@@ -195,11 +196,11 @@ fn keyframe(reader: &mut Reader<'_>, bone: u32, key: u32, count: u32) -> Result<
     Ok((keyframe, label.position.line))
 }
 
-fn field<const N: usize>(reader: &mut Reader<'_>, field: usize, defaults: [f32; N]) -> Result<[f32; N], ParseError> {
+fn field<const N: usize>(reader: &mut Reader<'_>, field: usize, defaults: [f32; N]) -> Result<[f32; N], Fault> {
     let (label, names) = FIELDS[field];
     reader.label(label, names)?;
     reader
-        .numbers(Value::Keyframe(label), N, defaults)
+        .numbers(Value::Number(label), N, defaults)
         .map(|(numbers, _)| numbers)
 }
 
@@ -217,16 +218,16 @@ fn pass_number_sign(reader: &mut Reader<'_>) {
 }
 
 /// Passes a `{`, or notes that it is missing.
-fn open(reader: &mut Reader<'_>) -> Result<(), ParseError> {
+fn open(reader: &mut Reader<'_>) -> Result<(), Fault> {
     brace(reader, '{')
 }
 
 /// Passes a `}`, or notes that it is missing. At the end of the file that is an error, since more may be missing.
-fn close(reader: &mut Reader<'_>) -> Result<(), ParseError> {
+fn close(reader: &mut Reader<'_>) -> Result<(), Fault> {
     brace(reader, '}')
 }
 
-fn brace(reader: &mut Reader<'_>, brace: char) -> Result<(), ParseError> {
+fn brace(reader: &mut Reader<'_>, brace: char) -> Result<(), Fault> {
     let Some(token) = reader.cursor.peek_token() else {
         return Err(reader.end(format!("\"{brace}\"")));
     };
@@ -254,22 +255,12 @@ fn follows_brace(reader: &Reader<'_>, is: impl Fn(&[u8]) -> bool) -> bool {
     ahead.peek_label().is_some_and(|(label, _)| is(label.text))
 }
 
-fn bone_count(reader: &Reader<'_>, clip: &str, announced: u32, counted: usize) -> ParseError {
-    reader.row_count(ParseErrorKind::RowCount {
-        announcer: "The header".into(),
-        rows: "bones",
-        holder: format!("clip \"{}\"", quoted(clip.as_bytes())),
-        announced,
-        counted: u32::try_from(counted).unwrap_or(u32::MAX),
-    })
+fn bone_count(reader: &Reader<'_>, clip: &str, announced: u32, counted: usize) -> Fault {
+    let holder = format!("clip \"{}\"", quoted(clip.as_bytes()));
+    reader.where_rows_end(row_count("The header", "bones", &holder, announced, counted))
 }
 
-fn key_count(reader: &Reader<'_>, bone: u32, announced: u32, counted: usize) -> ParseError {
-    reader.row_count(ParseErrorKind::RowCount {
-        announcer: format!("Bone {bone}"),
-        rows: "keyframes",
-        holder: "its block".into(),
-        announced,
-        counted: u32::try_from(counted).unwrap_or(u32::MAX),
-    })
+fn key_count(reader: &Reader<'_>, bone: u32, announced: u32, counted: usize) -> Fault {
+    let announcer = format!("Bone {bone}");
+    reader.where_rows_end(row_count(&announcer, "keyframes", "its block", announced, counted))
 }

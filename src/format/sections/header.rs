@@ -1,7 +1,8 @@
 //! `#Materials N` and the other counts.
 
+use crate::diagnostic::{Fault, codes};
 use crate::format::cursor::{Cursor, Token};
-use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
+use crate::format::error::{Value, quoted};
 use crate::format::kind::DiagnosticKind;
 use crate::format::label::{Section, is_ruler, same, same_as_any};
 use crate::format::likeness::Stranger;
@@ -29,16 +30,14 @@ const COUNTS: [(&str, &[&str]); 6] = [
 ];
 
 /// Reads the header, which must be there, up to the ruler or the first line of the next section.
-pub(in crate::format) fn header(reader: &mut Reader<'_>) -> Result<Counts, ParseError> {
+pub(in crate::format) fn header(reader: &mut Reader<'_>) -> Result<Counts, Fault> {
     let comment = pass_comments(reader);
     let beginning = reader.begin(Section::Header)?;
     let not_m3d = |label: Token<'_>| {
-        Reader::error_at(
-            label,
-            ParseErrorKind::NotM3d {
-                found: quoted(label.text),
-            },
-        )
+        let found = quoted(label.text);
+        let message = format!("This is not an .m3d file: it begins with \"{found}\" instead of an m3d-File-Header.");
+        let fault = codes::NOT_M3D.says(message).found(found);
+        Reader::error_at(label, fault.expected("an m3d file header"))
     };
     if let (Beginning::End, Some(comment)) = (beginning, comment) {
         return Err(not_m3d(comment));
@@ -53,7 +52,7 @@ pub(in crate::format) fn header(reader: &mut Reader<'_>) -> Result<Counts, Parse
         let Some(index) = COUNTS.iter().position(|(_, names)| same_as_any(label.text, names)) else {
             if same_as_any(label.text, &["indices", "indexes"]) {
                 let stranger = Stranger::Relative("a list of indices (#Indices)");
-                return Err(Reader::error_at(label, ParseErrorKind::Stranger(stranger)));
+                return Err(Reader::error_at(label, stranger.diagnostic()));
             }
             if begins_next_section(label) {
                 break;
@@ -123,23 +122,20 @@ fn is_count(label: Token<'_>, mut behind: Cursor<'_>) -> bool {
 }
 
 /// Turns what was found into counts; those that may be zero may be missing.
-fn counts(reader: &mut Reader<'_>, found: [Option<u32>; 6]) -> Result<Counts, ParseError> {
+fn counts(reader: &mut Reader<'_>, found: [Option<u32>; 6]) -> Result<Counts, Fault> {
     let [materials, subsets, vertices, triangles, bones, clips] = found;
     if reader.cursor.peek_token().is_none() {
         return Err(reader.end("the Materials section"));
     }
     let position = reader.next_position();
     let missing = |count| {
-        let kind = if count == "Triangles" && !has_triangles(reader) {
-            ParseErrorKind::Stranger(Stranger::Relative("vertices but no triangles"))
+        let fault = if count == "Triangles" && !has_triangles(reader) {
+            Stranger::Relative("vertices but no triangles").diagnostic()
         } else {
-            ParseErrorKind::CountMissing { count }
+            let message = format!("The header does not say how many {count} there are.");
+            codes::COUNT_MISSING.says(message).expected(format!("#{count}"))
         };
-        ParseError {
-            position,
-            length: 0,
-            kind,
-        }
+        Fault::from(fault.at(position, 0))
     };
     let materials = materials.ok_or_else(|| missing("Materials"))?;
     let vertices = vertices.ok_or_else(|| missing("Vertices"))?;

@@ -1,8 +1,9 @@
 //! Materials: labelled lines in any order. The two books differ only here.
 
+use crate::diagnostic::{Fault, codes};
 use crate::format::cursor::Token;
 use crate::format::document::{Material, Reflectance};
-use crate::format::error::{ParseError, ParseErrorKind, Value};
+use crate::format::error::Value;
 use crate::format::kind::DiagnosticKind;
 use crate::format::label::{Section, is_ruler, same, same_as_any};
 use crate::format::reader::Reader;
@@ -91,10 +92,7 @@ struct Block<'a> {
 const FEWEST_LINES: usize = 3;
 
 /// Reads the materials, with the line of the first label of each.
-pub(in crate::format) fn materials(
-    reader: &mut Reader<'_>,
-    count: u32,
-) -> Result<(Vec<Material>, Vec<u32>), ParseError> {
+pub(in crate::format) fn materials(reader: &mut Reader<'_>, count: u32) -> Result<(Vec<Material>, Vec<u32>), Fault> {
     /// `Effect:` and two such lines.
     const SMALLEST: usize = 24;
     reader.begin_rows(Section::Materials)?;
@@ -106,9 +104,8 @@ pub(in crate::format) fn materials(
     let mut counted = 0;
     while let Some(block) = next_block(reader, blank_lines_part)? {
         if counted < count as usize {
-            let material = counted as u32;
             lines.push(block.first.map_or(0, |first| first.position.line));
-            materials.push(material_of(reader, &block, material)?);
+            materials.push(material_of(reader, &block)?);
         }
         counted += 1;
     }
@@ -193,7 +190,7 @@ fn count_blocks(reader: &Reader<'_>) -> usize {
 }
 
 /// Reads the lines of the next material; `None` where the section ends.
-fn next_block<'a>(reader: &mut Reader<'a>, blank_lines_part: bool) -> Result<Option<Block<'a>>, ParseError> {
+fn next_block<'a>(reader: &mut Reader<'a>, blank_lines_part: bool) -> Result<Option<Block<'a>>, Fault> {
     let mut block = Block::default();
     loop {
         let before = reader.cursor;
@@ -222,14 +219,15 @@ fn next_block<'a>(reader: &mut Reader<'a>, blank_lines_part: bool) -> Result<Opt
     }
 }
 
-fn material_of(reader: &mut Reader<'_>, block: &Block<'_>, material: u32) -> Result<Material, ParseError> {
+fn material_of(reader: &mut Reader<'_>, block: &Block<'_>) -> Result<Material, Fault> {
     let first = block.first.unwrap_or(Token {
         text: b"",
         position: reader.cursor.position(),
     });
     let given = |line: Line| block.lines[line as usize];
     if block.lines.iter().flatten().count() < FEWEST_LINES {
-        return Err(Reader::error_at(first, ParseErrorKind::MaterialIncomplete { material }));
+        let fault = codes::MATERIAL_INCOMPLETE.says(codes::MATERIAL_INCOMPLETE.sentence);
+        return Err(Reader::error_at(first, fault.expected("the lines of a material")));
     }
     let of_fresnel = [Line::Fresnel0, Line::Roughness].into_iter().filter_map(given).count();
     let of_phong = [Line::Ambient, Line::Specular, Line::SpecPower, Line::Reflectivity];
@@ -284,7 +282,7 @@ fn is_no_map(name: &str) -> bool {
     name.is_empty() || name.eq_ignore_ascii_case("none") || name.eq_ignore_ascii_case("null")
 }
 
-fn number(reader: &mut Reader<'_>, value: Option<Token<'_>>, line: Line, default: f32) -> Result<f32, ParseError> {
+fn number(reader: &mut Reader<'_>, value: Option<Token<'_>>, line: Line, default: f32) -> Result<f32, Fault> {
     numbers(reader, value, line, [default]).map(|[number]| number)
 }
 
@@ -294,21 +292,15 @@ fn numbers<const N: usize>(
     value: Option<Token<'_>>,
     line: Line,
     defaults: [f32; N],
-) -> Result<[f32; N], ParseError> {
+) -> Result<[f32; N], Fault> {
     let Some(value) = value else { return Ok(defaults) };
-    let what = Value::Material(line.label());
+    let what = Value::Number(line.label());
     let mut numbers = defaults;
     let mut words = words(value);
-    for (index, number) in numbers.iter_mut().enumerate() {
+    for number in &mut numbers {
         let Some(word) = words.next() else {
             // One grey number for three colours, or a file that ends inside the line.
-            let position = end_of(value);
-            let _ = index;
-            return Err(ParseError {
-                position,
-                length: 0,
-                kind: ParseErrorKind::ValueMissing { value: what },
-            });
+            return Err(what.missing().at(end_of(value), 0).into());
         };
         *number = reader.number_of(word, what, *number)?;
     }

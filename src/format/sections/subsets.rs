@@ -1,7 +1,8 @@
 //! `SubsetID: i VertexStart: a VertexCount: b FaceStart: c FaceCount: d`
 
+use crate::diagnostic::Fault;
 use crate::format::document::Subset;
-use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
+use crate::format::error::{Value, quoted};
 use crate::format::kind::DiagnosticKind;
 use crate::format::label::{Section, is_ruler, same, same_as_any};
 use crate::format::likeness::Stranger;
@@ -14,7 +15,7 @@ const LABELS: [&str; 5] = ["SubsetID", "VertexStart", "VertexCount", "FaceStart"
 const OF_RELATIVES: [&str; 5] = ["MtlIndex", "VertexBase", "IndexStart", "IndexCount", "MaterialIndex"];
 
 /// Reads the subset table, with the line of each row.
-pub(in crate::format) fn subsets(reader: &mut Reader<'_>, count: u32) -> Result<(Vec<Subset>, Vec<u32>), ParseError> {
+pub(in crate::format) fn subsets(reader: &mut Reader<'_>, count: u32) -> Result<(Vec<Subset>, Vec<u32>), Fault> {
     /// Five labels of a letter and five digits, with blanks.
     const SMALLEST: usize = 20;
     reader.begin_rows(Section::SubsetTable)?;
@@ -41,7 +42,7 @@ pub(in crate::format) fn subsets(reader: &mut Reader<'_>, count: u32) -> Result<
     Ok((subsets, lines))
 }
 
-fn subset(reader: &mut Reader<'_>) -> Result<Subset, ParseError> {
+fn subset(reader: &mut Reader<'_>) -> Result<Subset, Fault> {
     let mut values = [0; 5];
     for (place, value) in values.iter_mut().enumerate() {
         let label = LABELS[place];
@@ -50,7 +51,7 @@ fn subset(reader: &mut Reader<'_>) -> Result<Subset, ParseError> {
         };
         if OF_RELATIVES.iter().any(|relative| same(found.text, relative)) {
             let stranger = Stranger::Relative("a table of index ranges (MtlIndex, VertexBase, IndexStart, IndexCount)");
-            return Err(Reader::error_at(found, ParseErrorKind::Stranger(stranger)));
+            return Err(Reader::error_at(found, stranger.diagnostic()));
         }
         if !same(found.text, label) {
             // A misspelt label has a number behind it all the same; another one's label means that one is left out.

@@ -1,6 +1,7 @@
 //! Triangles: three vertex indices on a line.
 
-use crate::format::error::{ParseError, Value};
+use crate::diagnostic::Fault;
+use crate::format::error::Value;
 use crate::format::label::{Section, is_ruler};
 use crate::format::quick;
 use crate::format::reader::{Reader, looks_like_number};
@@ -10,7 +11,7 @@ pub(in crate::format) fn triangles(
     reader: &mut Reader<'_>,
     count: u32,
     vertices: u32,
-) -> Result<(Vec<[u32; 3]>, Vec<u32>), ParseError> {
+) -> Result<(Vec<[u32; 3]>, Vec<u32>), Fault> {
     /// Three digits, two blanks, a line end.
     const SMALLEST: usize = 6;
     reader.begin_rows(Section::Triangles)?;
@@ -35,7 +36,7 @@ pub(in crate::format) fn triangles(
     Ok((triangles, lines))
 }
 
-fn triangle(reader: &mut Reader<'_>, row: u32, count: u32, vertices: u32) -> Result<([u32; 3], u32), ParseError> {
+fn triangle(reader: &mut Reader<'_>, row: u32, count: u32, vertices: u32) -> Result<([u32; 3], u32), Fault> {
     let Some(token) = reader.cursor.peek_token() else {
         return Err(reader.end(format!("triangle {} of {count}", row + 1)));
     };

@@ -1,7 +1,8 @@
 //! Vertices: `Position`, `Tangent`, `Normal`, `Tex-Coords` and, with bones, `BlendWeights` and `BlendIndices`.
 
+use crate::diagnostic::Fault;
 use crate::format::document::Vertex;
-use crate::format::error::{ParseError, ParseErrorKind, Value, quoted};
+use crate::format::error::Value;
 use crate::format::kind::DiagnosticKind;
 use crate::format::label::{Section, is_ruler, same, same_as_any};
 use crate::format::quick;
@@ -26,7 +27,7 @@ pub(in crate::format) struct Vertices {
     pub(in crate::format) short_labels: bool,
 }
 
-pub(in crate::format) fn vertices(reader: &mut Reader<'_>, count: u32, bones: u32) -> Result<Vertices, ParseError> {
+pub(in crate::format) fn vertices(reader: &mut Reader<'_>, count: u32, bones: u32) -> Result<Vertices, Fault> {
     /// Four labels of a letter, twelve digits, blanks and line ends.
     const SMALLEST: usize = 32;
     reader.begin_rows(Section::Vertices)?;
@@ -76,29 +77,29 @@ fn is_field(reader: &Reader<'_>, field: usize) -> bool {
 }
 
 /// Reads a vertex of any layout. Also gives the lines of its fields; without bones the last two are those that would follow.
-fn vertex(reader: &mut Reader<'_>, row: u32, count: u32, bones: u32) -> Result<(Vertex, [u32; 6]), ParseError> {
+fn vertex(reader: &mut Reader<'_>, row: u32, count: u32, bones: u32) -> Result<(Vertex, [u32; 6]), Fault> {
     pass_blend_data(reader, row, bones);
     let mut lines = [0; 6];
     lines[0] = field(reader, 0, row, count)?;
     let mut vertex = Vertex {
-        position: reader.numbers(Value::Vertex("Position"), 3, [0.0; 3])?.0,
+        position: reader.numbers(Value::Number("Position"), 3, [0.0; 3])?.0,
         ..Vertex::default()
     };
     lines[1] = field(reader, 1, row, count)?;
     let place = reader.cursor.position();
-    let (tangent, given) = reader.numbers(Value::Vertex("Tangent"), 3, [0.0, 0.0, 0.0, 1.0])?;
+    let (tangent, given) = reader.numbers(Value::Number("Tangent"), 3, [0.0, 0.0, 0.0, 1.0])?;
     if given < 4 {
         reader.kinds.add(DiagnosticKind::TangentSignMissing, place, 0);
     }
     vertex.tangent = tangent;
     lines[2] = field(reader, 2, row, count)?;
-    vertex.normal = reader.numbers(Value::Vertex("Normal"), 3, [0.0; 3])?.0;
+    vertex.normal = reader.numbers(Value::Number("Normal"), 3, [0.0; 3])?.0;
     lines[3] = field(reader, 3, row, count)?;
-    vertex.tex_coords = reader.numbers(Value::Vertex("Tex-Coords"), 2, [0.0; 2])?.0;
+    vertex.tex_coords = reader.numbers(Value::Number("Tex-Coords"), 2, [0.0; 2])?.0;
     [lines[4], lines[5]] = [1, 2].map(|more| lines[3].saturating_add(more));
     if bones > 0 {
         lines[4] = field(reader, 4, row, count)?;
-        vertex.blend_weights = reader.numbers(Value::Vertex("BlendWeights"), 4, [0.0; 4])?.0;
+        vertex.blend_weights = reader.numbers(Value::Number("BlendWeights"), 4, [0.0; 4])?.0;
         lines[5] = field(reader, 5, row, count)?;
         for (index, weight) in vertex.blend_indices.iter_mut().zip(vertex.blend_weights) {
             *index = blend_index(reader, weight, bones)?;
@@ -109,7 +110,7 @@ fn vertex(reader: &mut Reader<'_>, row: u32, count: u32, bones: u32) -> Result<(
 }
 
 /// Passes the label of a field, and unknown lines before it. Gives the label's line.
-fn field(reader: &mut Reader<'_>, field: usize, row: u32, count: u32) -> Result<u32, ParseError> {
+fn field(reader: &mut Reader<'_>, field: usize, row: u32, count: u32) -> Result<u32, Fault> {
     let (expected, names) = FIELDS[field];
     loop {
         let Some((label, behind)) = reader.peek_label() else {
@@ -138,7 +139,7 @@ fn field(reader: &mut Reader<'_>, field: usize, row: u32, count: u32) -> Result<
 }
 
 /// A bone index. One that names no bone is forgiven when it has no weight.
-fn blend_index(reader: &mut Reader<'_>, weight: f32, bones: u32) -> Result<u32, ParseError> {
+fn blend_index(reader: &mut Reader<'_>, weight: f32, bones: u32) -> Result<u32, Fault> {
     let token = reader.value_token(Value::BlendIndex)?;
     let largest = i64::from(bones) - 1;
     let unused = weight == 0.0
@@ -150,19 +151,8 @@ fn blend_index(reader: &mut Reader<'_>, weight: f32, bones: u32) -> Result<u32, 
         reader.note(token, DiagnosticKind::BlendIndexUnused);
         return Ok(0);
     }
-    match reader.whole_of(token, Value::BlendIndex, 0, largest) {
-        Ok(index) => Ok(u32::try_from(index).unwrap_or(0)),
-        Err(ParseError { position, length, .. }) => {
-            let found = quoted(token.text);
-            let kind = ParseErrorKind::NotInRange {
-                value: Value::BlendIndex,
-                smallest: 0,
-                largest,
-                found,
-            };
-            Err(ParseError { position, length, kind })
-        }
-    }
+    let index = reader.whole_of(token, Value::BlendIndex, 0, largest)?;
+    Ok(u32::try_from(index).unwrap_or(0))
 }
 
 /// Without bones, passes the blend data behind a vertex that has been read.

@@ -2,7 +2,8 @@
 
 use glam::{Affine3A, DAffine3};
 
-use crate::model::{JointIndex, LocalJoint, ModelError, Skeleton};
+use crate::diagnostic::Fault;
+use crate::model::{JointIndex, LocalJoint, Skeleton};
 
 /// Inverse bind matrices that differ by less are the same, as a part of their size: what files and f32 lose of them.
 const ROUNDING: f64 = 1e-5;
@@ -159,7 +160,7 @@ impl Binding {
         }
     }
 
-    pub(super) fn skeleton(self, file_bones: Vec<u32>, names: Vec<String>) -> Result<Skeleton, ModelError> {
+    pub(super) fn skeleton(self, file_bones: Vec<u32>, names: Vec<String>) -> Result<Skeleton, Fault> {
         let matrix = |matrix: Option<DAffine3>| {
             let matrix = matrix.unwrap_or(DAffine3::IDENTITY).as_affine3a();
             if matrix.is_finite() { matrix } else { Affine3A::IDENTITY }

@@ -6,12 +6,12 @@ use glam::{Quat, Vec3, Vec4};
 
 use super::skeleton::Rig;
 use crate::diagnostic::collect::{Diagnostics, Moments, Place, counted};
-use crate::diagnostic::{Code, Subject, codes};
-use crate::gltf::{Animation, Fault, Interpolation, Path, Reader, Root, Wanted, fault, out_of_range};
+use crate::diagnostic::{Code, Fault, Subject, codes};
+use crate::gltf::{Animation, Interpolation, Path, Reader, Root, Wanted, fault, out_of_range};
 use crate::import::keys::{self, Mended};
 use crate::model::{
-    Clip, Curve, CurveValue, Curves, LocalJoint, ModelError, Track, part_of_way, rotation_between, unique_names,
-    unit_rotation, vector_between,
+    Clip, Curve, CurveValue, Curves, LocalJoint, Track, part_of_way, rotation_between, unique_names, unit_rotation,
+    vector_between,
 };
 
 /// More tracks than this do not come from a file of a character.
@@ -150,11 +150,9 @@ impl ClipReader<'_> {
             Some(parts) if !parts.is_empty() => parts.track(rest),
             _ => Ok(Track::at_rest(rest)),
         });
-        let tracks: Result<_, ModelError> = tracks.collect();
+        let tracks: Result<_, Fault> = tracks.collect();
         let pointer = format!("/animations/{}", self.index);
-        tracks
-            .map(Some)
-            .map_err(|rule| Box::new(rule.diagnostic().pointing_at(pointer)))
+        tracks.map(Some).map_err(|rule| Box::new(rule.pointing_at(pointer)))
     }
 
     /// The keys of a sampler: finite, in strictly increasing time. `pointer` is its channel.
@@ -342,7 +340,7 @@ impl Parts {
     }
 
     /// A track with a key at each time of a part. Straight parts stay straight, so the keys that this adds to them change nothing.
-    fn track(self, rest: LocalJoint) -> Result<Track, ModelError> {
+    fn track(self, rest: LocalJoint) -> Result<Track, Fault> {
         let times = [
             self.translation.as_ref().map(Part::times_secs),
             self.rotation.as_ref().map(Part::times_secs),

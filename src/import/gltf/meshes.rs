@@ -478,7 +478,7 @@ impl<'a> Builder<'a> {
         self.noted.weights.tell(self.diagnostics);
         // What is absent was noted for each primitive, or is no flaw.
         let mut quiet = Diagnostics::default();
-        mesh.check().map_err(|rule| Box::new(rule.diagnostic()))?;
+        mesh.check()?;
         mend_normals(mesh, Handedness::Right, Vec::new, &mut quiet);
         if mesh.tangents.is_empty() {
             return Ok(self.mesh);

@@ -160,6 +160,6 @@ fn model(
         front: Front::Positive,
         copyright: root.asset.as_ref().and_then(|asset| asset.copyright.clone()),
     };
-    let model = model.checked().map_err(|rule| Box::new(rule.diagnostic()))?;
+    let model = model.checked()?;
     Ok((model, images, reader.effort()))
 }

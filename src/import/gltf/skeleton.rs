@@ -297,11 +297,8 @@ pub(super) fn rig(
     let names = names.collect();
     let mut file_bones: Vec<u32> = order.iter().filter_map(|&node| bones[node as usize]).collect();
     file_bones.extend(order.len() as u32..binding.parents.len() as u32);
-    let skeleton = binding
-        .skeleton(file_bones, names)
-        .map_err(|rule| Box::new(rule.diagnostic()))?;
     Ok(Rig {
-        skeleton,
+        skeleton: binding.skeleton(file_bones, names)?,
         joint_of_node,
         skins,
         on_nodes,

@@ -7,9 +7,8 @@ use glam::{Affine3A, Mat4};
 
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::limits::MOST_BONES;
-use crate::diagnostic::{Code, Subject, codes};
+use crate::diagnostic::{Code, Fault, Subject, codes};
 use crate::format::{Document, LineMap};
-use crate::import::{ImportError, ImportErrorKind};
 use crate::model::{JointIndex, Skeleton};
 
 /// The skeleton of a document. A file whose order is already valid keeps it; otherwise each bone follows its parent as
@@ -18,14 +17,15 @@ pub(super) fn skeleton_from_document(
     document: &Document,
     lines: &LineMap,
     diagnostics: &mut Diagnostics,
-) -> Result<Skeleton, ImportError> {
+) -> Result<Skeleton, Fault> {
     let bone_count = document.bone_parents.len();
     if document.bone_offsets.len() != bone_count {
-        return Err(ImportErrorKind::BoneCountMismatch {
-            offsets: document.bone_offsets.len(),
-            parents: bone_count,
-        }
-        .on_line(lines.bone_parents.first().or(lines.bone_offsets.first()).copied()));
+        let message = format!(
+            "{} bone offsets but {bone_count} parents; every bone has one of each.",
+            document.bone_offsets.len()
+        );
+        let line = lines.bone_parents.first().or(lines.bone_offsets.first());
+        return Err(codes::BONE_COUNT_MISMATCH.says(message).on_line(line.copied()).into());
     }
     let bone_parents = parents_in_range(&document.bone_parents, lines)?;
     let file_bones = parents_first(&bone_parents, lines)?;
@@ -48,29 +48,30 @@ pub(super) fn skeleton_from_document(
         .collect();
     let offsets = offsets(&document.bone_offsets, lines, diagnostics);
     let joint_from_bind = file_bones.iter().map(|&bone| offsets[bone as usize]).collect();
-    Ok(Skeleton::new(parents, joint_from_bind, file_bones)?)
+    Skeleton::new(parents, joint_from_bind, file_bones)
 }
 
 /// The file's parents: −1 is a root, anything else must be a bone.
-fn parents_in_range(parents: &[i32], lines: &LineMap) -> Result<Vec<Option<u32>>, ImportError> {
+fn parents_in_range(parents: &[i32], lines: &LineMap) -> Result<Vec<Option<u32>>, Fault> {
     let bone_count = parents.len() as u32;
     (0u32..)
         .zip(parents)
         .map(|(bone, &parent)| match u32::try_from(parent) {
             _ if parent == -1 => Ok(None),
             Ok(number) if number < bone_count => Ok(Some(number)),
-            _ => Err(ImportErrorKind::ParentOutOfRange {
-                bone,
-                parent,
-                bone_count,
+            _ => {
+                let expected = format!("−1 or a bone below {bone_count}");
+                let message = format!("Bone {bone} lists {parent} as its parent; a parent is {expected}.");
+                let fault = codes::PARENT_OUT_OF_RANGE.says(message).about(Subject::Bone(bone));
+                let fault = fault.expected(expected).found(parent.to_string());
+                Err(fault.on_line(lines.bone_parents.get(bone as usize).copied()).into())
             }
-            .on_line(lines.bone_parents.get(bone as usize).copied())),
         })
         .collect()
 }
 
 /// File bones in an order in which parents come first: of the bones that may stand next, always the lowest number.
-fn parents_first(parents: &[Option<u32>], lines: &LineMap) -> Result<Vec<u32>, ImportError> {
+fn parents_first(parents: &[Option<u32>], lines: &LineMap) -> Result<Vec<u32>, Fault> {
     let mut children = vec![Vec::new(); parents.len()];
     let mut ready = BinaryHeap::new();
     for (bone, parent) in (0u32..).zip(parents) {
@@ -88,9 +89,14 @@ fn parents_first(parents: &[Option<u32>], lines: &LineMap) -> Result<Vec<u32>, I
         return Ok(order);
     }
     let bones = circle_of(parents, &order);
-    let line = bones.first().and_then(|&bone| lines.bone_parents.get(bone as usize));
-    let line = line.copied();
-    Err(ImportErrorKind::ParentCycle { bones }.on_line(line))
+    let fault = codes::PARENT_CYCLE.says(format!("Bones form a circle: {}.", circle_in_words(&bones)));
+    Err(match bones.first() {
+        Some(&bone) => fault
+            .about(Subject::Bone(bone))
+            .on_line(lines.bone_parents.get(bone as usize).copied()),
+        None => fault,
+    }
+    .into())
 }
 
 /// A circle among the bones that no root reaches, from its lowest number on.
@@ -117,6 +123,17 @@ fn circle_of(parents: &[Option<u32>], placed: &[u32]) -> Vec<u32> {
     let lowest = (0..circle.len()).min_by_key(|&place| circle[place]).unwrap_or(0);
     circle.rotate_left(lowest);
     circle
+}
+
+fn circle_in_words(bones: &[u32]) -> String {
+    const MOST_NAMED: usize = 8;
+    let named: Vec<String> = bones.iter().take(MOST_NAMED).map(u32::to_string).collect();
+    let rest = match bones.len().checked_sub(MOST_NAMED) {
+        Some(more) if more > 0 => format!(" → … ({more} more)"),
+        _ => String::new(),
+    };
+    let back = bones.first().map(|bone| format!(" → {bone}")).unwrap_or_default();
+    format!("{}{rest}{back}; each lists the next as its parent", named.join(" → "))
 }
 
 fn note_order(file_bones: &[u32], parents: &[Option<u32>], lines: &LineMap, diagnostics: &mut Diagnostics) {

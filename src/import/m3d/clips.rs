@@ -3,10 +3,10 @@
 use glam::{Quat, Vec3};
 
 use crate::diagnostic::collect::{Diagnostics, Moments, Place, counted};
-use crate::diagnostic::{Code, Moment, Subject, codes};
+use crate::diagnostic::{Code, Fault, Moment, Subject, codes};
 use crate::format::{BoneAnimation, ClipLines, Document, Keyframe, LineMap};
 use crate::import::keys::{self, Mended};
-use crate::model::{Clip, LocalJoint, ModelError, Skeleton, Track, unique_names};
+use crate::model::{Clip, LocalJoint, Skeleton, Track, unique_names};
 
 /// The dot product of two keys' quaternions below which the second lies on the other side. About 0 both sides are as near: there a bone
 /// turns by half a circle, and no sign is wrong. Here it turns by less than a third of one.
@@ -18,7 +18,7 @@ pub(super) fn clips_from_document(
     lines: &LineMap,
     skeleton: &Skeleton,
     diagnostics: &mut Diagnostics,
-) -> Result<Vec<Clip>, ModelError> {
+) -> Result<Vec<Clip>, Fault> {
     let clip_lines = lines.clip_lines();
     let names = unique_names(
         document.clips.iter().map(|clip| clip.name.as_str()),
@@ -67,7 +67,7 @@ struct ClipReader<'a> {
 }
 
 impl ClipReader<'_> {
-    fn read(&self, name: String, bones: &[BoneAnimation], diagnostics: &mut Diagnostics) -> Result<Clip, ModelError> {
+    fn read(&self, name: String, bones: &[BoneAnimation], diagnostics: &mut Diagnostics) -> Result<Clip, Fault> {
         let mut noted = Noted::default();
         let mut tracks = Vec::with_capacity(self.skeleton.joint_count());
         for (&bone, &rest) in self.skeleton.file_bones().iter().zip(self.skeleton.rest()) {

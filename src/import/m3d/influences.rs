@@ -1,10 +1,9 @@
 //! From the file's blend weights and bone numbers to influences.
 
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
-use crate::diagnostic::{Subject, codes};
+use crate::diagnostic::{Fault, Subject, codes};
 use crate::format::{Document, LineMap, Vertex, VertexField};
 use crate::import::weights::{Mended, SUM_TOLERANCE};
-use crate::import::{ImportError, ImportErrorKind};
 use crate::model::{Influences, Skeleton};
 
 /// Highest bone number that the books' loaders keep: they store it in a byte.
@@ -16,7 +15,7 @@ pub(super) fn influences_from_document(
     lines: &LineMap,
     skeleton: &Skeleton,
     diagnostics: &mut Diagnostics,
-) -> Result<Vec<Influences>, ImportError> {
+) -> Result<Vec<Influences>, Fault> {
     if skeleton.joint_count() == 0 {
         return Ok(Vec::new());
     }
@@ -25,12 +24,12 @@ pub(super) fn influences_from_document(
         .zip(&document.vertices)
         .map(|(index, vertex)| {
             let weights = normalized(index, vertex.blend_weights, &mut mended);
-            joined(index, vertex, weights, skeleton, &mut high_bone).map_err(|kind| {
+            joined(index, vertex, weights, skeleton, &mut high_bone).map_err(|fault| {
                 let lines = lines.vertex_lines(VertexField::BlendIndices);
-                kind.on_line(lines.get(index as usize).copied())
+                fault.on_line(lines.get(index as usize).copied()).into()
             })
         })
-        .collect::<Result<_, _>>()?;
+        .collect::<Result<_, Fault>>()?;
     let place = |field, tally: &Tally| Place::of_rows(tally, Subject::Vertex, &lines.vertex_lines(field));
     mended.tell(diagnostics, |tally| place(VertexField::BlendWeights, tally));
     if high_bone.count > 0 {
@@ -79,18 +78,20 @@ fn joined(
     weights: [f32; 4],
     skeleton: &Skeleton,
     high_bone: &mut Tally,
-) -> Result<Influences, ImportErrorKind> {
+) -> Result<Influences, Fault> {
     let mut joints = [0; 4];
     for ((joint, &bone), &weight) in joints.iter_mut().zip(&vertex.blend_indices).zip(&weights) {
         if weight == 0.0 {
             continue;
         }
         let Some(named) = skeleton.joint_of_bone().get(bone as usize) else {
-            return Err(ImportErrorKind::InfluenceOutOfRange {
-                vertex: index,
-                bone,
-                bone_count: skeleton.joint_count() as u32,
-            });
+            let bone_count = skeleton.joint_count();
+            let message = format!("Vertex {index} gives weight to bone {bone}, but there are {bone_count} bones.");
+            let fault = codes::INFLUENCE_OUT_OF_RANGE
+                .says(message)
+                .about(Subject::Vertex(index));
+            let fault = fault.expected(format!("a bone below {bone_count}"));
+            return Err(fault.found(bone.to_string()).into());
         };
         if bone > BOOK_BONE_INDEX {
             high_bone.add(index);

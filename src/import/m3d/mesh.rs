@@ -5,12 +5,11 @@ use glam::{Vec2, Vec3, Vec4};
 use super::influences::influences_from_document;
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::limits::MOST_VERTICES;
-use crate::diagnostic::{Subject, codes};
+use crate::diagnostic::{Fault, Subject, codes};
 use crate::format::{Document, LineMap, Vertex, VertexField};
 use crate::import::normals::{handedness_of, mend_normals};
 use crate::import::tangents::mend_tangents;
-use crate::import::{ImportError, ImportErrorKind};
-use crate::model::{Handedness, Mesh, ModelError, Skeleton};
+use crate::model::{Handedness, Mesh, Skeleton};
 
 /// The mesh, still without submeshes, and the handedness of its space.
 pub(super) fn mesh_from_document(
@@ -18,7 +17,7 @@ pub(super) fn mesh_from_document(
     lines: &LineMap,
     skeleton: &Skeleton,
     diagnostics: &mut Diagnostics,
-) -> Result<(Mesh, Handedness), ImportError> {
+) -> Result<(Mesh, Handedness), Fault> {
     let vertices = &document.vertices;
     if vertices.len() > MOST_VERTICES {
         let count = vertices.len();
@@ -39,12 +38,9 @@ pub(super) fn mesh_from_document(
         indices: document.triangles.as_flattened().to_vec(),
         ..Mesh::default()
     };
-    mesh.check().map_err(|rule| {
-        let line = match rule {
-            ModelError::VertexOutOfRange { triangle, .. } => lines.triangles.get(triangle as usize).copied(),
-            _ => None,
-        };
-        ImportErrorKind::from(rule).on_line(line)
+    mesh.check().map_err(|fault| match fault.subject {
+        Some(Subject::Triangle(triangle)) => fault.on_line(lines.triangles.get(triangle as usize).copied()).into(),
+        _ => fault,
     })?;
     let handedness = handedness_of(&mesh, diagnostics);
     let lines_of = |field| move || lines.vertex_lines(field);

@@ -2,7 +2,7 @@
 //!
 //! Bones become joints with parents first, weights sum to 1, keys are sorted and finite, missing normals and tangents are
 //! computed, ranges lie inside the mesh. What was mended comes back as diagnostics; what names something that does not exist is
-//! an [`ImportError`].
+//! a [`Fault`].
 //!
 //! The codes of both are [`codes::OF_MODEL`](crate::diagnostic::codes::OF_MODEL).
 
@@ -12,9 +12,9 @@ mod influences;
 mod mesh;
 mod surfaces;
 
-use super::{FileFormat, ImportError, Imported, Refused};
-use crate::diagnostic::Diagnostic;
+use super::{FileFormat, Imported, Refused};
 use crate::diagnostic::collect::Diagnostics;
+use crate::diagnostic::{Diagnostic, Fault};
 use crate::format::{self, Dialect, Document, LineMap, Parsed};
 use crate::model::{Front, Model, UpAxis};
 
@@ -22,9 +22,8 @@ pub(super) use crate::format::begins_like_model;
 
 pub(super) fn import(bytes: &[u8]) -> Result<Imported, Box<Refused>> {
     let refused = |error, diagnostics| Box::new(Refused { error, diagnostics });
-    let parsed = format::parse(bytes).map_err(|error| refused(error.diagnostic(), Vec::new()))?;
-    let (model, mut diagnostics) =
-        from_parsed(&parsed).map_err(|error| refused(error.diagnostic(), parsed.diagnostics.clone()))?;
+    let parsed = format::parse(bytes).map_err(|fault| refused(*fault, Vec::new()))?;
+    let (model, mut diagnostics) = from_parsed(&parsed).map_err(|fault| refused(*fault, parsed.diagnostics.clone()))?;
     diagnostics.sort_by_key(|diagnostic| diagnostic.position);
     Ok(Imported {
         format: FileFormat::M3d(parsed.document.dialect),
@@ -41,7 +40,7 @@ pub(super) fn import(bytes: &[u8]) -> Result<Imported, Box<Refused>> {
 ///
 /// # Errors
 /// As [`from_document`].
-pub fn from_parsed(parsed: &Parsed) -> Result<(Model, Vec<Diagnostic>), ImportError> {
+pub fn from_parsed(parsed: &Parsed) -> Result<(Model, Vec<Diagnostic>), Fault> {
     let (model, diagnostics) = from_document(&parsed.document, &parsed.lines)?;
     let all = parsed.diagnostics.iter().cloned().chain(diagnostics).collect();
     Ok((model, all))
@@ -51,7 +50,7 @@ pub fn from_parsed(parsed: &Parsed) -> Result<(Model, Vec<Diagnostic>), ImportEr
 ///
 /// # Errors
 /// When a parent, a triangle's vertex or an influence names what does not exist, or the bones form a circle.
-pub fn from_document(document: &Document, lines: &LineMap) -> Result<(Model, Vec<Diagnostic>), ImportError> {
+pub fn from_document(document: &Document, lines: &LineMap) -> Result<(Model, Vec<Diagnostic>), Fault> {
     let mut diagnostics = Diagnostics::default();
     let mut materials = surfaces::materials_from_document(document, lines, &mut diagnostics);
     let submeshes = surfaces::submeshes_from_document(document, lines, &mut materials, &mut diagnostics);

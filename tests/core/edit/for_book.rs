@@ -157,7 +157,7 @@ fn what_is_too_large_for_the_demo_is_refused_with_all_that_is() {
     let mut document = swaying(96, 0.1);
     document.bone_parents[5] = -1;
     let refused = try_edit(&model_of(&document).0, &for_book()).expect_err("no room for a root");
-    assert!(matches!(refused, EditError::TooLarge { .. }));
+    assert!(matches!(refused, EditError::TooLarge(_)));
     let mut model = model_of(&document).0;
     let more = 66_000 - model.mesh.vertex_count();
     let mesh = &mut model.mesh;

@@ -1,6 +1,6 @@
 //! Names, and the clips that are kept.
 
-use bindpose::edit::{EditError, Edits, apply};
+use bindpose::edit::{Edits, apply};
 use bindpose::model::JointNames;
 
 use super::{edit, try_edit};
@@ -75,5 +75,5 @@ fn bones_are_named_by_their_numbers_in_the_file() {
         ..Edits::default()
     };
     let refused = apply(rigs::model(3), &given, &edits).expect_err("no such bone");
-    assert_eq!(refused, EditError::UnknownBone { bone: 3, bone_count: 3 });
+    assert_eq!(refused.to_string(), "There is no bone 3; there are 3.");
 }

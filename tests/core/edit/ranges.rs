@@ -1,7 +1,7 @@
 //! Parts of clips.
 
 use bindpose::anim::CompiledClip;
-use bindpose::edit::{EditError, Edits};
+use bindpose::edit::Edits;
 use bindpose::model::{Clip, Curve, Curves, LocalJoint, Model, Track};
 use glam::{Quat, Vec3, Vec4};
 use proptest::prelude::*;
@@ -172,7 +172,10 @@ fn the_whole_is_no_change() {
 fn ranges_that_make_no_sense_are_refused() {
     for (from, to) in [(0.5, 0.5), (1.0, 0.5), (-0.1, 1.0), (0.0, 2.1), (f32::NAN, 1.0)] {
         let refused = try_edit(&curved(), &range(from, to)).expect_err("no range");
-        assert!(matches!(refused, EditError::RangeOutside { .. }), "{refused}");
+        assert!(
+            refused.to_string().ends_with("which goes from 0 s to 2 s."),
+            "{refused}"
+        );
     }
     let refused = try_edit(&rigs::model(3), &range(0.5, 0.6)).expect_err("three clips");
     assert_eq!(

@@ -1,7 +1,7 @@
 //! Keys that are left out.
 
 use bindpose::anim::{CompiledClip, PoseBuffers};
-use bindpose::edit::{EditError, EditJob, Edits};
+use bindpose::edit::{EditJob, Edits};
 use bindpose::model::{Clip, Influences, JointNames, LocalJoint, Model, Track};
 use glam::{Quat, Vec3, Vec3A};
 use proptest::prelude::*;
@@ -128,7 +128,8 @@ fn two_keys_of_a_straight_way_are_enough() {
 fn a_tolerance_that_is_none_or_leaves_nothing_is_refused() {
     for tolerance in [0.0, -1.0, f32::NAN, f32::INFINITY, 0.11, 2.0] {
         let refused = try_edit(&curved(), &reduce(tolerance)).expect_err("no tolerance");
-        assert!(matches!(refused, EditError::Tolerance { .. }), "{refused}");
+        let sentence = format!("The tolerance of reduced keys cannot be {tolerance}: ");
+        assert!(refused.to_string().starts_with(&sentence), "{refused}");
     }
     let refused = try_edit(&curved(), &reduce(2.0)).expect_err("more than the model");
     assert_eq!(

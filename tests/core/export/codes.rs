@@ -25,7 +25,7 @@ fn sources() -> String {
 
 /// Literals behind the words that make a change or a loss, and all with a hyphen inside.
 fn written(sources: &str) -> BTreeSet<&str> {
-    let makers = ["losses.add(", "Change::new(", "code: ", "change("];
+    let makers = ["losses.add(", "losses.count(", "Change::new(", "code: ", "change("];
     let is_code = |text: &str| {
         text.starts_with(|letter: char| letter.is_ascii_lowercase())
             && !text.ends_with('-')

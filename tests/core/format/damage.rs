@@ -1,6 +1,7 @@
 //! Damaged files: cut short, with lines lost or garbled, or with bytes changed at random.
 
-use bindpose::format::{ParseError, Parsed, parse, write};
+use bindpose::diagnostic::Fault;
+use bindpose::format::{Parsed, parse, write};
 use proptest::prelude::*;
 
 use super::{fixtures, good, real_file};
@@ -225,7 +226,7 @@ fn answered(bytes: &[u8]) {
         }
         Err(error) => {
             assert!(error.to_string().len() < 300, "long message: {error}");
-            vec![error.position]
+            error.places
         }
     };
     for place in places {
@@ -237,7 +238,7 @@ fn answered(bytes: &[u8]) {
     }
 }
 
-fn assert_noticed(name: &str, line: usize, before: &Parsed, result: &Result<Parsed, ParseError>) {
+fn assert_noticed(name: &str, line: usize, before: &Parsed, result: &Result<Parsed, Fault>) {
     if let Ok(after) = result {
         let told = |parsed: &Parsed| {
             parsed

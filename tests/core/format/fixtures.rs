@@ -13,7 +13,7 @@ use crate::documents::is_sentence;
 fn bad_files_are_refused_in_these_words() {
     compare_all("bad", |fixture| match parse(&fixture.bytes) {
         Ok(_) => panic!("{} was read", fixture.path.display()),
-        Err(error) => one_line(&error.diagnostic()) + "\n",
+        Err(error) => one_line(&error) + "\n",
     });
 }
 
@@ -33,7 +33,7 @@ fn the_table_of_codes_is_that_of_the_fixtures() {
         match parse(&fixture.bytes) {
             Ok(parsed) => emitted.extend(parsed.diagnostics.iter().map(|notice| (notice.code, notice.severity))),
             Err(error) => {
-                emitted.insert((error.diagnostic().code, error.diagnostic().severity));
+                emitted.insert((error.code, error.severity));
             }
         }
     }
@@ -46,7 +46,7 @@ fn every_message_is_a_sentence() {
     for fixture in fixtures("bad").iter().chain(&fixtures("good")) {
         let findings = match parse(&fixture.bytes) {
             Ok(parsed) => parsed.diagnostics,
-            Err(error) => vec![error.diagnostic()],
+            Err(error) => vec![*error],
         };
         for finding in findings {
             assert!(is_sentence(&finding.message), "{}: {}", finding.code, finding.message);

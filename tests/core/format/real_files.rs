@@ -1,6 +1,6 @@
 //! Facts of real files, and files of another format with the same extension.
 
-use bindpose::format::{Dialect, ParseErrorKind, Stranger, Vertex, parse, write};
+use bindpose::format::{Dialect, Vertex, parse, write};
 
 use super::real_file;
 
@@ -114,8 +114,8 @@ fn files_of_another_format_are_named() {
     ] {
         let Some(bytes) = real_file(path) else { continue };
         let error = parse(&bytes).expect_err("it is another format");
-        assert_eq!(error.kind, ParseErrorKind::Stranger(Stranger::Model3d(kind)));
-        let sentence = error.kind.to_string();
+        assert_eq!(error.code, "other-format");
+        let sentence = error.message;
         assert!(
             sentence.contains(kind) && sentence.contains("\"Model 3D\""),
             "{sentence}"

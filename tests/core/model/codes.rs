@@ -69,7 +69,7 @@ const CHANGES: &[fn(&mut Document)] = &[
 fn findings_of(document: &Document) -> Vec<Diagnostic> {
     match m3d::from_document(document, &LineMap::default()) {
         Ok(_) => read(document, &LineMap::default()).1,
-        Err(error) => vec![error.diagnostic()],
+        Err(fault) => vec![*fault],
     }
 }
 
