@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use egui::{Align2, FontId, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
 
+use super::cx::Cx;
 use super::model_panel::shown_color;
 use super::state::UiState;
 use super::textures::{holds, picture_row};
@@ -15,14 +16,15 @@ use super::widgets::{
 use super::wording::{capital, grouped};
 use crate::model::{AlphaMode, MapSlot, Material, Reflectance};
 use crate::scene::{linear_from_srgb8, srgb8_from_linear};
-use crate::session::{Command, MAX_SPEC_POWER, MaterialCommand, OpenModel, Session, SubmeshCommand};
+use crate::session::{MAX_SPEC_POWER, MaterialCommand, OpenModel, Session, SubmeshCommand};
 
 const LABEL_WIDTH: f32 = 90.0;
 /// Room between fields.
 const SPACING: f32 = 5.0;
 
 /// The panel's contents. Nothing while nothing is selected.
-pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
+    let session = cx.session;
     let (Some(open), Some(index)) = (session.open_model(), session.submeshes().selected()) else {
         return;
     };
@@ -37,29 +39,30 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
 
     let swatch = Some(shown_color(session, material));
     if selected_heading(ui, session.submesh_name(index), Tokens::of(ui).text, swatch) {
-        commands.push(SubmeshCommand::Select(None).into());
+        cx.push(SubmeshCommand::Select(None));
     }
     rule(ui, MARGIN);
-    let vertices = state.vertex_count.of(session.model_revision(), index, mesh, submesh);
+    let count = &mut cx.state.vertex_count;
+    let vertices = count.of(session.model_revision(), index, mesh, submesh);
     value_row(ui, "Subset", &format!("{} of {}", index + 1, mesh.submeshes.len()));
     value_row(ui, "Triangles", &grouped(submesh.triangle_count as usize));
     value_row(ui, "Vertices", &grouped(vertices));
     rule(ui, MARGIN);
     let action = session.is_edited(material).then_some("Reset");
     if section_with_action(ui, "Material", action) {
-        commands.push(MaterialCommand::Reset(material).into());
+        cx.push(MaterialCommand::Reset(material));
     }
     if let Some(edited) = material_fields(ui, values) {
-        commands.push(Command::Material(MaterialCommand::Edit {
+        cx.push(MaterialCommand::Edit {
             index: material,
             material: Box::new(edited),
-        }));
+        });
     }
     if MapSlot::ALL.into_iter().any(|slot| values.map_name(slot).is_some()) {
         rule(ui, MARGIN);
         section_name(ui, "Maps");
         for slot in MapSlot::ALL {
-            map_row(ui, session, open, state, material, slot);
+            map_row(ui, session, open, cx.state, material, slot);
         }
     }
 }

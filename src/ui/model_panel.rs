@@ -4,6 +4,7 @@ use egui::accesskit::HasPopup;
 use egui::{Align2, Color32, FontId, Popup, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::crowd;
+use super::cx::Cx;
 use super::findings;
 use super::icons::Icon;
 use super::skeleton::state::has_joints;
@@ -23,40 +24,40 @@ use crate::session::{Command, OpenModel, Session, SubmeshCommand};
 /// Width of an icon of a row where a mouse is the pointer.
 const ICON_WIDTH: f32 = 22.0;
 
-pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    let Some(open) = session.open_model() else { return };
+pub(super) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
+    let Some(open) = cx.session.open_model() else { return };
     // With a skeleton the switch between the panel's pages is the heading.
-    if !has_joints(session) {
+    if !has_joints(cx.session) {
         heading(ui);
     }
     counts(ui, open);
-    space_rows(ui, session, commands);
+    space_rows(ui, cx.session, cx.commands);
     bounds_row(ui, open);
-    diagnostics_row(ui, session, state);
-    let has_maps = session.maps().checklist().named > 0;
+    diagnostics_row(ui, cx.session, cx.state);
+    let has_maps = cx.session.maps().checklist().named > 0;
     // The rows of a phone are high: there the subsets come first.
     let subsets_first = is_touch(ui);
     if !subsets_first {
-        findings::show_books_row(ui, session, state);
+        findings::show_books_row(ui, cx.session, cx.state);
     }
     if has_maps && !subsets_first {
-        textures::show(ui, session, open, state);
+        textures::show(ui, cx.session, open, cx.state);
     }
     rule(ui, MARGIN);
     if !subsets_first {
-        crowd::show(ui, session, &mut state.cost, commands);
+        crowd::show(ui, cx.session, &mut cx.state.cost, cx.commands);
         rule(ui, MARGIN);
     }
-    submesh_list(ui, session, open, state, commands);
+    submesh_list(ui, cx, open);
     if subsets_first {
         rule(ui, MARGIN);
-        findings::show_books_row(ui, session, state);
+        findings::show_books_row(ui, cx.session, cx.state);
         rule(ui, MARGIN);
-        crowd::show(ui, session, &mut state.cost, commands);
+        crowd::show(ui, cx.session, &mut cx.state.cost, cx.commands);
     }
     if has_maps && subsets_first {
         rule(ui, MARGIN);
-        textures::show(ui, session, open, state);
+        textures::show(ui, cx.session, open, cx.state);
     }
 }
 
@@ -175,17 +176,17 @@ pub(super) fn summary(session: &Session, tokens: &Tokens) -> (String, Color32) {
 }
 
 /// The submeshes: which are drawn, which one is selected.
-fn submesh_list(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState, commands: &mut Vec<Command>) {
-    let all_drawn = !session.submeshes().left_out().contains(&true);
+fn submesh_list(ui: &mut Ui, cx: &mut Cx<'_, UiState>, open: &OpenModel) {
+    let all_drawn = !cx.session.submeshes().left_out().contains(&true);
     let action = (!all_drawn).then_some("Show all");
     if section_with_action(ui, "Subsets", action) {
-        commands.push(SubmeshCommand::ShowAll.into());
+        cx.push(SubmeshCommand::ShowAll);
     }
     RowList::show(ui, "Subsets", |ui, list| {
         for (index, submesh) in open.model.mesh.submeshes.iter().enumerate() {
-            let submesh = SubmeshRow::new(session, index, submesh);
-            if submesh.show(ui, list, commands) {
-                state.hovered_submesh = Some(index);
+            let submesh = SubmeshRow::new(cx.session, index, submesh);
+            if submesh.show(ui, list, cx.commands) {
+                cx.state.hovered_submesh = Some(index);
             }
         }
     });

@@ -6,6 +6,7 @@ use egui::{Align2, FontId, Id, Key, Rangef, Rect, Role, Sense, TextEdit, Ui, Vec
 
 use crate::model::{Handedness, JointIndex, UpAxis};
 use crate::session::{Command, NameCommand, Session};
+use crate::ui::cx::Cx;
 use crate::ui::panel::scrolled;
 use crate::ui::theme::{ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{TextButton, control_size, paint_name, section_name};
@@ -125,13 +126,8 @@ fn field_id() -> Id {
 
 /// The field in place of a joint's name, whose letters stand where the name's do. Enter or a click elsewhere accepts the name, Esc
 /// cancels. Returns whether the row gets the focus back.
-pub(super) fn show_field(
-    ui: &mut Ui,
-    naming: &mut Naming,
-    name: Rect,
-    unnamed: &str,
-    commands: &mut Vec<Command>,
-) -> bool {
+pub(super) fn show_field(ui: &mut Ui, cx: &mut Cx<'_, Naming>, name: Rect, unnamed: &str) -> bool {
+    let naming = &mut *cx.state;
     let begins = naming.awaits_field();
     if begins {
         select_all(ui, &naming.text);
@@ -162,7 +158,7 @@ pub(super) fn show_field(
         if escape {
             *naming = Naming::default();
         } else {
-            naming.take_name(commands);
+            naming.take_name(cx.commands);
         }
         return by_key && (escape || enter);
     }
@@ -182,12 +178,12 @@ fn select_all(ui: &Ui, text: &str) {
 const BUTTONS_GAP: f32 = 10.0;
 
 /// The names proposed for mirrored joints, to accept or refuse.
-pub(super) fn show_proposals(ui: &mut Ui, session: &Session, naming: &mut Naming, commands: &mut Vec<Command>) {
+pub(super) fn show_proposals(ui: &mut Ui, cx: &mut Cx<'_, Naming>) {
     let tokens = Tokens::of(ui);
-    let proposed = naming.proposed.of(session);
+    let proposed = cx.state.proposed.of(cx.session);
     section_name(ui, "Mirrored names");
     if proposed.is_empty() {
-        let words = if session.joint_names().is_empty() {
+        let words = if cx.session.joint_names().is_empty() {
             "Name bones of one side first: double click a bone, or press F2."
         } else {
             "There are no names to propose: both bones of each pair are named, or neither is."
@@ -219,8 +215,8 @@ pub(super) fn show_proposals(ui: &mut Ui, session: &Session, naming: &mut Naming
                 .show(ui)
                 .clicked()
             {
-                commands.push(NameCommand::AcceptMirrored.into());
-                naming.proposing = false;
+                cx.commands.push(NameCommand::AcceptMirrored.into());
+                cx.state.proposing = false;
             }
         }
         if TextButton::new("Back", "Back to the tree")
@@ -228,7 +224,7 @@ pub(super) fn show_proposals(ui: &mut Ui, session: &Session, naming: &mut Naming
             .show(ui)
             .clicked()
         {
-            naming.proposing = false;
+            cx.state.proposing = false;
         }
     });
 }

@@ -11,7 +11,8 @@ use super::numbers::{
 use super::state::SkeletonState;
 use super::walk::{focus_row, labelled, tell_row};
 use crate::anim::{ExplainedInfluence, VertexExplanation};
-use crate::session::{Command, JointCommand, Session};
+use crate::session::{JointCommand, Session};
+use crate::ui::cx::Cx;
 use crate::ui::theme::{self, MARGIN, Tokens};
 use crate::ui::widgets::{
     elided_name, explained, is_touch, paint_fold_mark, paint_name, paint_row_ground, pressed_row, pressed_row_height,
@@ -32,20 +33,14 @@ const NAMES_FRACTION: f32 = 0.45;
 const BAR_GAP: f32 = 8.0;
 const BAR_END: f32 = 52.0;
 
-pub(super) fn show(
-    ui: &mut Ui,
-    session: &Session,
-    state: &mut SkeletonState,
-    explanation: &VertexExplanation,
-    commands: &mut Vec<Command>,
-) {
+pub(super) fn show(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, explanation: &VertexExplanation) {
     let name = format!("Vertex {}", grouped(explanation.vertex as usize));
     if selected_heading(ui, &name, Tokens::of(ui).accent, None) {
-        commands.push(JointCommand::SelectVertex(None).into());
+        cx.push(JointCommand::SelectVertex(None));
     }
     rule(ui, MARGIN);
-    let triangle = session.joints().selected_triangle();
-    let corners = triangle.and_then(|triangle| session.open_model()?.model.mesh.triangle(triangle));
+    let triangle = cx.session.joints().selected_triangle();
+    let corners = triangle.and_then(|triangle| cx.session.open_model()?.model.mesh.triangle(triangle));
     if let (Some(triangle), Some([a, b, c])) = (triangle, corners) {
         let [triangle, a, b, c] = [triangle, a, b, c].map(|number| grouped(number as usize));
         let words = format!("First corner of triangle {triangle}, which has vertices {a}, {b} and {c}.");
@@ -60,26 +55,26 @@ pub(super) fn show(
     let count = explanation.influences.len();
     if count > 0 {
         labelled(ui, Role::ListBox, "Weights of the vertex", count, |ui| {
-            let names_width = names_width(ui, session, explanation);
+            let names_width = names_width(ui, cx.session, explanation);
             for slot in 0..count {
-                influence_bar(ui, session, state, explanation, (slot, names_width), commands);
+                influence_bar(ui, cx, explanation, (slot, names_width));
             }
         });
     }
     rule(ui, MARGIN);
-    let action = if state.explains {
+    let action = if cx.state.explains {
         ("Hide", "Hide the explanation")
     } else {
         ("Explain this vertex", "Explain this vertex")
     };
     if section_with_labelled_action(ui, "Place now", Some(action)) {
-        state.explains = !state.explains;
+        cx.state.explains = !cx.state.explains;
     }
-    if state.explains {
-        show_sum(ui, session, state, explanation);
+    if cx.state.explains {
+        show_sum(ui, cx, explanation);
         return;
     }
-    let digits = state.reading.digits;
+    let digits = cx.state.reading.digits;
     row(ui, "Bind", &digits.place(explanation.bind_position.to_array()));
     row(ui, "Place", &digits.place(explanation.position.to_array()));
 }
@@ -100,24 +95,22 @@ fn names_width(ui: &Ui, session: &Session, explanation: &VertexExplanation) -> f
 /// A joint, a bar as long as its weight, and the weight.
 fn influence_bar(
     ui: &mut Ui,
-    session: &Session,
-    state: &mut SkeletonState,
+    cx: &mut Cx<'_, SkeletonState>,
     explanation: &VertexExplanation,
     (slot, names_width): (usize, f32),
-    commands: &mut Vec<Command>,
 ) {
     let tokens = Tokens::of(ui);
     let influence = &explanation.influences[slot];
-    let selected = session.joints().selected() == Some(influence.joint);
+    let selected = cx.session.joints().selected() == Some(influence.joint);
     let size = vec2(ui.available_width(), pressed_row_height(ui));
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     let id_of = |slot: usize| Id::unique("weight").with((ui.layer_id(), slot));
     let response = ui.interact(rect, id_of(slot), Sense::click());
     paint_row_ground(ui, rect, &response, selected, response.contains_pointer());
     if response.contains_pointer() && !is_touch(ui) {
-        state.hovered = Some(influence.joint);
+        cx.state.hovered = Some(influence.joint);
     }
-    let name = session.joint_label(influence.joint);
+    let name = cx.session.joint_label(influence.joint);
     let color = if selected { tokens.accent } else { tokens.text };
     let font = FontId::proportional(13.0);
     paint_name(ui.painter(), rect.left_center(), &name, font, color, names_width);
@@ -144,24 +137,24 @@ fn influence_bar(
     }
     if response.clicked() {
         // The vertex stays selected beside its bone.
-        commands.push(JointCommand::Select(Some(influence.joint)).into());
-        commands.push(JointCommand::SelectVertex(Some(explanation.vertex)).into());
+        cx.push(JointCommand::Select(Some(influence.joint)));
+        cx.push(JointCommand::SelectVertex(Some(explanation.vertex)));
     }
 }
 
 /// The book's formula for one vertex with its present numbers, step by step: `v' = w0·v·F0 + w1·v·F1 + …` with `F = offset · toRoot`,
 /// row vectors. One line for the bind position, two for each influence (or all its matrices), one for the sum.
-fn show_sum(ui: &mut Ui, session: &Session, state: &mut SkeletonState, explanation: &VertexExplanation) {
+fn show_sum(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, explanation: &VertexExplanation) {
     let tokens = Tokens::of(ui);
-    let digits = state.reading.digits;
+    let digits = cx.state.reading.digits;
     show_formula(ui, explanation.influences.len());
     ui.add_space(4.0);
     let label = Formula::new(LABEL_SIZE, tokens.muted).plain("Bind place ").bold("v");
     let bind = explanation.bind_position.to_array();
     show_line(ui, "Bind", label.into_job(), &digits.place(bind));
-    for (slot, influence) in explanation.influences.iter().enumerate() {
+    for slot in 0..explanation.influences.len() {
         ui.add_space(5.0);
-        show_influence(ui, session, state, explanation, (slot, influence));
+        show_influence(ui, cx, explanation, slot);
     }
     rule_over_numbers(ui);
     let label = Formula::new(LABEL_SIZE, tokens.text)
@@ -174,7 +167,7 @@ fn show_sum(ui: &mut Ui, session: &Session, state: &mut SkeletonState, explanati
     let copy = ("Copy as text", "Copy: the sum of the vertex as text");
     if section_with_labelled_action(ui, "All numbers", Some(copy)) {
         ui.ctx()
-            .copy_text(explanation.to_text(|joint| session.joint_name(joint)));
+            .copy_text(explanation.to_text(|joint| cx.session.joint_name(joint)));
     }
 }
 
@@ -198,15 +191,11 @@ fn show_formula(ui: &mut Ui, influences: usize) {
 }
 
 /// One influence: its row, its matrices when unfolded, and its term of the sum.
-fn show_influence(
-    ui: &mut Ui,
-    session: &Session,
-    state: &mut SkeletonState,
-    explanation: &VertexExplanation,
-    (slot, influence): (usize, &ExplainedInfluence),
-) {
+fn show_influence(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, explanation: &VertexExplanation, slot: usize) {
     let tokens = Tokens::of(ui);
+    let Cx { session, state, .. } = cx;
     let digits = state.reading.digits;
+    let influence = &explanation.influences[slot];
     let name = session.joint_label(influence.joint);
     let unfolded = state.unfolded.get(slot).copied().unwrap_or_default();
     let pressed = influence_row(ui, state, &name, unfolded, (slot, influence));

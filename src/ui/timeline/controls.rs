@@ -7,6 +7,7 @@ use crate::actions;
 use crate::anim::Direction;
 use crate::model::Clip;
 use crate::session::{Command, PlayCommand, Session};
+use crate::ui::cx::Cx;
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, Tokens};
 use crate::ui::widgets::{TypedValue, action_button, control_size, hint_of_name, push_action, push_button};
@@ -133,14 +134,8 @@ impl ReadoutWidths {
 }
 
 /// The time in seconds, of how many if `with_end`.
-pub(super) fn time_readout(
-    ui: &mut Ui,
-    session: &Session,
-    clip: &Clip,
-    (width, with_end): (f32, bool),
-    commands: &mut Vec<Command>,
-) {
-    let typed = format!("{:.3}", session.playback().time_secs());
+pub(super) fn time_readout<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, clip: &Clip, (width, with_end): (f32, bool)) {
+    let typed = format!("{:.3}", cx.session.playback().time_secs());
     let text = if with_end {
         format!("{typed} / {:.3} s", clip.end_secs)
     } else {
@@ -150,12 +145,12 @@ pub(super) fn time_readout(
         .width(width)
         .show(ui, |typed| typed::time(typed, clip, Unit::Secs));
     response.on_hover_text("Time, and where the clip ends\nClick to type seconds, 0.33, or a frame, f20");
-    go_to(time_secs, commands);
+    go_to(time_secs, cx.commands);
 }
 
 /// The frame nearest to the time, of how many.
-pub(super) fn frame_readout(ui: &mut Ui, session: &Session, clip: &Clip, width: f32, commands: &mut Vec<Command>) {
-    let frame = clip.frame_at(session.playback().time_secs());
+pub(super) fn frame_readout<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, clip: &Clip, width: f32) {
+    let frame = clip.frame_at(cx.session.playback().time_secs());
     let text = format!("{frame} / {}", clip.last_frame());
     let muted = Tokens::of(ui).muted;
     let (time_secs, response) = TypedValue::new(ui, "Frame", &text, &frame.to_string())
@@ -166,7 +161,7 @@ pub(super) fn frame_readout(ui: &mut Ui, session: &Session, clip: &Clip, width: 
     response.on_hover_text(format!(
         "Frame at {rate} keys a second\nClick to type a frame, 20, or seconds, 0.33 s"
     ));
-    go_to(time_secs, commands);
+    go_to(time_secs, cx.commands);
 }
 
 /// Pauses at a time that was typed. A clip that played on would leave it at once.

@@ -13,6 +13,7 @@ use super::state::TimelineState;
 use crate::anim::JointActivity;
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand};
+use crate::ui::cx::Cx;
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{is_touch, paint_fold_mark, paint_name};
 use crate::ui::wording::{counted, measured};
@@ -112,9 +113,8 @@ impl Sheet<'_> {
         ui: &mut Ui,
         SeenRow { row, folded }: SeenRow<'_>,
         keys: &Response,
-        state: &mut TimelineState,
+        cx: &mut Cx<'_, TimelineState>,
         shape: &mut MarkShape,
-        commands: &mut Vec<Command>,
     ) -> Response {
         let (tokens, rect) = (Tokens::of(ui), ui.max_rect());
         let name_rect = Rect::from_x_y_ranges(rect.min.x..=self.split - 4.0, rect.y_range());
@@ -128,16 +128,16 @@ impl Sheet<'_> {
         }
         let pointed = keys.hover_pos().is_some_and(|at| rect.y_range().contains(at.y));
         if pointed {
-            state.hovered = Some(row.joint);
+            cx.state.hovered = Some(row.joint);
         }
         if self.session.joints().hovered() == Some(row.joint) {
             ui.painter().rect_filled(time_rect, 0.0, tokens.field);
         }
-        let name = self.name_cell(ui, row, folded, name_rect, state, commands);
+        let name = self.name_cell(ui, row, folded, name_rect, cx);
         if let Some(branch) = folded {
-            self.add_folded_marks(row.joint, branch, rect.center().y, state, &tokens, shape);
+            self.add_folded_marks(row.joint, branch, rect.center().y, cx.state, &tokens, shape);
         }
-        self.add_marks(row.joint, activity, rect.center().y, state, &tokens, shape);
+        self.add_marks(row.joint, activity, rect.center().y, cx.state, &tokens, shape);
         name
     }
 
@@ -148,8 +148,7 @@ impl Sheet<'_> {
         row: &Row,
         folded: Option<&FoldedBranch>,
         rect: Rect,
-        state: &mut TimelineState,
-        commands: &mut Vec<Command>,
+        cx: &mut Cx<'_, TimelineState>,
     ) -> Response {
         let tokens = Tokens::of(ui);
         let id = ui.scope_id().with(("row", row.joint.0));
@@ -158,7 +157,7 @@ impl Sheet<'_> {
         let joints = self.session.joints();
         let selected = joints.selected() == Some(row.joint);
         if response.contains_pointer() && !is_touch(ui) {
-            state.hovered = Some(row.joint);
+            cx.state.hovered = Some(row.joint);
         }
         if selected {
             ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.accent_ground);
@@ -189,12 +188,12 @@ impl Sheet<'_> {
         let (joint, folded_now) = (row.joint, row.folded);
         if row.below > 0 && asks_for(if folded_now { Action::Expand } else { Action::Collapse }) {
             let folded = !folded_now;
-            commands.push(JointCommand::SetFolded { joint, folded }.into());
+            cx.push(JointCommand::SetFolded { joint, folded });
         }
         if response.clicked() {
             let joint = (!selected).then_some(row.joint);
-            state.revealed = joint;
-            commands.push(JointCommand::Select(joint).into());
+            cx.state.revealed = joint;
+            cx.push(JointCommand::Select(joint));
         }
 
         // Deep joints of a slim column keep room for their names.
@@ -216,7 +215,7 @@ impl Sheet<'_> {
         if row.below > 0 {
             let place = Rect::from_x_y_ranges(left..=left + 16.0, rect.y_range());
             let inside = UiBuilder::new().id_salt("fold").accessibility_parent(id);
-            self.fold(&ui.new_child(inside), row, &name, place, commands);
+            self.fold(&ui.new_child(inside), row, &name, place, cx.commands);
         }
         self.tooltip(&response, &self.motion_words(row, folded));
         response
