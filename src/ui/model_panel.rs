@@ -1,7 +1,7 @@
 //! The open model: counts, handedness, up axis, size, diagnostics, books' programs, maps, submeshes.
 
 use egui::accesskit::HasPopup;
-use egui::{Align2, Color32, FontId, Popup, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Popup, Rect, Response, Role, Ui, WidgetInfo, pos2, vec2};
 
 use super::crowd;
 use super::cx::Cx;
@@ -12,8 +12,8 @@ use super::state::UiState;
 use super::textures;
 use super::theme::{self, MARGIN, Tokens};
 use super::widgets::{
-    MenuLine, RowList, choice_row, hint_beside, is_touch, menu_item, paint_chip, paint_name, paint_swatch, pressed_row,
-    row_icon, rule, section_with_action, tell_open, tell_popup, tell_push, value_row,
+    MenuLine, Row, RowList, choice_row, hint_beside, is_touch, menu_item, paint_chip, paint_name, paint_swatch,
+    pressed_row, row_icon, rule, section_with_action, tell_open, tell_popup, tell_push, value_row,
 };
 use super::wording::{counted, grouped, measured};
 use crate::diagnostic::Severity;
@@ -62,11 +62,9 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
 }
 
 fn heading(ui: &mut Ui) {
-    let (heading, response) = ui.allocate_exact_size(vec2(ui.available_width(), 22.0), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Heading, true, "Model"));
-    let (at, font) = (heading.left_center(), theme::semibold(13.0));
-    ui.painter()
-        .text(at, Align2::LEFT_CENTER, "Model", font, Tokens::of(ui).text);
+    let mut heading = Row::new(ui, 22.0);
+    heading.left_in(theme::semibold(13.0), "Model", Tokens::of(ui).text);
+    heading.told(Role::Heading, "Model");
     rule(ui, MARGIN);
 }
 
@@ -141,15 +139,12 @@ fn bounds_row(ui: &mut Ui, open: &OpenModel) {
 
 fn diagnostics_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let tokens = Tokens::of(ui);
-    let (rect, response) = pressed_row(ui, false);
-    let font = FontId::proportional(13.0);
-    ui.painter()
-        .text(rect.left_center(), Align2::LEFT_CENTER, "Findings", font, tokens.text);
+    let mut row = Row::pressed(ui, false);
+    row.left("Findings", tokens.text);
     let (count, color) = summary(session, &tokens);
-    let right = rect.right_center();
+    let right = row.rect.right_center();
     paint_chip(ui.painter(), right, Align2::RIGHT_CENTER, &count, color, tokens.field);
-    let label = format!("Findings: {count}");
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
+    let response = row.told(Role::Button, format!("Findings: {count}"));
     tell_open(&response, state.diagnostics_open);
     if hint_beside(response, None, "What was found in the file").clicked() {
         state.diagnostics_open = !state.diagnostics_open;

@@ -1,6 +1,6 @@
 //! Lines over and beside the model; bones, their names, bind pose, ghosts, trails.
 
-use egui::{Align2, Color32, FontId, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Rect, Role, Sense, Ui, Vec2, pos2, vec2};
 
 use super::cx::Cx;
 use super::icons::Icon;
@@ -8,7 +8,7 @@ use super::panel::popover_gap;
 use super::skeleton::state::{SkeletonState, has_joints};
 use super::theme::Tokens;
 use super::widgets::{
-    Slider, action_switch, control_size, noted_switch_row, number_field, paint_name, push_button, section_name,
+    Row, Slider, action_switch, control_size, noted_switch_row, number_field, push_button, section_name,
     section_with_action, segmented, switch_row,
 };
 use crate::actions;
@@ -172,21 +172,19 @@ fn trails(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
     let colors = cx.session.open_model().map(|open| joint_colors(&open.model.skeleton));
     for &joint in trails {
         let name = cx.session.joint_label(joint);
-        let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), control_size(ui)), Sense::hover());
-        if response.contains_pointer() {
+        let side = control_size(ui);
+        let mut row = Row::new(ui, side);
+        if row.response.contains_pointer() {
             cx.state.hovered = Some(joint);
         }
-        let side = control_size(ui);
-        let tokens = Tokens::of(ui);
-        let font = FontId::proportional(13.0);
-        let room = rect.width() - side - 14.0;
         if let Some(&[red, green, blue, _]) = colors.as_ref().and_then(|colors| colors.get(joint.index())) {
-            let at = rect.left_center() + vec2(4.0, 0.0);
+            let at = row.rect.left_center() + vec2(4.0, 0.0);
             ui.painter().circle_filled(at, 4.0, Color32::from_rgb(red, green, blue));
         }
-        let at = rect.left_center() + vec2(14.0, 0.0);
-        paint_name(ui.painter(), at, &name, font, tokens.text, room);
-        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Trail: {name}")));
+        row.left += 14.0;
+        row.right -= side;
+        row.name(&name, Tokens::of(ui).text);
+        let rect = row.told(Role::Label, format!("Trail: {name}")).rect;
         let place = Rect::from_center_size(pos2(rect.max.x - 0.5 * side + 6.0, rect.center().y), Vec2::splat(side));
         let mut corner = ui.new_child(egui::UiBuilder::new().max_rect(place).id_salt(joint.0));
         if push_button(&mut corner, Icon::Close, &format!("Leave the trail of {name}")).clicked() {

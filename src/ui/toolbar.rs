@@ -16,8 +16,8 @@ use super::state::{Request, SheetPage, UiState};
 use super::theme::{self, LOW_HEIGHT, LOW_WIDTH, Tokens};
 use super::widgets::{
     ICON_SIZE, MenuLine, TextButton, action_button, chip, chip_size, control_size, hint_beside, hint_of_name,
-    icon_button, keyed_menu_item, menu_item, pressed_chip, push_action, push_button, section_name, tell_open,
-    untold_icon_button, valued_choice, valued_menu_item,
+    icon_button, keyed_menu_item, menu_item, pressed_chip, push_action, push_button, section_name, tell_node,
+    tell_open, untold_icon_button, valued_choice, valued_menu_item,
 };
 use super::wording::{bytes, shortened_front};
 use super::{export, light, overlays, picture};
@@ -174,8 +174,7 @@ fn overlays_button(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
 fn open_button(ui: &mut Ui, state: &mut UiState) {
     let open = push_button(ui, Icon::Open, &actions::OPEN_FILES.hint());
     // The page opens the dialog at once, which browsers let it only within the click.
-    ui.ctx()
-        .accesskit_node_builder(open.id, |node| node.set_author_id("files"));
+    tell_node(&open, |node| node.set_author_id("files"));
     if open.clicked() {
         state.requests.push(Request::PickFiles);
     }
@@ -420,8 +419,7 @@ fn file_line(ui: &mut Ui, file: &File, is_open: bool, commands: &mut Vec<Command
         });
         let line = hint_beside(line.inner, None, &file.path);
         let note = format!("{size}, Delete closes it");
-        ui.ctx()
-            .accesskit_node_builder(line.id, |node| node.set_description(note));
+        tell_node(&line, |node| node.set_description(note));
         // It takes no focus, so that arrows go from line to line.
         let (rect, cross) = ui.allocate_exact_size(Vec2::splat(control_size(ui)), Sense::CLICK);
         let (icon, tokens) = (

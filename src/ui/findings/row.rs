@@ -14,7 +14,7 @@ use crate::ui::cx::Cx;
 use crate::ui::error_card::{expected_and_found, show_excerpt};
 use crate::ui::state::{Request, UiState};
 use crate::ui::theme::{self, Tokens};
-use crate::ui::widgets::{RowList, TextButton, paint_elided, paint_row_ground, pressed_row};
+use crate::ui::widgets::{RowList, TextButton, paint_elided, paint_row_ground, pressed_row, tell_node};
 use crate::ui::wording::grouped;
 
 /// Where the words of a line begin, behind its dot.
@@ -80,7 +80,7 @@ impl FindingRow<'_> {
         let response = self.line(ui, goal.as_ref(), is_shown);
         list.row(&response, is_shown);
         let (index, count) = self.place;
-        ui.ctx().accesskit_node_builder(response.id, |node| {
+        tell_node(&response, |node| {
             node.set_position_in_set(index);
             node.set_size_of_set(count);
         });
@@ -249,7 +249,7 @@ fn about(ui: &mut Ui, words: Option<&str>, code: &'static str, requests: &mut Ve
 /// Tells programs that read the screen whether something is unfolded. Returns whether the person wants it to be otherwise.
 pub(super) fn tell_fold(ui: &Ui, response: &Response, is_open: bool) -> bool {
     let action = if is_open { Action::Collapse } else { Action::Expand };
-    ui.ctx().accesskit_node_builder(response.id, |node| {
+    tell_node(response, |node| {
         // A row of a list is drawn as the chosen one too.
         node.clear_selected();
         node.set_expanded(is_open);

@@ -15,8 +15,8 @@ use crate::session::{JointCommand, LookCommand, PlayCommand};
 use crate::ui::cx::Cx;
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{
-    TextButton, explained, explained_section, explained_segmented, focus_ring, is_touch, paint_name, paint_row_ground,
-    pressed_row, pressed_row_height, rule, section_with_action, section_with_labelled_action, segmented,
+    Row, TextButton, explained, explained_section, explained_segmented, focus_ring, is_touch, paint_name,
+    paint_row_ground, pressed_row_height, rule, section_with_action, section_with_labelled_action, segmented,
     selected_heading, switch_row, value_row, walked,
 };
 use crate::ui::wording::{counted, counted_vertices, grouped};
@@ -204,14 +204,11 @@ fn links(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, [label, one]: [&str; 2], j
 /// A joint's name as a link in a row of its own, after a label.
 fn link_row(ui: &mut Ui, label: &str, name: &str) -> Response {
     let tokens = Tokens::of(ui);
-    let (rect, response) = pressed_row(ui, false);
-    let font = FontId::proportional(13.0);
-    let left = rect.left_center();
-    ui.painter()
-        .text(left, Align2::LEFT_CENTER, label, font.clone(), tokens.muted);
-    let at = left + vec2(LABEL_WIDTH + 5.0, 0.0);
-    paint_name(ui.painter(), at, name, font, tokens.accent, rect.max.x - at.x);
-    response
+    let mut row = Row::pressed(ui, false);
+    row.left(label, tokens.muted);
+    row.left = row.rect.min.x + LABEL_WIDTH + 5.0;
+    row.name(name, tokens.accent);
+    row.response
 }
 
 /// A joint's name as a link.

@@ -2,14 +2,14 @@
 
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
-use egui::{Align2, FontId, Id, Key, Rangef, Rect, Role, Sense, TextEdit, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{FontId, Id, Key, Rangef, Rect, Role, TextEdit, Ui, Vec2, WidgetInfo, vec2};
 
 use crate::model::{Handedness, JointIndex, UpAxis};
 use crate::session::{Command, NameCommand, Session};
 use crate::ui::cx::Cx;
 use crate::ui::panel::scrolled;
 use crate::ui::theme::{ROW_HEIGHT, Tokens};
-use crate::ui::widgets::{TextButton, control_size, paint_name, section_name};
+use crate::ui::widgets::{Row, TextButton, control_size, section_name};
 
 /// Naming waits so long for its row to scroll into view, in seconds …
 const LONGEST_WAIT_SECS: f64 = 1.0;
@@ -195,14 +195,11 @@ pub(super) fn show_proposals(ui: &mut Ui, cx: &mut Cx<'_, Naming>) {
     let rows = list.auto_shrink([false, true]);
     rows.show_rows(ui, ROW_HEIGHT, proposed.len(), |ui, range| {
         for (bone, name) in &proposed[range] {
-            let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
-            let font = FontId::proportional(13.0);
-            let (left, number) = (rect.left_center(), format!("Bone {bone}"));
-            ui.painter()
-                .text(left, Align2::LEFT_CENTER, number, font.clone(), tokens.muted);
-            let at = pos2(rect.min.x + 76.0, rect.center().y);
-            paint_name(ui.painter(), at, name, font, tokens.text, rect.max.x - at.x);
-            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Bone {bone} would be {name}")));
+            let mut row = Row::new(ui, ROW_HEIGHT);
+            row.left(&format!("Bone {bone}"), tokens.muted);
+            row.left = row.rect.min.x + 76.0;
+            row.name(name, tokens.text);
+            row.told(Role::Label, format!("Bone {bone} would be {name}"));
         }
     });
     ui.add_space(BUTTONS_GAP);

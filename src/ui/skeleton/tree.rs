@@ -16,7 +16,7 @@ use crate::ui::icons::Icon;
 use crate::ui::theme::{self, Tokens};
 use crate::ui::widgets::{
     MenuLine, control_size, is_touch, menu_item, paint_fold_mark, paint_name, paint_row_ground, pressed_row_height,
-    push_button, retain_plain_keys, tell_popup, walked,
+    push_button, retain_plain_keys, tell_node, tell_popup, walked,
 };
 use crate::ui::wording::{counted_vertices, grouped};
 
@@ -311,7 +311,7 @@ impl<'a> TreeRow<'a> {
         } else {
             (true, Action::Collapse)
         };
-        ui.ctx().accesskit_node_builder(response.id, |node| {
+        tell_node(response, |node| {
             node.set_level(self.row.depth as usize);
             if self.row.has_children {
                 node.set_expanded(folds);

@@ -15,8 +15,8 @@ use crate::session::{JointCommand, Session};
 use crate::ui::cx::Cx;
 use crate::ui::theme::{self, MARGIN, Tokens};
 use crate::ui::widgets::{
-    elided_name, explained, is_touch, paint_fold_mark, paint_name, paint_row_ground, pressed_row, pressed_row_height,
-    rule, section_name, section_with_labelled_action, selected_heading, walked,
+    Row, elided_name, explained, is_touch, paint_fold_mark, paint_name, paint_row_ground, pressed_row_height, rule,
+    section_name, section_with_labelled_action, selected_heading, walked,
 };
 use crate::ui::wording::grouped;
 
@@ -247,58 +247,45 @@ fn influence_row(
     (slot, influence): (usize, &ExplainedInfluence),
 ) -> bool {
     let tokens = Tokens::of(ui);
-    let (rect, response) = pressed_row(ui, false);
-    let over = response.contains_pointer() && !is_touch(ui);
+    let mut row = Row::pressed(ui, false);
+    let over = row.response.contains_pointer() && !is_touch(ui);
     if over {
         state.hovered = Some(influence.joint);
     }
-    let center = rect.left_center() + vec2(4.0, 0.0);
-    let color = tokens.muted_to_text(over || response.has_focus());
+    let center = row.rect.left_center() + vec2(4.0, 0.0);
+    let color = tokens.muted_to_text(over || row.response.has_focus());
     paint_fold_mark(ui.painter(), center, !unfolded, color);
 
     let weight = format!("{:.3}", influence.weight);
-    let (right, font) = (rect.right_center(), theme::mono(11.0));
-    let drawn = ui
-        .painter()
-        .text(right, Align2::RIGHT_CENTER, &weight, font, tokens.text);
+    row.right_in(theme::mono(11.0), &weight, tokens.text);
     let symbol = Formula::new(LABEL_SIZE, tokens.muted)
         .plain("w")
         .below(slot)
         .plain(" =");
     let galley = ui.painter().layout_job(symbol.into_job());
-    let left = drawn.min.x - 6.0 - galley.size().x;
-    let at = pos2(left, rect.center().y - 0.5 * galley.size().y);
+    row.right -= 6.0 + galley.size().x;
+    let at = pos2(row.right, row.y - 0.5 * galley.size().y);
     ui.painter().galley(at, galley, tokens.muted);
-    let (at, font) = (
-        rect.left_center() + vec2(CHEVRON_WIDTH, 0.0),
-        FontId::proportional(13.0),
-    );
-    paint_name(ui.painter(), at, name, font, tokens.text, left - 8.0 - at.x);
+    row.left += CHEVRON_WIDTH;
+    row.right -= 8.0;
+    row.name(name, tokens.text);
     let verb = if unfolded { "Fold" } else { "Unfold" };
-    response.widget_info(|| {
-        WidgetInfo::selected(
-            Role::Button,
-            true,
-            unfolded,
-            format!("{verb} the matrices of {name}, weight {weight}"),
-        )
-    });
-    response.clicked()
+    let label = format!("{verb} the matrices of {name}, weight {weight}");
+    row.response
+        .widget_info(|| WidgetInfo::selected(Role::Button, true, unfolded, &label));
+    row.response.clicked()
 }
 
 /// The caption of a matrix: its symbol, and in words what it does.
 fn caption(ui: &mut Ui, symbol: Formula, words: &str, sentence: &str) {
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), LINE_HEIGHT + 3.0), Sense::hover());
+    let mut row = Row::new(ui, LINE_HEIGHT + 3.0);
     let galley = ui.painter().layout_job(symbol.into_job());
-    let y = rect.center().y + 1.5;
-    let at = pos2(rect.min.x, y - 0.5 * galley.size().y);
+    row.y += 1.5;
+    let at = pos2(row.left, row.y - 0.5 * galley.size().y);
     ui.painter().galley(at, galley, tokens.text);
-    let font = FontId::proportional(11.0);
-    ui.painter()
-        .text(pos2(rect.max.x, y), Align2::RIGHT_CENTER, words, font, tokens.faint);
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
-    explained(response, sentence);
+    row.right_in(FontId::proportional(11.0), words, tokens.faint);
+    explained(row.told(Role::Label, words), sentence);
 }
 
 /// `0.6676 ×` and a row of the final matrix: four such lines add up to the product.

@@ -12,7 +12,7 @@ use crate::ui::state::{Request, UiState};
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{
     Slider, TextButton, choices, control_size, focus_ring, is_touch, paint_elided, paint_name, row_icon, section_name,
-    section_with_action, tell_push,
+    section_with_action, tell_node, tell_push,
 };
 use crate::ui::wording::{counted, trimmed};
 
@@ -35,8 +35,7 @@ pub(super) fn button(ui: &mut Ui, cx: &mut Cx<'_, UiState>, width: Rangef) {
         let shown = choices(ui, "Clip", |ui| list(ui, cx, open));
         ui.add_space(4.0);
         let add = TextButton::new("Add clips…", "Add clips…").icon(Icon::Plus).show(ui);
-        ui.ctx()
-            .accesskit_node_builder(add.id, |node| node.set_author_id("clips"));
+        tell_node(&add, |node| node.set_author_id("clips"));
         if add.clicked() {
             cx.state.requests.push(Request::PickClips);
         }
@@ -93,24 +92,10 @@ fn row(ui: &mut Ui, cx: &mut Cx<'_, UiState>, index: usize, clip: &ClipSummary<'
     let icon_width = if is_touch(ui) { rect.height() } else { 28.0 };
     let room = rect.width() - 14.0 - icon_width;
     let color = if on { tokens.accent } else { tokens.text };
-    let name_at = pos2(rect.min.x + 9.0, rect.center().y - 8.0);
-    paint_name(
-        ui.painter(),
-        name_at,
-        clip.name,
-        FontId::proportional(13.0),
-        color,
-        room,
-    );
-    let facts_at = pos2(rect.min.x + 9.0, rect.center().y + 9.0);
-    paint_elided(
-        ui.painter(),
-        facts_at,
-        &facts,
-        FontId::proportional(11.0),
-        tokens.muted,
-        room,
-    );
+    let at = rect.left_center() + vec2(9.0, -8.0);
+    paint_name(ui.painter(), at, clip.name, FontId::proportional(13.0), color, room);
+    let (at, font) = (rect.left_center() + vec2(9.0, 9.0), FontId::proportional(11.0));
+    paint_elided(ui.painter(), at, &facts, font, tokens.muted, room);
     response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, on, format!("{}, {facts}", clip.name)));
     if !on {
         let place = Rect::from_min_max(pos2(rect.max.x - icon_width, rect.min.y), rect.max);
@@ -175,21 +160,9 @@ fn paint_clip_names(ui: &mut Ui, [left, right]: [&str; 2]) {
     let font = FontId::proportional(11.0);
     let ends = Rangef::new(rect.min.x + 90.0, rect.max.x - 56.0);
     let half = ends.span() * 0.5 - 4.0;
+    let [left_at, right_at] = [ends.min, ends.max].map(|x| pos2(x, rect.center().y));
     let painter = ui.painter();
-    paint_name(
-        painter,
-        pos2(ends.min, rect.center().y),
-        left,
-        font.clone(),
-        color,
-        half,
-    );
+    paint_name(painter, left_at, left, font.clone(), color, half);
     let clipped = painter.with_clip_rect(Rect::from_x_y_ranges(ends.center()..=ends.max, rect.y_range()));
-    clipped.text(
-        pos2(ends.max, rect.center().y),
-        Align2::RIGHT_CENTER,
-        right,
-        font,
-        color,
-    );
+    clipped.text(right_at, Align2::RIGHT_CENTER, right, font, color);
 }

@@ -10,7 +10,7 @@ use crate::session::{Command, PlayCommand, Session};
 use crate::ui::cx::Cx;
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, Tokens};
-use crate::ui::widgets::{TypedValue, action_button, control_size, hint_of_name, push_action, push_button};
+use crate::ui::widgets::{TypedValue, action_button, control_size, hint_of_name, push_action, push_button, tell_node};
 use crate::ui::wording::trimmed;
 
 /// The round button that plays and pauses.
@@ -175,7 +175,5 @@ fn go_to(time_secs: Option<f32>, commands: &mut Vec<Command>) {
 /// Tells screen readers of a button that opens choices, and which one is in force.
 pub(super) fn tell_choice(response: &Response, name: &str, value: &str) {
     response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
-    response
-        .ctx
-        .accesskit_node_builder(response.id, |node| node.set_value(value));
+    tell_node(response, |node| node.set_value(value));
 }

@@ -13,7 +13,7 @@ use crate::model::{Clip, JointIndex};
 use crate::session::{PlayCommand, Session};
 use crate::ui::cx::Cx;
 use crate::ui::theme::Tokens;
-use crate::ui::widgets::focused_keys;
+use crate::ui::widgets::{focused_keys, tell_node};
 
 /// Tells of the curves as a grid, in which the key that the keyboard is on is the only cell. The legend has the values at the time.
 pub(super) fn tell(response: &Response, session: &Session, curves: &Curves, joint: JointIndex) {
@@ -21,9 +21,7 @@ pub(super) fn tell(response: &Response, session: &Session, curves: &Curves, join
         let (name, part) = (session.joint_label(joint), curves.part_name());
         WidgetInfo::labeled(Role::Grid, true, format!("Curves of {name}, {part}"))
     });
-    response
-        .ctx
-        .accesskit_node_builder(response.id, |node| node.remove_action(Action::Click));
+    tell_node(response, |node| node.remove_action(Action::Click));
 }
 
 /// Keys of the focused curves: left and right from key to key, up and down from line to line, Enter goes to the key.
@@ -127,6 +125,5 @@ pub(super) fn show_cursor(
     let child = ui.new_child(row.accessibility_role(Role::Row));
     let key = child.interact(Rect::from_center_size(at, vec2(12.0, 12.0)), id, Sense::hover());
     key.widget_info(|| WidgetInfo::labeled(Role::GridCell, true, &words));
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_active_descendant(id.accesskit_id()));
+    tell_node(response, |node| node.set_active_descendant(id.accesskit_id()));
 }

@@ -16,7 +16,7 @@ use crate::model::JointIndex;
 use crate::session::{Command, JointCommand};
 use crate::ui::cx::Cx;
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
-use crate::ui::widgets::{TextButton, control_size, focus_ring, is_touch, paint_name};
+use crate::ui::widgets::{TextButton, control_size, focus_ring, is_touch, paint_name, tell_node};
 
 const SAMPLE_SPACING: f32 = 2.0;
 /// The most samples, more than any screen needs.
@@ -250,8 +250,7 @@ fn paint_legend(ui: &Ui, curves: &mut Curves, joint_name: &str, read: &CurvePoin
         let value = curves.written(read, channel);
         painter.text(pos2(end, y), Align2::RIGHT_CENTER, &value, font(), color);
         response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, shown, format!("{part} {name}")));
-        ui.ctx()
-            .accesskit_node_builder(response.id, |node| node.set_value(value.as_str()));
+        tell_node(&response, |node| node.set_value(value.as_str()));
         let hint = if shown { "Hide this line" } else { "Show this line" };
         if response.on_hover_text(hint).clicked() {
             curves.hidden[channel] = shown;

@@ -10,7 +10,7 @@ use super::time_area::{self, GRID_KEYS};
 use crate::session::{JointCommand, PlayCommand};
 use crate::ui::cx::Cx;
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
-use crate::ui::widgets::focused_keys;
+use crate::ui::widgets::{focused_keys, tell_node};
 use crate::ui::wording::counted;
 
 /// Rows that the page keys go by.
@@ -20,7 +20,7 @@ impl Sheet<'_> {
     /// Tells of the sheet as a grid of so many rows.
     pub(super) fn tell_grid(&self, response: &Response, rows: usize) {
         response.widget_info(|| WidgetInfo::labeled(Role::Grid, true, "Keys of all bones"));
-        response.ctx.accesskit_node_builder(response.id, |node| {
+        tell_node(response, |node| {
             node.set_row_count(rows);
             node.remove_action(Action::Click);
         });
@@ -195,8 +195,7 @@ impl Sheet<'_> {
         let stroke = Stroke::new(1.5, Tokens::of(ui).accent);
         ui.painter()
             .rect_stroke(cell.rect, CONTROL_RADIUS, stroke, StrokeKind::Inside);
-        ui.ctx()
-            .accesskit_node_builder(grid.id, |node| node.set_active_descendant(cell.id.accesskit_id()));
+        tell_node(grid, |node| node.set_active_descendant(cell.id.accesskit_id()));
     }
 
     fn cell_words(&self, rows: &Rows, row: &Row, secs: f32) -> String {

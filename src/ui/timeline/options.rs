@@ -1,6 +1,6 @@
 //! How a clip plays: speed, what happens at the end, the range, and the loop gap.
 
-use egui::{Align2, FontId, Rect, RectAlign, RichText, Role, Sense, Tooltip, Ui, WidgetInfo, pos2, vec2};
+use egui::{FontId, Rect, RectAlign, RichText, Role, Sense, Tooltip, Ui, WidgetInfo, vec2};
 
 use super::controls;
 use super::loop_gap::{LoopGapReading, angle, scale};
@@ -15,7 +15,7 @@ use crate::ui::cx::Cx;
 use crate::ui::panel::{popover_gap, scrolled};
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
 use crate::ui::widgets::{
-    TypedValue, focus_ring, is_touch, paint_name, pressed_row_height, section_name, section_with_action, segmented,
+    Row, TypedValue, focus_ring, is_touch, pressed_row_height, section_name, section_with_action, segmented,
 };
 use crate::ui::wording::trimmed;
 
@@ -195,16 +195,15 @@ fn columns(rect: Rect) -> [f32; 2] {
 }
 
 fn captions(ui: &mut Ui) {
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 17.0), Sense::hover());
+    let mut row = Row::new(ui, 17.0);
     let (font, color) = (FontId::proportional(11.0), Tokens::of(ui).faint);
-    let y = rect.center().y;
-    let at = pos2(rect.min.x + INSIDE, y);
-    ui.painter().text(at, Align2::LEFT_CENTER, "Bone", font.clone(), color);
-    for (x, caption) in columns(rect).into_iter().zip(["In the model", "To its parent"]) {
-        ui.painter()
-            .text(pos2(x, y), Align2::RIGHT_CENTER, caption, font.clone(), color);
+    row.left += INSIDE;
+    row.left_in(font.clone(), "Bone", color);
+    for (x, caption) in columns(row.rect).into_iter().zip(["In the model", "To its parent"]) {
+        row.right = x;
+        row.right_in(font.clone(), caption, color);
     }
-    response.on_hover_text(
+    row.response.on_hover_text(
         "How far the bone moves in the model, in its units; by what angle it turns relative to its parent",
     );
 }
@@ -227,6 +226,7 @@ fn joint_row(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>, reading: &LoopGapReadi
     focus_ring(ui, rect, &response);
 
     let jump = Jump::new(reading, joint);
+    let mut row = Row::of(ui, rect, response);
     let [distance_x, angle_x] = columns(rect);
     let numbers = [
         (distance_x, &jump.distance, jump.travel_is_seen),
@@ -238,9 +238,8 @@ fn joint_row(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>, reading: &LoopGapReadi
             (Some(_), true) => tokens.warning,
             (Some(_), false) => tokens.muted,
         };
-        let (at, number) = (pos2(x, rect.center().y), number.as_deref().unwrap_or("0"));
-        ui.painter()
-            .text(at, Align2::RIGHT_CENTER, number, theme::mono(11.5), color);
+        row.right = x;
+        row.right_in(theme::mono(11.5), number.as_deref().unwrap_or("0"), color);
     }
     let name = cx.session.joint_label(joint);
     let color = match (selected, jump.is_something()) {
@@ -248,12 +247,12 @@ fn joint_row(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>, reading: &LoopGapReadi
         (false, true) => tokens.text,
         (false, false) => tokens.faint,
     };
-    let at = pos2(rect.min.x + INSIDE, rect.center().y);
-    let room = distance_x - DISTANCE_WIDTH - at.x;
+    (row.left, row.right) = (rect.min.x + INSIDE, distance_x - DISTANCE_WIDTH);
     let words = [Some(name.as_str()), jump.scaled.as_deref()];
     let words = words.into_iter().flatten().collect::<Vec<_>>().join(" ");
-    paint_name(ui.painter(), at, &words, FontId::proportional(12.5), color, room);
+    row.name_in(FontId::proportional(12.5), &words, color);
 
+    let response = row.response;
     response.widget_info(|| {
         let label = format!("Loop gap of {name}: {}", jump.words());
         WidgetInfo::selected(Role::ListItem, ui.is_enabled(), selected, label)

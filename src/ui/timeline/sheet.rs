@@ -10,7 +10,7 @@ use crate::ui::cx::Cx;
 use crate::ui::icons::Icon;
 use crate::ui::state::UiState;
 use crate::ui::theme::Tokens;
-use crate::ui::widgets::{TextButton, arrow_steps, control_size, icon_button, push_button, tell_push};
+use crate::ui::widgets::{TextButton, arrow_steps, control_size, icon_button, push_button, tell_node, tell_push};
 use crate::ui::wording::counted;
 
 /// Gap between the controls and the sheet.
@@ -146,6 +146,5 @@ pub(super) fn show_edge(ui: &Ui, state: &mut TimelineState) {
     let grip = Rect::from_center_size(edge.center() - vec2(0.0, 1.0), vec2(38.0, 3.0));
     ui.painter().rect_filled(grip, 1.5, color);
     response.widget_info(|| WidgetInfo::labeled(Role::Splitter, true, "Height of the dope sheet"));
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_expanded(state.open));
+    tell_node(&response, |node| node.set_expanded(state.open));
 }
