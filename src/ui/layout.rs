@@ -341,10 +341,7 @@ fn sheet(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free, low: bool) -> Rect {
             };
             let handle = widgets::sheet_handle(ui, label);
             if handle.clicked() {
-                cx.state.sheet = match cx.state.sheet {
-                    None => Some(SheetPage::Model),
-                    Some(_) => None,
-                };
+                cx.state.sheet = cx.state.sheet.is_none().then_some(SheetPage::Model);
             }
             if !low {
                 let most = ui.available_height() - cx.state.sheet_height.strip;

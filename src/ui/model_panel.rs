@@ -12,8 +12,8 @@ use super::state::UiState;
 use super::textures;
 use super::theme::{self, MARGIN, Tokens};
 use super::widgets::{
-    MenuLine, Row, RowList, choice_row, hint_beside, is_touch, menu_item, paint_chip, paint_name, paint_swatch,
-    pressed_row, row_icon, rule, section_with_action, tell_open, tell_popup, tell_push, value_row,
+    MenuLine, Row, RowList, choice_row, hint_beside, is_touch, menu_item, paint_chip, paint_swatch, row_icon, rule,
+    section_with_action, tell_open, tell_popup, tell_push, value_row,
 };
 use super::wording::{counted, grouped, measured};
 use crate::diagnostic::Severity;
@@ -233,24 +233,23 @@ impl<'a> SubmeshRow<'a> {
     /// Shows it. Returns whether the pointer is over it.
     fn show(&self, ui: &mut Ui, list: &mut RowList, commands: &mut Vec<Command>) -> bool {
         let tokens = Tokens::of(ui);
-        let (rect, response) = pressed_row(ui, self.selected);
-        let over = response.contains_pointer() && !is_touch(ui);
-        response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, self.label()));
-        list.row(&response, self.selected);
+        let mut row = Row::pressed(ui, self.selected);
+        let (rect, over) = (row.rect, row.response.contains_pointer() && !is_touch(ui));
+        row.response
+            .widget_info(|| WidgetInfo::labeled(Role::ListItem, true, self.label()));
+        list.row(&row.response, self.selected);
 
         let opacity = if self.visible { 1.0 } else { 0.35 };
         paint_swatch(ui, rect.left_center() + vec2(5.0, 0.0), self.color, opacity);
-        let end = self.show_end(ui, rect, &response, commands);
+        row.right = self.show_end(ui, rect, &row.response, commands) - 6.0;
+        row.left += 18.0;
         let color = match (self.selected, self.visible) {
             (true, _) => tokens.accent,
             (false, true) => tokens.text,
             (false, false) => tokens.muted,
         };
-        let left = rect.min.x + 18.0;
-        let middle = pos2(left, rect.center().y);
-        let font = FontId::proportional(13.0);
-        paint_name(ui.painter(), middle, self.name, font, color, end - 6.0 - left);
-        let response = hint_beside(response, Some(rect), &self.hint());
+        row.name(self.name, color);
+        let response = hint_beside(row.response, Some(rect), &self.hint());
 
         if response.clicked() {
             let alone = ui.input(|input| input.modifiers.alt);

@@ -2,7 +2,7 @@
 
 use egui::accesskit::Action;
 use egui::text::{LayoutJob, TextFormat};
-use egui::{CursorIcon, FontId, Response, RichText, Role, Sense, Ui, UiBuilder, WidgetInfo, vec2};
+use egui::{CursorIcon, FontId, Response, RichText, Role, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
 use super::filter::color;
 use super::goal::Goal;
@@ -14,7 +14,7 @@ use crate::ui::cx::Cx;
 use crate::ui::error_card::{expected_and_found, show_excerpt};
 use crate::ui::state::{Request, UiState};
 use crate::ui::theme::{self, Tokens};
-use crate::ui::widgets::{RowList, TextButton, paint_elided, paint_row_ground, pressed_row, tell_node};
+use crate::ui::widgets::{Row, RowList, TextButton, paint_elided, paint_row_ground, tell_node};
 use crate::ui::wording::grouped;
 
 /// Where the words of a line begin, behind its dot.
@@ -167,10 +167,10 @@ impl FindingRow<'_> {
                 .collect();
             let words = words.join(" · ");
             let is_chosen = chosen == Some(index);
-            let (rect, response) = pressed_row(ui, is_chosen);
-            let (at, font) = (rect.left_center() + vec2(INDENT, 0.0), FontId::proportional(12.0));
-            paint_elided(ui.painter(), at, &words, font, tokens.accent, rect.width() - INDENT);
-            response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, format!("Go to {words}")));
+            let row = Row::pressed(ui, is_chosen);
+            let (at, font) = (pos2(row.left + INDENT, row.y), FontId::proportional(12.0));
+            paint_elided(ui.painter(), at, &words, font, tokens.accent, row.rect.width() - INDENT);
+            let response = row.told(Role::ListItem, format!("Go to {words}"));
             list.row(&response, is_chosen);
             if response.on_hover_cursor(CursorIcon::PointingHand).clicked() {
                 if let Some(shown) = &mut cx.state.findings.shown {

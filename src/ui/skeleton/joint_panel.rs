@@ -11,7 +11,7 @@ use crate::actions;
 use crate::anim::{JointReadout, KeyRow, key_rows, key_table};
 use crate::check::book::MOST_BONES;
 use crate::model::JointIndex;
-use crate::session::{JointCommand, LookCommand, PlayCommand};
+use crate::session::{JointCommand, LookCommand};
 use crate::ui::cx::Cx;
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{
@@ -309,9 +309,7 @@ fn key_list(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, joint: JointIndex) {
                     focus_row(ui, response.id, response.rect);
                 }
                 if response.clicked() {
-                    let time_secs = row.time_secs;
-                    cx.commands
-                        .extend([PlayCommand::Pause.into(), PlayCommand::Seek { time_secs }.into()]);
+                    cx.pause_at(row.time_secs);
                     cx.state.keys.stop = Some(key);
                 }
                 walks_to = walks_to.or(walked(ui, response.id, key, count, page));

@@ -188,25 +188,22 @@ pub(super) fn show_matrix(ui: &mut Ui, name: &str, matrix: &RowMatrix, digits: D
 fn matrix_rows(ui: &mut Ui, matrix: &RowMatrix, digits: Digits) {
     let tokens = Tokens::of(ui);
     for (index, numbers) in matrix.0.iter().enumerate() {
-        let size = vec2(ui.available_width(), LINE_HEIGHT);
-        let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+        let mut row = Row::new(ui, LINE_HEIGHT);
+        let rect = row.rect;
         let column = (rect.width() - LAST_COLUMN_WIDTH) / 3.0;
         let [x, y, z, w] = *numbers;
         let last = if w.fract() == 0.0 { fitted(w, 0) } else { fitted(w, 2) };
         let [x, y, z] = digits.matrix(index, [x, y, z]);
         let texts = [x, y, z, last];
         for (place, text) in texts.iter().enumerate() {
-            let right = match place {
+            row.right = match place {
                 3 => rect.max.x,
                 place => rect.min.x + (place + 1) as f32 * column - 6.0,
             };
             let color = if place == 3 { tokens.faint } else { tokens.text };
-            let at = pos2(right, rect.center().y);
-            ui.painter()
-                .text(at, Align2::RIGHT_CENTER, text, theme::mono(FONT_SIZE), color);
+            row.right_in(theme::mono(FONT_SIZE), text, color);
         }
-        let label = format!("row {}: {}", index + 1, texts.join(" "));
-        response.widget_info(|| WidgetInfo::labeled(Role::Row, true, &label));
+        let response = row.told(Role::Row, format!("row {}: {}", index + 1, texts.join(" ")));
         tell_node(&response, |node| node.set_row_index(index));
     }
 }

@@ -2,8 +2,8 @@
 
 use egui::accesskit::{Action, HasPopup};
 use egui::{
-    Align2, Color32, Event, FontId, Id, Key, Popup, Pos2, Rangef, Rect, Response, Role, ScrollArea, Sense, Stroke,
-    TextEdit, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+    Align2, Color32, Event, FontId, Id, Key, Popup, Pos2, Rangef, Rect, Response, Role, ScrollArea, Sense, Stroke, Ui,
+    UiBuilder, WidgetInfo, pos2, vec2,
 };
 
 use super::naming::{show_field, show_proposals};
@@ -16,7 +16,7 @@ use crate::ui::icons::Icon;
 use crate::ui::theme::{self, Tokens};
 use crate::ui::widgets::{
     MenuLine, control_size, is_touch, menu_item, paint_fold_mark, paint_name, paint_row_ground, pressed_row_height,
-    push_button, retain_plain_keys, tell_node, tell_popup, walked,
+    push_button, retain_plain_keys, search_field, tell_node, tell_popup, walked,
 };
 use crate::ui::wording::{counted_vertices, grouped};
 
@@ -32,7 +32,9 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
         return;
     }
     ui.horizontal(|ui| {
-        search(ui, &mut cx.state.tree.query);
+        let width = ui.available_width() - control_size(ui) - ui.spacing().item_spacing.x;
+        let query = &mut cx.state.tree.query;
+        search_field(ui, "Search bones", "Number or name", width, query);
         menu(ui, cx);
     });
     ui.add_space(GAP);
@@ -95,25 +97,6 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
             });
         });
     cx.state.tree.rows = rows;
-}
-
-fn search(ui: &mut Ui, query: &mut String) {
-    let width = ui.available_width() - control_size(ui) - ui.spacing().item_spacing.x;
-    let field = TextEdit::singleline(query)
-        .id_salt("search")
-        .hint_text("Number or name")
-        .text_color(Tokens::of(ui).text)
-        .char_limit(64)
-        .margin(vec2(8.0, 6.0))
-        .min_size(vec2(0.0, control_size(ui)))
-        .align(Align2::LEFT_CENTER)
-        .desired_width(width);
-    let response = ui.add(field);
-    response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Search bones"));
-    // Esc clears the search and does nothing else.
-    if response.lost_focus() && ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, Key::Escape)) {
-        query.clear();
-    }
 }
 
 fn menu(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
@@ -437,11 +420,11 @@ impl<'a> TreeRow<'a> {
         } else {
             grouped(count as usize)
         };
-        let (font, color) = (FontId::proportional(11.5), Tokens::of(ui).faint);
-        let drawn = ui
-            .painter()
-            .text(rect.right_center(), Align2::RIGHT_CENTER, text, font, color);
-        drawn.min.x
+        let (painter, font, color) = (ui.painter(), FontId::proportional(11.5), Tokens::of(ui).faint);
+        painter
+            .text(rect.right_center(), Align2::RIGHT_CENTER, text, font, color)
+            .min
+            .x
     }
 }
 

@@ -15,8 +15,8 @@ use crate::session::{JointCommand, Session};
 use crate::ui::cx::Cx;
 use crate::ui::theme::{self, MARGIN, Tokens};
 use crate::ui::widgets::{
-    Row, elided_name, explained, is_touch, paint_fold_mark, paint_name, paint_row_ground, pressed_row_height, rule,
-    section_name, section_with_labelled_action, selected_heading, walked,
+    Row, elided_name, explained, is_touch, paint_fold_mark, paint_row_ground, pressed_row_height, rule, section_name,
+    section_with_labelled_action, selected_heading, walked,
 };
 use crate::ui::wording::grouped;
 
@@ -112,20 +112,19 @@ fn influence_bar(
     }
     let name = cx.session.joint_label(influence.joint);
     let color = if selected { tokens.accent } else { tokens.text };
-    let font = FontId::proportional(13.0);
-    paint_name(ui.painter(), rect.left_center(), &name, font, color, names_width);
-    let y = rect.center().y;
+    let mut row = Row::of(ui, rect, response);
+    let weight = format!("{:.3}", influence.weight);
+    row.right_in(theme::mono(11.5), &weight, tokens.text);
+    row.right = row.left + names_width;
+    row.name(&name, color);
+    let (response, y) = (row.response, row.y);
     let bar = |fraction: f32| {
-        let (left, right) = (rect.min.x + names_width + BAR_GAP, rect.max.x - BAR_END);
+        let (left, right) = (row.right + BAR_GAP, rect.max.x - BAR_END);
         Rect::from_min_max(pos2(left, y - 2.5), pos2(left + fraction * (right - left), y + 2.5))
     };
     ui.painter().rect_filled(bar(1.0), 2.5, tokens.field_hovered);
     ui.painter()
         .rect_filled(bar(influence.weight.clamp(0.0, 1.0)), 2.5, tokens.accent);
-    let weight = format!("{:.3}", influence.weight);
-    let (right, font) = (rect.right_center(), theme::mono(11.5));
-    ui.painter()
-        .text(right, Align2::RIGHT_CENTER, &weight, font, tokens.text);
     let label = format!("{name}: weight {weight}");
     if tell_row(ui, &response, Role::ListBoxOption, &label, slot, selected) {
         focus_row(ui, response.id, rect);
@@ -263,7 +262,7 @@ fn influence_row(
         .below(slot)
         .plain(" =");
     let galley = ui.painter().layout_job(symbol.into_job());
-    row.right -= 6.0 + galley.size().x;
+    row.right = row.right - 6.0 - galley.size().x;
     let at = pos2(row.right, row.y - 0.5 * galley.size().y);
     ui.painter().galley(at, galley, tokens.muted);
     row.left += CHEVRON_WIDTH;
@@ -293,11 +292,8 @@ fn product_line(ui: &mut Ui, spoken: &str, factor: &str, numbers: &[String; 3]) 
     let tokens = Tokens::of(ui);
     let line = Rect::from_min_size(ui.cursor().min, vec2(ui.available_width(), LINE_HEIGHT));
     let end = pos2(line.max.x - 3.0 * number_column(line.width()), line.center().y);
-    let times = ui
-        .painter()
-        .text(end, Align2::RIGHT_CENTER, "×", theme::mono(11.0), tokens.faint);
-    let at = pos2(times.min.x - 4.0, end.y);
-    ui.painter()
-        .text(at, Align2::RIGHT_CENTER, factor, theme::mono(11.0), tokens.muted);
+    let (painter, anchor, font) = (ui.painter(), Align2::RIGHT_CENTER, theme::mono(11.0));
+    let times = painter.text(end, anchor, "×", font.clone(), tokens.faint);
+    painter.text(pos2(times.min.x - 4.0, end.y), anchor, factor, font, tokens.muted);
     show_line(ui, spoken, LayoutJob::default(), numbers);
 }

@@ -142,20 +142,10 @@ fn grip(ui: &Ui, cx: &mut Cx<'_, TimelineState>, clip: &Clip, end: End, axis: &T
 fn steps_of_keys(ui: &Ui, response: &Response, frame: u32, frames: &RangeInclusive<u32>) -> i32 {
     let keys = focused_keys(ui, response, SLIDER_KEYS).into_iter();
     let steps = keys.map(|(key, shift)| match key {
-        Key::ArrowRight | Key::ArrowUp => {
-            if shift {
-                10
-            } else {
-                1
-            }
-        }
-        Key::ArrowLeft | Key::ArrowDown => {
-            if shift {
-                -10
-            } else {
-                -1
-            }
-        }
+        Key::ArrowRight | Key::ArrowUp if shift => 10,
+        Key::ArrowRight | Key::ArrowUp => 1,
+        Key::ArrowLeft | Key::ArrowDown if shift => -10,
+        Key::ArrowLeft | Key::ArrowDown => -1,
         Key::PageUp => 10,
         Key::PageDown => -10,
         Key::Home => *frames.start() as i32 - frame as i32,
@@ -189,15 +179,13 @@ fn loop_gap_tick(ui: &Ui, gap: &LoopGapReading, axis: &TimeAxis, rect: Rect) {
     let (Some(words), Some(at_secs)) = (gap.words(), gap.seen_at_secs()) else {
         return;
     };
-    let color = Tokens::of(ui).warning;
+    let (painter, color) = (ui.painter(), Tokens::of(ui).warning);
     let x = axis.x_of(at_secs);
     let at = pos2(x, rect.min.y + 1.0);
     let corners = [vec2(-4.0, 0.0), vec2(4.0, 0.0), vec2(0.0, 5.5)].map(|offset| at + offset);
-    ui.painter()
-        .add(Shape::convex_polygon(corners.into(), color, Stroke::NONE));
+    painter.add(Shape::convex_polygon(corners.into(), color, Stroke::NONE));
     let below = Rangef::new(rect.min.y + 4.0, rect.max.y - 1.0);
-    ui.painter()
-        .vline(x, below, Stroke::new(1.0, color.gamma_multiply(0.5)));
+    painter.vline(x, below, Stroke::new(1.0, color.gamma_multiply(0.5)));
     let target = Rect::from_center_size(at + vec2(0.0, 4.0), vec2(14.0, 12.0));
     let response = ui.interact(target, ui.scope_id().with("loop gap"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));

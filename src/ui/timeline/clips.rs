@@ -9,10 +9,10 @@ use crate::ui::cx::Cx;
 use crate::ui::icons::Icon;
 use crate::ui::panel::{popover_above, popover_gap, scrolled};
 use crate::ui::state::{Request, UiState};
-use crate::ui::theme::{CONTROL_RADIUS, Tokens};
+use crate::ui::theme::Tokens;
 use crate::ui::widgets::{
-    Slider, TextButton, choices, control_size, focus_ring, is_touch, paint_elided, paint_name, row_icon, section_name,
-    section_with_action, tell_node, tell_push,
+    Slider, TextButton, choices, control_size, focus_ring, is_touch, paint_elided, paint_list_ground, paint_name,
+    row_icon, section_name, section_with_action, tell_node, tell_push,
 };
 use crate::ui::wording::{counted, trimmed};
 
@@ -75,11 +75,7 @@ fn row(ui: &mut Ui, cx: &mut Cx<'_, UiState>, index: usize, clip: &ClipSummary<'
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), row_height(ui)), Sense::click());
     let on = cx.session.clip_index() == Some(index);
-    if on {
-        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.accent_ground);
-    } else if response.contains_pointer() || response.has_focus() {
-        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field_hovered);
-    }
+    paint_list_ground(ui, rect, on, response.contains_pointer() || response.has_focus());
     focus_ring(ui, rect, &response);
     let facts = format!(
         "{:.2}–{:.2} s · {} · {} a second · {}",

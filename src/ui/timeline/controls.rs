@@ -6,7 +6,7 @@ use super::typed::{self, Unit};
 use crate::actions;
 use crate::anim::Direction;
 use crate::model::Clip;
-use crate::session::{Command, PlayCommand, Session};
+use crate::session::{Command, Session};
 use crate::ui::cx::Cx;
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, Tokens};
@@ -17,20 +17,14 @@ use crate::ui::wording::trimmed;
 pub(super) fn play_button(ui: &mut Ui, session: &Session, diameter: f32, commands: &mut Vec<Command>) {
     let playing = session.playback().is_playing();
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(diameter), Sense::click());
-    let tokens = Tokens::of(ui);
+    let (tokens, painter, center) = (Tokens::of(ui), ui.painter(), rect.center());
     let lift = if response.hovered() { 1.0 } else { 0.92 };
-    ui.painter()
-        .circle_filled(rect.center(), diameter * 0.5, tokens.accent.gamma_multiply(lift));
+    painter.circle_filled(center, diameter * 0.5, tokens.accent.gamma_multiply(lift));
     if response.has_focus() {
-        ui.painter()
-            .circle_stroke(rect.center(), diameter * 0.5 + 2.0, Stroke::new(1.5, tokens.accent));
+        painter.circle_stroke(center, diameter * 0.5 + 2.0, Stroke::new(1.5, tokens.accent));
     }
-    icons::paint(
-        ui.painter(),
-        rect,
-        if playing { Icon::Pause } else { Icon::Play },
-        tokens.on_accent,
-    );
+    let icon = if playing { Icon::Pause } else { Icon::Play };
+    icons::paint(painter, rect, icon, tokens.on_accent);
     let label = if playing {
         actions::PLAY.hint_of("Pause")
     } else {
@@ -145,7 +139,9 @@ pub(super) fn time_readout<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, clip: &Clip, (wid
         .width(width)
         .show(ui, |typed| typed::time(typed, clip, Unit::Secs));
     response.on_hover_text("Time, and where the clip ends\nClick to type seconds, 0.33, or a frame, f20");
-    go_to(time_secs, cx.commands);
+    if let Some(time_secs) = time_secs {
+        cx.pause_at(time_secs);
+    }
 }
 
 /// The frame nearest to the time, of how many.
@@ -161,14 +157,8 @@ pub(super) fn frame_readout<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, clip: &Clip, wid
     response.on_hover_text(format!(
         "Frame at {rate} keys a second\nClick to type a frame, 20, or seconds, 0.33 s"
     ));
-    go_to(time_secs, cx.commands);
-}
-
-/// Pauses at a time that was typed. A clip that played on would leave it at once.
-fn go_to(time_secs: Option<f32>, commands: &mut Vec<Command>) {
     if let Some(time_secs) = time_secs {
-        commands.push(PlayCommand::Pause.into());
-        commands.push(PlayCommand::Seek { time_secs }.into());
+        cx.pause_at(time_secs);
     }
 }
 

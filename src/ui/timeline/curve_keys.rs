@@ -10,7 +10,7 @@ use super::state::{KeyBox, KeyCursor, TimelineState};
 use super::time_area::{self, GRID_KEYS};
 use super::value_axis::ValueAxis;
 use crate::model::{Clip, JointIndex};
-use crate::session::{PlayCommand, Session};
+use crate::session::Session;
 use crate::ui::cx::Cx;
 use crate::ui::theme::Tokens;
 use crate::ui::widgets::{focused_keys, tell_node};
@@ -48,8 +48,7 @@ pub(super) fn read(ui: &Ui, response: &Response, cx: &mut Cx<'_, TimelineState>,
                 continue;
             }
             Key::Enter | Key::Space => {
-                cx.push(PlayCommand::Pause);
-                cx.push(PlayCommand::Seek { time_secs: before_secs });
+                cx.pause_at(before_secs);
                 continue;
             }
             Key::ArrowLeft | Key::PageDown => keys.before(before_secs),
@@ -76,16 +75,6 @@ pub(super) fn read(ui: &Ui, response: &Response, cx: &mut Cx<'_, TimelineState>,
         chooses,
         ..KeyCursor::at(joint, secs)
     });
-}
-
-/// The time span of chosen keys, on the ruler.
-pub(super) fn paint_chosen(ui: &Ui, state: &TimelineState, joint: JointIndex, axis: &TimeAxis, ruler: Rect) {
-    let key_box = state.key_box.as_ref();
-    if let Some(key_box) = key_box.filter(|key_box| key_box.joints.contains(&joint)) {
-        let [start, end] = key_box.span_secs.map(|secs| axis.points().clamp(axis.x_of(secs)));
-        let band = Rect::from_x_y_ranges(start..=end, ruler.y_range());
-        ui.painter().rect_filled(band, 0.0, Tokens::of(ui).accent_ground);
-    }
 }
 
 /// Draws a ring round the key that the keyboard is on, and tells of it. Before the keyboard was on one it is the first.

@@ -16,7 +16,7 @@ use crate::model::JointIndex;
 use crate::session::{Command, JointCommand};
 use crate::ui::cx::Cx;
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
-use crate::ui::widgets::{TextButton, control_size, focus_ring, is_touch, paint_name, tell_node};
+use crate::ui::widgets::{Row, TextButton, control_size, focus_ring, is_touch, paint_name, tell_node};
 
 const SAMPLE_SPACING: f32 = 2.0;
 /// The most samples, more than any screen needs.
@@ -91,7 +91,10 @@ pub(super) fn show(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>) {
     curve_keys::tell(&response, cx.session, &cx.state.curves, joint);
     focus_ring(ui, lines_rect, &response);
     curve_keys::read(ui, &response, cx, clip, joint);
-    curve_keys::paint_chosen(ui, cx.state, joint, &axis, ruler_rect);
+    let chosen = cx.state.key_box.as_ref();
+    if let Some(key_box) = chosen.filter(|key_box| key_box.joints.contains(&joint)) {
+        time_area::paint_chosen(ui, key_box, &axis, ruler_rect);
+    }
     curve_keys::show_cursor(ui, cx, &response, joint, (&axis, &values));
     time_area::scrub(&response, &axis, cx.commands);
     let ruler = time_area::ruler(ui, cx, &axis, ruler_rect);
@@ -229,9 +232,10 @@ fn paint_legend(ui: &Ui, curves: &mut Curves, joint_name: &str, read: &CurvePoin
     let time = format!("{:.3} s", read.time_secs);
     let time_row = Rect::from_x_y_ranges(left..=end, y_of(0) - 0.5 * step..=y_of(0) + 0.5 * step);
     let response = ui.interact(time_row, ui.scope_id().with("time"), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("t {time}")));
-    painter.text(pos2(left, y_of(0)), Align2::LEFT_CENTER, "t", font(), tokens.muted);
-    painter.text(pos2(end, y_of(0)), Align2::RIGHT_CENTER, time, font(), tokens.text);
+    let mut row = Row::of(ui, time_row, response);
+    row.left_in(font(), "t", tokens.muted);
+    row.right_in(font(), &time, tokens.text);
+    row.told(Role::Label, format!("t {time}"));
     let part = curves.part_name();
     for (channel, name) in curves.channels().iter().enumerate() {
         let (y, shown) = (y_of(channel + 1), !curves.hidden[channel]);

@@ -12,7 +12,7 @@ use super::state::{KeyBox, KeyCursor, TimelineState};
 use super::time_area::{self, RULER_HEIGHT, split_x};
 use crate::anim::JointActivity;
 use crate::model::{Clip, JointIndex};
-use crate::session::{JointCommand, OpenModel, PlayCommand, Session};
+use crate::session::{JointCommand, OpenModel, Session};
 use crate::ui::cx::Cx;
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{by_finger, is_touch, pressed_row_height};
@@ -76,7 +76,9 @@ impl Sheet<'_> {
         let at = pos2(area.min.x + 6.0, ruler_rect.center().y);
         ui.painter()
             .text(at, Align2::LEFT_CENTER, count, FontId::proportional(11.0), tokens.faint);
-        self.paint_box_span(ui, cx.state, ruler_rect);
+        if let Some(key_box) = &cx.state.key_box {
+            time_area::paint_chosen(ui, key_box, &self.axis, ruler_rect);
+        }
         time_area::paint_ruler(ui, self.clip, &self.axis, ruler_rect, area.max.y);
         let response = time_area::ruler(ui, cx, &self.axis, ruler_rect);
         time_area::navigate(ui, &response, self.clip, &self.axis, cx.state, false);
@@ -148,16 +150,6 @@ impl Sheet<'_> {
         self.open.key_times(self.clip_index, Some(joint))
     }
 
-    /// The time span of the box, on the ruler.
-    fn paint_box_span(&self, ui: &Ui, state: &TimelineState, ruler_rect: Rect) {
-        let Some(key_box) = &state.key_box else { return };
-        let [start, end] = key_box
-            .span_secs
-            .map(|secs| self.axis.points().clamp(self.axis.x_of(secs)));
-        let band = Rect::from_x_y_ranges(start..=end, ruler_rect.y_range());
-        ui.painter().rect_filled(band, 0.0, Tokens::of(ui).accent_ground);
-    }
-
     /// Lines where the range begins and ends.
     fn paint_range_ends(&self, ui: &Ui, ruler_rect: Rect) {
         let Some(range_secs) = self.session.playback().range_secs() else {
@@ -212,9 +204,7 @@ impl Sheet<'_> {
                 cx.state.revealed = Some(joint);
                 cx.state.cursor = Some(KeyCursor::at(joint, Some(time_secs)));
                 cx.push(JointCommand::Select(Some(joint)));
-                // Playing on would leave the key at once.
-                cx.push(PlayCommand::Pause);
-                cx.push(PlayCommand::Seek { time_secs });
+                cx.pause_at(time_secs);
             }
         }
         if clicked {

@@ -7,7 +7,7 @@ use super::dope_sheet::Sheet;
 use super::rows::{Row, RowKeys, Rows};
 use super::state::{KeyBox, KeyCursor, TimelineState};
 use super::time_area::{self, GRID_KEYS};
-use crate::session::{JointCommand, PlayCommand};
+use crate::session::JointCommand;
 use crate::ui::cx::Cx;
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{focused_keys, tell_node};
@@ -117,8 +117,7 @@ impl Sheet<'_> {
         match cursor.key_secs {
             Some(time_secs) => {
                 cx.push(JointCommand::Select(joint));
-                cx.push(PlayCommand::Pause);
-                cx.push(PlayCommand::Seek { time_secs });
+                cx.pause_at(time_secs);
             }
             None => {
                 let selected = self.session.joints().selected() == joint;

@@ -13,9 +13,10 @@ use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, PlayCommand, SPEEDS, Session};
 use crate::ui::cx::Cx;
 use crate::ui::panel::{popover_gap, scrolled};
-use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
+use crate::ui::theme::{self, MARGIN, Tokens};
 use crate::ui::widgets::{
-    Row, TypedValue, focus_ring, is_touch, pressed_row_height, section_name, section_with_action, segmented,
+    Row, TypedValue, focus_ring, is_touch, paint_list_ground, pressed_row_height, section_name, section_with_action,
+    segmented,
 };
 use crate::ui::wording::trimmed;
 
@@ -218,11 +219,7 @@ fn joint_row(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>, reading: &LoopGapReadi
     if response.contains_pointer() && !is_touch(ui) {
         cx.state.hovered = Some(joint);
     }
-    if selected {
-        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.accent_ground);
-    } else if joints.hovered() == Some(joint) {
-        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field_hovered);
-    }
+    paint_list_ground(ui, rect, selected, joints.hovered() == Some(joint));
     focus_ring(ui, rect, &response);
 
     let jump = Jump::new(reading, joint);

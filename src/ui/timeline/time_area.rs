@@ -3,7 +3,7 @@
 use egui::{Align2, FontId, Key, PointerButton, Rangef, Rect, Response, Sense, Stroke, Ui, UiBuilder, pos2, vec2};
 
 use super::axis::TimeAxis;
-use super::state::TimelineState;
+use super::state::{KeyBox, TimelineState};
 use crate::anim::Direction;
 use crate::model::Clip;
 use crate::session::{Command, PlayCommand, Session};
@@ -63,6 +63,13 @@ pub(super) fn paint_head_below_ruler(ui: &Ui, session: &Session, axis: &TimeAxis
     }
 }
 
+/// The time span of chosen keys, on the ruler.
+pub(super) fn paint_chosen(ui: &Ui, key_box: &KeyBox, axis: &TimeAxis, ruler: Rect) {
+    let [start, end] = key_box.span_secs.map(|secs| axis.points().clamp(axis.x_of(secs)));
+    let band = Rect::from_x_y_ranges(start..=end, ruler.y_range());
+    ui.painter().rect_filled(band, 0.0, Tokens::of(ui).accent_ground);
+}
+
 /// The ruler as a control: a press or drag moves the time.
 pub(super) fn ruler(ui: &Ui, cx: &mut Cx<'_, TimelineState>, axis: &TimeAxis, rect: Rect) -> Response {
     let response = ui.interact(rect, ui.scope_id().with("ruler"), Sense::click_and_drag());
@@ -89,8 +96,7 @@ pub(super) fn time_slider(ui: &Ui, cx: &mut Cx<'_, TimelineState>, clip: &Clip, 
         cx.push(PlayCommand::StepFrames(steps));
     }
     if let Some(secs) = value {
-        cx.push(PlayCommand::Pause);
-        cx.push(PlayCommand::Seek { time_secs: secs as f32 });
+        cx.pause_at(secs as f32);
     }
     for (key, shift) in focused_keys(ui, response, SLIDER_KEYS) {
         let frames = if shift { 10 } else { 1 };

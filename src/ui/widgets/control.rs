@@ -118,6 +118,16 @@ pub(crate) fn paint_row_ground(ui: &Ui, rect: Rect, response: &Response, selecte
     focus_ring(ui, around, response);
 }
 
+/// Draws the ground of a row of a list that is no wider than its contents.
+pub(crate) fn paint_list_ground(ui: &Ui, rect: Rect, selected: bool, over: bool) {
+    let tokens = Tokens::of(ui);
+    if selected {
+        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.accent_ground);
+    } else if over {
+        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field_hovered);
+    }
+}
+
 /// Draws words from a point at their left centre. Words wider than `most` end in an ellipsis.
 pub(crate) fn paint_elided(painter: &Painter, at: Pos2, text: &str, font: FontId, color: Color32, most: f32) {
     let mut job = LayoutJob::simple_singleline(text.to_owned(), font, color);

@@ -98,24 +98,22 @@ impl<'a> Slider<'a> {
     }
 
     fn paint(&self, ui: &Ui, left: f32, right: f32, y: f32, response: &Response) {
-        let tokens = Tokens::of(ui);
+        let (tokens, painter) = (Tokens::of(ui), ui.painter());
         let (start, end) = (*self.range.start(), *self.range.end());
         let x_of = |value: f32| left + ((value - start) / (end - start)).clamp(0.0, 1.0) * (right - left);
         let (origin, knob) = (x_of(self.reset_to), x_of(self.value));
         let band = |from: f32, to: f32| Rect::from_min_max(pos2(from.min(to), y - 1.5), pos2(from.max(to), y + 1.5));
-        ui.painter()
-            .rect_filled(band(left - 2.0, right + 2.0), 1.5, tokens.track());
-        ui.painter().rect_filled(band(origin, knob), 1.5, tokens.accent);
+        painter.rect_filled(band(left - 2.0, right + 2.0), 1.5, tokens.track());
+        painter.rect_filled(band(origin, knob), 1.5, tokens.accent);
         let active = response.hovered() || response.is_pointer_button_down_on();
         let center = pos2(knob, y);
         if response.has_focus() || response.is_pointer_button_down_on() {
-            ui.painter()
-                .circle_filled(center, KNOB_RADIUS + 4.0, tokens.accent_ground);
+            painter.circle_filled(center, KNOB_RADIUS + 4.0, tokens.accent_ground);
         }
         let ground = tokens.panel.to_opaque();
         let color = if active { tokens.accent } else { tokens.muted };
         let radius = KNOB_RADIUS - 0.75;
-        ui.painter().circle(center, radius, ground, Stroke::new(1.5, color));
+        painter.circle(center, radius, ground, Stroke::new(1.5, color));
     }
 }
 

@@ -11,15 +11,6 @@ use super::control::{
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{CONTROL_RADIUS, ROW_HEIGHT, Tokens};
 
-/// A row that can be pressed, over the whole width. Its ground shows whether it is hovered or `selected`.
-pub(crate) fn pressed_row(ui: &mut Ui, selected: bool) -> (Rect, Response) {
-    let size = vec2(ui.available_width(), pressed_row_height(ui));
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    let over = response.contains_pointer();
-    paint_row_ground(ui, rect, &response, selected, over);
-    (rect, response)
-}
-
 /// A small icon in a row. `on` marks a switch that is on.
 pub(crate) fn row_icon(ui: &Ui, place: Rect, row: &Response, icon: Icon, label: &str, on: bool) -> Response {
     let tokens = Tokens::of(ui);
@@ -104,9 +95,11 @@ impl Row {
         Self::of(ui, rect, response)
     }
 
-    /// A [`pressed_row`].
+    /// A row that can be pressed, over the whole width. Its ground shows whether it is hovered or `selected`.
     pub(crate) fn pressed(ui: &mut Ui, selected: bool) -> Self {
-        let (rect, response) = pressed_row(ui, selected);
+        let size = vec2(ui.available_width(), pressed_row_height(ui));
+        let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+        paint_row_ground(ui, rect, &response, selected, response.contains_pointer());
         Self::of(ui, rect, response)
     }
 
