@@ -3,7 +3,9 @@
 use egui::{Color32, FontId, Galley, Rect, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2};
 use std::sync::Arc;
 
+use super::cx::Cx;
 use super::icons::{self, Icon};
+use super::state::UiState;
 use super::theme::{self, Tokens};
 use super::widgets::{control_size, elided_name, focus_ring, is_touch};
 use super::wording::grouped;
@@ -240,27 +242,21 @@ impl Chip {
 
 /// Shows a chip for each mode, in rows at the top of a room, and one for a file that is written while its panel is not open. Returns the
 /// lower edge of the last row.
-pub(super) fn show(
-    ui: &Ui,
-    session: &Session,
-    room: Rect,
-    export_is_open: bool,
-    commands: &mut Vec<Command>,
-) -> Option<f32> {
-    if session.open_model().is_none() || room.width() < 2.0 * control_size(ui) {
+pub(super) fn show(ui: &Ui, cx: &mut Cx<'_, UiState>, room: Rect, export_is_open: bool) -> Option<f32> {
+    if cx.session.open_model().is_none() || room.width() < 2.0 * control_size(ui) {
         return None;
     }
     let most = room.width() - 2.0 * PADDING - GAP - CROSS - 40.0;
-    let chips: Vec<Chip> = modes(session)
+    let chips: Vec<Chip> = modes(cx.session)
         .into_iter()
-        .chain(export(session).filter(|_| !export_is_open))
+        .chain(export(cx.session).filter(|_| !export_is_open))
         .map(|mode| Chip::new(ui, mode, most))
         .collect();
     let height = if is_touch(ui) { control_size(ui) } else { HEIGHT };
     let step = if is_touch(ui) { height } else { height + SPACING };
     // The names of the lights stand at the top while the picture is divided.
     let top = room.min.y
-        + if session.look().split.is_some() {
+        + if cx.session.look().split.is_some() {
             HEIGHT + SPACING
         } else {
             0.0
@@ -283,7 +279,7 @@ pub(super) fn show(
         for chip in &chips[index..end] {
             let place = Rect::from_min_size(pos2(left, y), vec2(chip.width, height));
             if chip.show(ui, index, place) {
-                commands.push(chip.mode.ends.clone());
+                cx.commands.push(chip.mode.ends.clone());
             }
             left += chip.width + SPACING;
             index += 1;

@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use egui::{Align, Color32, Label, Layout, ProgressBar, Rangef, RichText, Sense, Ui, vec2};
 
+use super::cx::Cx;
 use super::panel::{popover_gap, scrolled};
 use super::state::{SheetPage, UiState};
 use super::theme::{CONTROL_RADIUS, Tokens};
@@ -28,29 +29,30 @@ const FOOT_GAP: f32 = 8.0;
 const CANCEL_WIDTH: f32 = 74.0;
 
 /// The contents of the popover and of the sheet's page, no higher than `most`. The button that saves stays in view below what scrolls.
-pub(super) fn show(ui: &mut Ui, most: f32, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    let foot = if session.open_model().is_some() {
+pub(super) fn show(ui: &mut Ui, most: f32, cx: &mut Cx<'_, UiState>) {
+    let foot = if cx.session.open_model().is_some() {
         control_size(ui) + FOOT_GAP
     } else {
         0.0
     };
     let mut scrolled = scrolled("export", most - foot);
-    if state.export.outcome_height == 0.0 {
+    if cx.state.export.outcome_height == 0.0 {
         // It was shut: it begins with the format, wherever it was scrolled to before.
         scrolled = scrolled.vertical_scroll_offset(0.0);
     }
-    scrolled.show(ui, |ui| choices(ui, session, state, commands));
+    scrolled.show(ui, |ui| choices(ui, cx));
     if foot > 0.0 {
         ui.add_space(FOOT_GAP);
-        let export = session.export();
-        let export = export.filter(|export| *export.options == state.export.options);
-        save_row(ui, session, export, commands);
+        let export = cx.session.export();
+        let export = export.filter(|export| *export.options == cx.state.export.options);
+        save_row(ui, cx.session, export, cx.commands);
     }
 }
 
 /// What is written, and what that changes.
-fn choices(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    let choice = &mut state.export;
+fn choices(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
+    let session = cx.session;
+    let choice = &mut cx.state.export;
     let Some(open) = session.open_model() else {
         ui.label(RichText::new("Nothing is open. Drop a model, then export it here.").color(Tokens::of(ui).muted));
         return;
@@ -91,7 +93,7 @@ fn choices(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut V
     });
     if session.export().is_none_or(|export| *export.options != choice.options) {
         let options = Some(Box::new(choice.options.clone()));
-        commands.push(ExportCommand::Plan(options).into());
+        cx.commands.push(ExportCommand::Plan(options).into());
     }
     popover_gap(ui);
     let export = session.export().filter(|export| *export.options == choice.options);
@@ -390,12 +392,12 @@ pub(super) fn open(state: &mut UiState, is_wide: bool) {
 }
 
 /// Ends what is planned when it was shut; what is being written goes on. Returns whether it is open.
-pub(super) fn settle(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) -> bool {
-    let is_open = std::mem::take(&mut state.export.shown);
+pub(super) fn settle(cx: &mut Cx<'_, UiState>) -> bool {
+    let is_open = std::mem::take(&mut cx.state.export.shown);
     if !is_open {
-        state.export.outcome_height = 0.0;
-        if session.export().is_some_and(|export| export.saving.is_none()) {
-            commands.push(ExportCommand::Plan(None).into());
+        cx.state.export.outcome_height = 0.0;
+        if cx.session.export().is_some_and(|export| export.saving.is_none()) {
+            cx.push(ExportCommand::Plan(None));
         }
     }
     is_open

@@ -11,7 +11,7 @@ use super::panel::{Panel, scrolled};
 use super::state::{Request, UiState};
 use super::theme::{self, ROW_HEIGHT, Tokens};
 use super::widgets::{
-    TextButton, arrow_steps, closable_heading, control_size, focus_ring, is_touch, paint_elided, push_button, rule,
+    Row, TextButton, arrow_steps, closable_heading, control_size, focus_ring, is_touch, paint_elided, push_button, rule,
 };
 use crate::actions::{self, Group};
 use crate::session::Session;
@@ -200,21 +200,15 @@ fn gestures(ui: &mut Ui, gestures: &[(&str, &str)]) {
 /// Keys, what they do, and the value that is on.
 fn row(ui: &mut Ui, keys: &str, does: &str, in_force: Option<&str>) {
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
-    let painter = ui.painter();
-    let at = rect.left_center();
-    painter.text(at, Align2::LEFT_CENTER, keys, theme::mono(12.0), tokens.text);
-    let at = at + vec2(112.0, 0.0);
-    let font = FontId::proportional(13.0);
-    let does_rect = painter.text(at, Align2::LEFT_CENTER, does, font.clone(), tokens.muted);
+    let mut row = Row::new(ui, ROW_HEIGHT);
+    row.left_in(theme::mono(12.0), keys, tokens.text);
+    row.left = row.rect.min.x + 112.0;
+    row.left(does, tokens.muted);
     if let Some(in_force) = in_force {
-        let width = painter
-            .layout_no_wrap(in_force.to_owned(), font.clone(), tokens.accent)
-            .size()
-            .x;
-        let first = does_rect.max.x + 8.0;
-        let at = pos2((rect.max.x - width).max(first), rect.center().y);
-        paint_elided(painter, at, in_force, font, tokens.accent, rect.max.x - at.x);
+        let (painter, font) = (ui.painter(), FontId::proportional(13.0));
+        let galley = painter.layout_no_wrap(in_force.to_owned(), font.clone(), tokens.accent);
+        let at = pos2((row.right - galley.size().x).max(row.left + 8.0), row.y);
+        paint_elided(painter, at, in_force, font, tokens.accent, row.right - at.x);
     }
     let now = in_force.map_or_else(String::new, |in_force| format!(", now {in_force}"));
     let keys = if keys.is_empty() {
@@ -222,5 +216,5 @@ fn row(ui: &mut Ui, keys: &str, does: &str, in_force: Option<&str>) {
     } else {
         format!("{keys}: ")
     };
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{keys}{does}{now}")));
+    row.told(Role::Label, format!("{keys}{does}{now}"));
 }

@@ -2,27 +2,29 @@
 
 use std::ops::RangeInclusive;
 
-use egui::{Align2, FontId, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
+use egui::{Role, Ui, Vec2, vec2};
 
+use super::cx::Cx;
 use super::model_panel::shown_color;
 use super::state::UiState;
 use super::textures::{holds, picture_row};
 use super::theme::{MARGIN, ROW_HEIGHT, Tokens};
 use super::widgets::{
-    Slider, color_button, control_size, hint_beside, is_touch, number_field, paint_name, rule, section_name,
+    Row, Slider, color_button, control_size, hint_beside, is_touch, number_field, rule, section_name,
     section_with_action, segmented, selected_heading, switch_row, value_row,
 };
 use super::wording::{capital, grouped};
 use crate::model::{AlphaMode, MapSlot, Material, Reflectance};
 use crate::scene::{linear_from_srgb8, srgb8_from_linear};
-use crate::session::{Command, MAX_SPEC_POWER, MaterialCommand, OpenModel, Session, SubmeshCommand};
+use crate::session::{MAX_SPEC_POWER, MaterialCommand, OpenModel, Session, SubmeshCommand};
 
 const LABEL_WIDTH: f32 = 90.0;
 /// Room between fields.
 const SPACING: f32 = 5.0;
 
 /// The panel's contents. Nothing while nothing is selected.
-pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
+    let session = cx.session;
     let (Some(open), Some(index)) = (session.open_model(), session.submeshes().selected()) else {
         return;
     };
@@ -37,29 +39,30 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
 
     let swatch = Some(shown_color(session, material));
     if selected_heading(ui, session.submesh_name(index), Tokens::of(ui).text, swatch) {
-        commands.push(SubmeshCommand::Select(None).into());
+        cx.push(SubmeshCommand::Select(None));
     }
     rule(ui, MARGIN);
-    let vertices = state.vertex_count.of(session.model_revision(), index, mesh, submesh);
+    let count = &mut cx.state.vertex_count;
+    let vertices = count.of(session.model_revision(), index, mesh, submesh);
     value_row(ui, "Subset", &format!("{} of {}", index + 1, mesh.submeshes.len()));
     value_row(ui, "Triangles", &grouped(submesh.triangle_count as usize));
     value_row(ui, "Vertices", &grouped(vertices));
     rule(ui, MARGIN);
     let action = session.is_edited(material).then_some("Reset");
     if section_with_action(ui, "Material", action) {
-        commands.push(MaterialCommand::Reset(material).into());
+        cx.push(MaterialCommand::Reset(material));
     }
     if let Some(edited) = material_fields(ui, values) {
-        commands.push(Command::Material(MaterialCommand::Edit {
+        cx.push(MaterialCommand::Edit {
             index: material,
             material: Box::new(edited),
-        }));
+        });
     }
     if MapSlot::ALL.into_iter().any(|slot| values.map_name(slot).is_some()) {
         rule(ui, MARGIN);
         section_name(ui, "Maps");
         for slot in MapSlot::ALL {
-            map_row(ui, session, open, state, material, slot);
+            map_row(ui, session, open, cx.state, material, slot);
         }
     }
 }
@@ -85,18 +88,11 @@ fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState
         ("unreadable", "See Findings.")
     };
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
-    let font = FontId::proportional(13.0);
-    let (right, color) = (rect.right_center(), tokens.warning);
-    let drawn = ui
-        .painter()
-        .text(right, Align2::RIGHT_CENTER, words, font.clone(), color);
-    let room = drawn.min.x - 8.0 - rect.min.x;
-    paint_name(ui.painter(), rect.left_center(), name, font, tokens.muted, room);
-    response.widget_info(|| {
-        let label = format!("{what}: {name}, {words}");
-        WidgetInfo::labeled(Role::Label, true, label)
-    });
+    let mut row = Row::new(ui, ROW_HEIGHT);
+    row.right(words, tokens.warning);
+    row.right -= 8.0;
+    row.name(name, tokens.muted);
+    let response = row.told(Role::Label, format!("{what}: {name}, {words}"));
     hint_beside(response, None, &format!("{what}: {name}\n{hint}"));
 }
 
@@ -225,12 +221,9 @@ fn row(ui: &mut Ui, label: &str, fields: impl FnOnce(&mut Ui, f32)) {
     ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
         ui.set_min_height(row_height);
         ui.spacing_mut().item_spacing.x = SPACING;
-        let (rect, response) = ui.allocate_exact_size(vec2(LABEL_WIDTH - SPACING, row_height), Sense::hover());
-        let font = FontId::proportional(13.0);
-        let color = Tokens::of(ui).muted;
-        ui.painter()
-            .text(rect.left_center(), Align2::LEFT_CENTER, label, font, color);
-        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, label));
+        let mut row = Row::sized(ui, vec2(LABEL_WIDTH - SPACING, row_height));
+        row.left(label, Tokens::of(ui).muted);
+        row.told(Role::Label, label);
         fields(ui, height);
     });
 }

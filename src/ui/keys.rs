@@ -2,6 +2,7 @@
 
 use egui::{Event, Key, Modifiers, Ui};
 
+use super::cx::Cx;
 use super::export;
 use super::findings;
 use super::input::is_arrow;
@@ -12,7 +13,7 @@ use crate::actions::{self, Action, Ask};
 use crate::session::{Command, FileCommand, JointCommand, Session, SubmeshCommand};
 
 /// Reads the keys of a pass in which nobody types into a field. `popover_open`: Esc closes the popover and nothing else.
-pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open: bool, commands: &mut Vec<Command>) {
+pub(super) fn read(ui: &Ui, cx: &mut Cx<'_, UiState>, popover_open: bool) {
     let events = ui.input(|input| input.events.clone());
     // Space and Enter belong to a focused control. The view has no use for them.
     let focused = ui.memory(|memory| memory.focused());
@@ -41,9 +42,9 @@ pub(super) fn read(ui: &Ui, session: &Session, state: &mut UiState, popover_open
             Event::Text(text) if text == actions::HELP.key() && !held => Some(&actions::HELP),
             _ => None,
         };
-        if let Some(ask) = asked.and_then(|action| action.ask(session)) {
-            state.announcer.by_key |= asked.is_some_and(|action| action.told);
-            carry_out(ask, ui, session, state, commands);
+        if let Some(ask) = asked.and_then(|action| action.ask(cx.session)) {
+            cx.state.announcer.by_key |= asked.is_some_and(|action| action.told);
+            carry_out(ask, ui, cx);
         }
     }
 }
@@ -107,17 +108,17 @@ pub fn shortcut(words: &str) -> Option<Shortcut> {
 }
 
 /// Does what a key or a button asks for.
-pub(super) fn carry_out(ask: Ask, ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+pub(super) fn carry_out(ask: Ask, ui: &Ui, cx: &mut Cx<'_, UiState>) {
     match ask {
-        Ask::Command(command) => commands.push(command),
-        Ask::Help => state.help_open = !state.help_open,
-        Ask::Close => escape(session, state, commands),
-        Ask::NameBone => state.skeleton.rename_selected(ui, session),
-        Ask::OpenFiles => state.requests.push(Request::PickFiles),
-        Ask::ReadAgain => state.read_again(),
-        Ask::SavePicture { transparent } => state.save_picture(ui, transparent),
-        Ask::Findings => findings::toggle(state, layout::is_wide(ui.max_rect())),
-        Ask::Export => export::ask(state, layout::is_wide(ui.max_rect())),
+        Ask::Command(command) => cx.push(command),
+        Ask::Help => cx.state.help_open = !cx.state.help_open,
+        Ask::Close => escape(cx),
+        Ask::NameBone => cx.state.skeleton.rename_selected(ui, cx.session),
+        Ask::OpenFiles => cx.state.requests.push(Request::PickFiles),
+        Ask::ReadAgain => cx.state.read_again(),
+        Ask::SavePicture { transparent } => cx.state.save_picture(ui, transparent),
+        Ask::Findings => findings::toggle(cx.state, layout::is_wide(ui.max_rect())),
+        Ask::Export => export::ask(cx.state, layout::is_wide(ui.max_rect())),
     }
 }
 
@@ -146,13 +147,13 @@ fn on_top(session: &Session, state: &UiState) -> Option<OnTop> {
 }
 
 /// Closes or clears what lies on top.
-fn escape(session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    match on_top(session, state) {
-        Some(OnTop::Error) => commands.push(FileCommand::DismissError.into()),
-        Some(OnTop::Help) => state.help_open = false,
-        Some(OnTop::Diagnostics) => state.diagnostics_open = false,
-        Some(OnTop::ChosenKeys) => state.timeline.let_go_of_keys(),
-        Some(OnTop::Selection(command)) => commands.push(command),
+fn escape(cx: &mut Cx<'_, UiState>) {
+    match on_top(cx.session, cx.state) {
+        Some(OnTop::Error) => cx.push(FileCommand::DismissError),
+        Some(OnTop::Help) => cx.state.help_open = false,
+        Some(OnTop::Diagnostics) => cx.state.diagnostics_open = false,
+        Some(OnTop::ChosenKeys) => cx.state.timeline.let_go_of_keys(),
+        Some(OnTop::Selection(command)) => cx.push(command),
         None => {}
     }
 }

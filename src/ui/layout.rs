@@ -6,6 +6,7 @@
 
 use egui::{Align, Align2, Id, Layout, Margin, Rangef, Rect, RichText, Role, Sense, Ui, UiBuilder, Vec2, pos2, vec2};
 
+use super::cx::Cx;
 use super::icons::Icon;
 use super::panel::{self, Free, LEAST_ROOM, Panel, mark_transport, scrolled};
 use super::sheet::Heights;
@@ -78,95 +79,95 @@ pub(super) fn is_wide(window: Rect) -> bool {
 }
 
 /// Shows all panels. Returns what they leave free for the model, and what of that no panel covers.
-pub(super) fn show(ui: &Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) -> (Rect, Rect) {
+pub(super) fn show(ui: &Ui, cx: &mut Cx<'_, UiState>) -> (Rect, Rect) {
     let window = ui.max_rect();
     let (free, uncovered) = match Arrangement::of(window) {
-        Arrangement::Wide => wide(ui, session, state, Free::new(window), commands),
+        Arrangement::Wide => wide(ui, cx, Free::new(window)),
         arrangement => {
             let low = arrangement == Arrangement::Low;
-            narrow(ui, session, state, Free::new(window), low, commands)
+            narrow(ui, cx, Free::new(window), low)
         }
     };
     (free.rect, uncovered.room())
 }
 
 /// Wide windows. Returns what is free for the model, and what of that is not covered.
-fn wide(ui: &Ui, session: &Session, state: &mut UiState, mut free: Free, commands: &mut Vec<Command>) -> (Free, Free) {
+fn wide(ui: &Ui, cx: &mut Cx<'_, UiState>, mut free: Free) -> (Free, Free) {
     let room = free.room();
     let toolbar = Panel::new("toolbar", "Toolbar", Align2::RIGHT_TOP)
         .margin(Margin::same(3))
         .show(ui, room, |ui| {
             ui.set_height(widgets::control_size(ui));
-            toolbar::show(ui, session, state, commands);
+            toolbar::show(ui, cx);
         });
     let beside = room.with_max_x(toolbar.min.x - MARGIN).with_max_y(toolbar.max.y);
     Panel::new("title", "Title", Align2::LEFT_TOP)
         .margin(Margin::symmetric(12, 3))
         .show(ui, beside, |ui| {
             ui.take_available_height();
-            toolbar::title(ui, session, Some(state), commands);
+            toolbar::title(ui, cx.session, Some(cx.state), cx.commands);
         });
     free.cut_top(toolbar);
-    if session.clip().is_some() {
+    if cx.session.clip().is_some() {
         let room = free.room();
         let timeline = Panel::new("timeline", "Timeline", Align2::LEFT_BOTTOM)
             .margin(Margin::symmetric(9, 8))
             .width(room.width())
-            .show(ui, room, |ui| timeline::wide(ui, session, state, commands));
+            .show(ui, room, |ui| timeline::wide(ui, cx));
         free.cut_bottom(timeline);
     }
-    if session.open_model().is_some() {
+    if cx.session.open_model().is_some() {
         let mut column = free;
         let room = free.room();
         if room.height() >= LEAST_WITH_CARD
-            && let Some(legend) = show_legend(ui, session, state, room, LegendShape::Card)
+            && let Some(legend) = show_legend(ui, cx.session, cx.state, room, LegendShape::Card)
         {
             column.cut_bottom(legend);
         }
-        let width = skeleton::side_width(ui, state.side_width.unwrap_or(SIDE_WIDTH), SIDE_WIDTH);
-        let side = Panel::new("model", side_label(state), Align2::LEFT_TOP)
+        let width = skeleton::side_width(ui, cx.state.side_width.unwrap_or(SIDE_WIDTH), SIDE_WIDTH);
+        let side = Panel::new("model", side_label(cx.state), Align2::LEFT_TOP)
             .width(width)
             .show(ui, column.room(), |ui| {
-                side_panel(ui, "model", session, state, commands);
+                side_panel(ui, "model", cx);
             });
         if let Some(width) = skeleton::show_width_handle(ui, side, SIDE_WIDTH) {
-            state.side_width = Some(width);
+            cx.state.side_width = Some(width);
         }
         free.cut_left(side);
     }
-    if let Some(greeting) = help::greet(ui, state, free.room()) {
+    if let Some(greeting) = help::greet(ui, cx.state, free.room()) {
         free.cut_bottom(greeting);
     }
-    show_on_top(ui, session, state, &free, commands);
+    show_on_top(ui, cx, &free);
 
     let mut beside = free;
-    let inspects_joint = is_inspected(session);
-    if inspects_joint || session.submeshes().selected().is_some() {
+    let inspects_joint = is_inspected(cx.session);
+    if inspects_joint || cx.session.submeshes().selected().is_some() {
         let inspector = Panel::new("inspector", "Inspector", Align2::RIGHT_TOP)
             .width(INSPECTOR_WIDTH)
             .show(ui, free.room(), |ui| {
                 scrolled("inspector", ui.available_height()).show(ui, |ui| {
                     if inspects_joint {
-                        skeleton::show_inspector(ui, session, &mut state.skeleton, commands);
+                        skeleton::show_inspector(ui, &mut cx.part(|state| &mut state.skeleton));
                     } else {
-                        inspector::show(ui, session, state, commands);
+                        inspector::show(ui, cx);
                     }
                 });
             });
         beside.cut_right(inspector);
     }
-    if state.diagnostics_open {
+    if cx.state.diagnostics_open {
         let room = beside.room();
         let list = Panel::new("diagnostics", "Findings", Align2::LEFT_TOP)
             .width(DIAGNOSTICS_WIDTH.min(room.width()))
-            .show(ui, room, |ui| findings::show(ui, session, state, commands));
+            .show(ui, room, |ui| findings::show(ui, cx));
         beside.cut_left(list);
         // A click on a diagnostic shows its subject, so the list does not cover it. If the list leaves too little room, it does.
         if beside.rect.width() >= LEAST_BESIDE_DIAGNOSTICS {
             free = beside;
         }
     }
-    frame_button(ui, session, state, &beside, commands);
+    frame_button(ui, cx, &beside);
     // The model stays where it is when an inspector opens.
     (free, beside)
 }
@@ -180,12 +181,12 @@ fn side_label(state: &UiState) -> &'static str {
 }
 
 /// Facts or the tree of joints below the switch between them; each scrolls by itself.
-fn side_panel(ui: &mut Ui, id: &'static str, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    if has_joints(session) {
-        show_tabs(ui, session, state, false);
+fn side_panel(ui: &mut Ui, id: &'static str, cx: &mut Cx<'_, UiState>) {
+    if has_joints(cx.session) {
+        show_tabs(ui, cx.session, cx.state, false);
         ui.add_space(8.0);
     }
-    side_page(ui, id, session, state, commands);
+    side_page(ui, id, cx);
 }
 
 /// The switch between the pages of the panel on the left, and in the sheet what is selected.
@@ -221,24 +222,17 @@ fn side_tab(state: &UiState) -> Option<SidePage> {
     (!selection).then_some(state.skeleton.page)
 }
 
-fn side_page(ui: &mut Ui, id: &'static str, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    if state.skeleton.page == SidePage::Skeleton {
-        skeleton::show_tree(ui, session, &mut state.skeleton, commands);
+fn side_page(ui: &mut Ui, id: &'static str, cx: &mut Cx<'_, UiState>) {
+    if cx.state.skeleton.page == SidePage::Skeleton {
+        skeleton::show_tree(ui, &mut cx.part(|state| &mut state.skeleton));
     } else {
-        scrolled(id, ui.available_height()).show(ui, |ui| model_panel::show(ui, session, state, commands));
+        scrolled(id, ui.available_height()).show(ui, |ui| model_panel::show(ui, cx));
     }
 }
 
 /// Phones, slim and low windows: one bar above, one sheet below; in a low window what is opened stands between them. Returns the same as
 /// [`wide`].
-fn narrow(
-    ui: &Ui,
-    session: &Session,
-    state: &mut UiState,
-    mut free: Free,
-    low: bool,
-    commands: &mut Vec<Command>,
-) -> (Free, Free) {
+fn narrow(ui: &Ui, cx: &mut Cx<'_, UiState>, mut free: Free, low: bool) -> (Free, Free) {
     let room = free.room();
     let mut opens = Vec::new();
     let bar = Panel::new("title", "Title", Align2::LEFT_TOP)
@@ -253,48 +247,48 @@ fn narrow(
                 let part = UiBuilder::new().max_rect(Rect::from_x_y_ranges(x, bar.y_range()));
                 ui.new_child(part.layout(Layout::left_to_right(Align::Center)))
             });
-            toolbar::title(&mut left, session, None, &mut opens);
-            toolbar::show_narrow(&mut right, session, &mut *state, commands);
+            toolbar::title(&mut left, cx.session, None, &mut opens);
+            toolbar::show_narrow(&mut right, cx);
         });
-    commands.append(&mut opens);
+    cx.commands.append(&mut opens);
     free.cut_top(bar);
-    if session.open_model().is_some() || !matches!(state.sheet, None | Some(SheetPage::Model)) {
-        let sheet = sheet(ui, session, state, &free, low, commands);
+    if cx.session.open_model().is_some() || !matches!(cx.state.sheet, None | Some(SheetPage::Model)) {
+        let sheet = sheet(ui, cx, &free, low);
         free.cut_bottom(sheet);
-        if let Some(page) = state.sheet.filter(|_| low) {
+        if let Some(page) = cx.state.sheet.filter(|_| low) {
             let room = free.room();
-            let label = page_title(page, state);
+            let label = page_title(page, cx.state);
             let page = Panel::new("page", label, Align2::RIGHT_TOP)
                 .width(page_width(page, ui.max_rect()))
-                .show(ui, room, |ui| show_page(ui, page, session, state, commands));
+                .show(ui, room, |ui| show_page(ui, page, cx));
             free.cut_right(page);
         }
     }
-    if state.sheet.is_none()
-        && let Some(greeting) = help::greet(ui, state, free.room())
+    if cx.state.sheet.is_none()
+        && let Some(greeting) = help::greet(ui, cx.state, free.room())
     {
         free.cut_bottom(greeting);
     }
-    show_on_top(ui, session, state, &free, commands);
+    show_on_top(ui, cx, &free);
 
     // A card stands beside a figure. Where there is no room for it, a strip stands below the model.
     let mut beside_card = None;
     let room = free.room();
     if room.min.x + SIDE_WIDTH + FIGURE_REACH <= free.rect.center().x {
         if room.height() >= LEAST_BESIDE_CARD {
-            beside_card = show_legend(ui, session, state, room, LegendShape::Card);
+            beside_card = show_legend(ui, cx.session, cx.state, room, LegendShape::Card);
         }
     } else if room.height() >= LEAST_WITH_STRIP
-        && let Some(strip) = show_legend(ui, session, state, room, LegendShape::Strip)
+        && let Some(strip) = show_legend(ui, cx.session, cx.state, room, LegendShape::Strip)
     {
         free.cut_bottom(strip);
     }
     let room = free.room();
     let room = beside_card.map_or(room, |card| room.with_min_x(card.max.x + MARGIN));
-    let chips = shortcuts(ui, session, state, room);
+    let chips = shortcuts(ui, cx.session, cx.state, room);
     let uncovered = free;
-    if !state.messages.is_shown() {
-        frame_button(ui, session, state, &free, commands);
+    if !cx.state.messages.is_shown() {
+        frame_button(ui, cx, &free);
     }
     // A figure stands on them, unless they are beside it.
     if let Some(chips) = chips.filter(|chips| chips.max.x + FIGURE_REACH > room.center().x)
@@ -324,7 +318,7 @@ fn show_legend(ui: &Ui, session: &Session, state: &mut UiState, room: Rect, shap
 
 /// The timeline at the window's lower edge, and above it what was opened, unless it stands beside the model. The transport stays in its
 /// place whatever opens. Returns the rect that it has at rest.
-fn sheet(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, low: bool, commands: &mut Vec<Command>) -> Rect {
+fn sheet(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free, low: bool) -> Rect {
     let window = ui.max_rect();
     let margin = Margin {
         left: 14,
@@ -339,59 +333,57 @@ fn sheet(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, low: bool
         .margin(margin)
         .width(window.width())
         .show(ui, window.with_min_y(free.room().min.y), |ui| {
-            let shows_facts = !state.diagnostics_open && side_tab(state) == Some(SidePage::Model);
-            let label = match state.sheet {
+            let shows_facts = !cx.state.diagnostics_open && side_tab(cx.state) == Some(SidePage::Model);
+            let label = match cx.state.sheet {
                 Some(_) => "Close the sheet",
                 None if shows_facts => "Model facts",
-                None => page_title(SheetPage::Model, state),
+                None => page_title(SheetPage::Model, cx.state),
             };
             let handle = widgets::sheet_handle(ui, label);
             if handle.clicked() {
-                state.sheet = match state.sheet {
-                    None => Some(SheetPage::Model),
-                    Some(_) => None,
-                };
+                cx.state.sheet = cx.state.sheet.is_none().then_some(SheetPage::Model);
             }
             if !low {
-                let most = ui.available_height() - state.sheet_height.strip;
-                let of_timeline = state.sheet == Some(SheetPage::Timeline);
+                let most = ui.available_height() - cx.state.sheet_height.strip;
+                let of_timeline = cx.state.sheet == Some(SheetPage::Timeline);
                 let heights = Heights::new(of_timeline, window.height(), most);
-                let open = state.sheet_height.drag(ui, &handle, heights, state.sheet.is_some());
-                state.sheet = open.then(|| state.sheet.unwrap_or(SheetPage::Model));
-                match state.sheet {
+                let (height, page) = (&mut cx.state.sheet_height, cx.state.sheet);
+                let open = height.drag(ui, &handle, heights, page.is_some());
+                cx.state.sheet = open.then(|| page.unwrap_or(SheetPage::Model));
+                match cx.state.sheet {
                     Some(page) => {
-                        let still = session.reduced_motion();
-                        let (height, at_rest) = state.sheet_height.now(ui.ctx(), heights, still);
-                        let label = page_title(page, state);
+                        let still = cx.session.reduced_motion();
+                        let (height, at_rest) = cx.state.sheet_height.now(ui.ctx(), heights, still);
+                        let label = page_title(page, cx.state);
                         let region = UiBuilder::new()
                             .accessibility_role(Role::Region)
                             .accessibility_label(label);
                         let shown = ui.scope_builder(region, |ui| {
                             ui.set_max_height(height);
-                            show_page(ui, page, session, state, commands);
+                            show_page(ui, page, cx);
                         });
                         if shown.response.rect.height() >= height - 0.5 {
                             rises = at_rest - height;
                         }
                     }
-                    None => state.sheet_height.shut(ui.ctx()),
+                    None => cx.state.sheet_height.shut(ui.ctx()),
                 }
             }
             // Whole points above it, so that the strip stays where it is.
             let above = ui.cursor().min.y - ui.max_rect().min.y;
             ui.add_space(above.ceil() - above);
             let top = ui.cursor().min.y;
-            if session.clip().is_some() {
-                if state.sheet.is_some() && !low {
+            if cx.session.clip().is_some() {
+                if cx.state.sheet.is_some() && !low {
                     ui.add_space(10.0);
                 }
                 let region = UiBuilder::new()
                     .accessibility_role(Role::Region)
                     .accessibility_label("Timeline");
-                let strip = ui.scope_builder(region, |ui| timeline::narrow(ui, session, state, low, commands));
+                let strip = ui.scope_builder(region, |ui| timeline::narrow(ui, cx, low));
                 mark_transport(ui, strip.response.rect);
             }
-            state.sheet_height.strip = ui.min_rect().max.y - top;
+            cx.state.sheet_height.strip = ui.min_rect().max.y - top;
         });
     rect.with_min_y(rect.min.y - rises)
 }
@@ -434,13 +426,13 @@ fn page_title(page: SheetPage, state: &UiState) -> &'static str {
 }
 
 /// A page of the sheet below its title, no higher than what is available.
-fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+fn show_page(ui: &mut Ui, page: SheetPage, cx: &mut Cx<'_, UiState>) {
     let is_tab = matches!(page, SheetPage::Model | SheetPage::Selection);
-    if is_tab && state.diagnostics_open {
-        findings::show(ui, session, state, commands);
+    if is_tab && cx.state.diagnostics_open {
+        findings::show(ui, cx);
         return;
     }
-    let title = page_title(page, state);
+    let title = page_title(page, cx.state);
     let close = if is_tab {
         // The switch between the pages is their title.
         ui.horizontal(|ui| {
@@ -448,7 +440,7 @@ fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiStat
                 ui.available_width() - widgets::control_size(ui) - 6.0,
                 widgets::control_size(ui),
             );
-            ui.allocate_ui(size, |ui| show_tabs(ui, session, state, true));
+            ui.allocate_ui(size, |ui| show_tabs(ui, cx.session, cx.state, true));
             widgets::push_button(ui, Icon::Close, "Close")
         })
         .inner
@@ -458,56 +450,56 @@ fn show_page(ui: &mut Ui, page: SheetPage, session: &Session, state: &mut UiStat
     ui.add_space(4.0);
     focus::note_page(ui, Id::unique(("page", page)), close.id);
     if close.clicked() {
-        state.sheet = None;
+        cx.state.sheet = None;
     }
-    if is_tab && side_tab(state).is_some() {
-        side_page(ui, "sheet", session, state, commands);
+    if is_tab && side_tab(cx.state).is_some() {
+        side_page(ui, "sheet", cx);
         return;
     }
     if page == SheetPage::Timeline {
-        timeline::page(ui, session, state, commands);
+        timeline::page(ui, cx);
         return;
     }
     if page == SheetPage::Export {
-        export::show(ui, ui.available_height(), session, state, commands);
+        export::show(ui, ui.available_height(), cx);
         return;
     }
     // Each page begins at its top, and so does what is inspected next.
-    let joints = session.joints();
+    let joints = cx.session.joints();
     let inspected = (
         joints.selected(),
         joints.selected_vertex().map(|selected| selected.vertex),
-        session.submeshes().selected(),
+        cx.session.submeshes().selected(),
     );
     let area = scrolled("sheet", ui.available_height()).id_salt(("sheet", page as u8, inspected));
     area.show(ui, |ui| match page {
-        SheetPage::Selection if session.submeshes().selected().is_some() => {
-            inspector::show(ui, session, state, commands);
+        SheetPage::Selection if cx.session.submeshes().selected().is_some() => {
+            inspector::show(ui, cx);
         }
-        SheetPage::Selection if is_inspected(session) => {
-            skeleton::show_inspector(ui, session, &mut state.skeleton, commands);
+        SheetPage::Selection if is_inspected(cx.session) => {
+            skeleton::show_inspector(ui, &mut cx.part(|state| &mut state.skeleton));
         }
         SheetPage::Selection => {
             let words = "Nothing is selected. Tap a part of the model, or choose a bone under Skeleton.";
             ui.label(RichText::new(words).color(Tokens::of(ui).muted));
         }
         SheetPage::ViewMode => {
-            widgets::choices(ui, title, |ui| toolbar::view_mode_items(ui, session, commands));
+            widgets::choices(ui, title, |ui| toolbar::view_mode_items(ui, cx.session, cx.commands));
         }
-        SheetPage::Light => light::show(ui, session, &mut state.cost, commands),
-        SheetPage::Overlays => overlays::show(ui, session, &mut state.skeleton, commands),
+        SheetPage::Light => light::show(ui, cx.session, &mut cx.state.cost, cx.commands),
+        SheetPage::Overlays => overlays::show(ui, &mut cx.part(|state| &mut state.skeleton)),
         SheetPage::ViewFrom => {
-            toolbar::view_from_items(ui, session, commands);
+            toolbar::view_from_items(ui, cx.session, cx.commands);
         }
-        SheetPage::Picture => picture::show(ui, session, state),
+        SheetPage::Picture => picture::show(ui, cx.session, cx.state),
         SheetPage::Model | SheetPage::Export | SheetPage::Timeline => {}
     });
 }
 
 /// Help and the error card: over other panels, but not over the bars, the panel on the left and the timeline.
-fn show_on_top(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, commands: &mut Vec<Command>) {
+fn show_on_top(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free) {
     let window = ui.max_rect();
-    if state.help_open {
+    if cx.state.help_open {
         let room = free.room();
         // A phone's sheet may leave too little.
         let room = if room.height() < LEAST_ROOM {
@@ -518,17 +510,17 @@ fn show_on_top(ui: &Ui, session: &Session, state: &mut UiState, free: &Free, com
         Panel::new("help", "Help", Align2::RIGHT_TOP)
             .role(Role::Dialog)
             .on_top()
-            .show(ui, room, |ui| help::show(ui, session, state));
+            .show(ui, room, |ui| help::show(ui, cx.session, cx.state));
     }
-    if let Some(error) = session.error() {
-        show_error(ui, session, error, free.room(), commands);
+    if let Some(error) = cx.session.error() {
+        show_error(ui, cx.session, error, free.room(), cx.commands);
     }
 }
 
 /// Offers to frame the model after the camera was moved by hand and the panels changed: the camera does not move by itself then.
-fn frame_button(ui: &Ui, session: &Session, state: &UiState, free: &Free, commands: &mut Vec<Command>) {
+fn frame_button(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free) {
     let room = free.room();
-    if !state.offers_frame || room.size().min_elem() < LEAST_WITH_FRAME {
+    if !cx.state.offers_frame || room.size().min_elem() < LEAST_WITH_FRAME {
         return;
     }
     Panel::new("frame", "Frame", Align2::RIGHT_BOTTOM)
@@ -537,7 +529,7 @@ fn frame_button(ui: &Ui, session: &Session, state: &UiState, free: &Free, comman
             let action = &actions::FRAME_MODEL;
             let button = widgets::TextButton::new("Frame", action.label).icon(Icon::Frame);
             if button.show(ui).on_hover_text(action.hint()).clicked() {
-                commands.extend(action.command(session));
+                cx.commands.extend(action.command(cx.session));
             }
         });
 }

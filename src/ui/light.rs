@@ -1,14 +1,14 @@
 //! The light, the background, the passes that cost time, and how fine a moving picture is.
 
-use egui::{Align2, FontId, Pos2, Response, RichText, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{FontId, Pos2, Response, RichText, Role, Ui, vec2};
 
 use super::cost::SteadyCost;
 use super::icons::Icon;
 use super::panel::popover_gap;
 use super::theme::Tokens;
 use super::widgets::{
-    MenuLine, Slider, color_picker, control_size, keyed_section_name, menu_item, noted_switch_row, paint_name,
-    push_button, section_name, segmented, switch_row, value_row,
+    MenuLine, Row, Slider, color_picker, control_size, keyed_section_name, menu_item, noted_switch_row, push_button,
+    section_name, segmented, switch_row, tell_node, value_row,
 };
 use super::wording::{milliseconds, shortened};
 use crate::actions;
@@ -42,8 +42,7 @@ pub(super) fn mark_button(ui: &Ui, session: &Session, button: Response, icon: Po
     ui.painter()
         .circle_filled(icon + vec2(7.0, -7.0), 3.0, Tokens::of(ui).warning);
     // The note changes while one listens.
-    ui.ctx()
-        .accesskit_node_builder(button.id, |node| node.set_description(words));
+    tell_node(&button, |node| node.set_description(words));
     button.on_hover_text(format!("{words}\n{note}"))
 }
 
@@ -145,13 +144,11 @@ fn sky_row(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
         let tokens = Tokens::of(ui);
         let height = control_size(ui);
         let width = ui.available_width() - height - 6.0;
-        let (rect, response) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
-        let font = FontId::proportional(13.0);
-        let (painter, left) = (ui.painter(), rect.left_center());
-        let label = painter.text(left, Align2::LEFT_CENTER, "Sky", font.clone(), tokens.muted);
-        let at = pos2(label.max.x + 10.0, rect.center().y);
-        paint_name(painter, at, name, font, tokens.text, rect.max.x - at.x);
-        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Sky {name}")));
+        let mut row = Row::sized(ui, vec2(width, height));
+        row.left("Sky", tokens.muted);
+        row.left += 10.0;
+        row.name(name, tokens.text);
+        row.told(Role::Label, format!("Sky {name}"));
         if push_button(ui, Icon::Close, "Remove the sky").clicked() {
             commands.push(FileCommand::ClearSky.into());
         }
@@ -177,8 +174,7 @@ fn passes(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         let note_style = (note, FontId::proportional(12.0), Tokens::of(ui).warning);
         let row = noted_switch_row(ui, pass.label(), note_style, state != PassState::Off);
         if too_slow {
-            ui.ctx()
-                .accesskit_node_builder(row.id, |node| node.set_description("Drawn only at rest"));
+            tell_node(&row, |node| node.set_description("Drawn only at rest"));
         }
         if row.on_hover_text(hint).clicked() {
             commands.push(QualityCommand::SetPass(pass, choice).into());

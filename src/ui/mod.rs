@@ -4,6 +4,7 @@ mod announce;
 mod chips;
 mod cost;
 mod crowd;
+mod cx;
 mod error_card;
 mod export;
 mod findings;
@@ -48,6 +49,7 @@ pub use theme::Contrast;
 
 use crate::scene::{Insets, Theme};
 use crate::session::{CameraCommand, Command, FileCommand, HistoryCommand, News, Session, SubmeshCommand};
+use cx::Cx;
 use input::{Grip, InputOrder, MOST_PASSES};
 use message::Offer;
 use state::Framed;
@@ -88,76 +90,88 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     }
 
     state.skeleton.read(ui, session, window);
-    let session = &*session;
-    commands.push(set_theme(ui));
+    let cx = &mut Cx {
+        session,
+        state,
+        commands: &mut commands,
+    };
+    cx.commands.push(set_theme(ui));
     let grip = Grip::now(ui.ctx());
-    begin_edit(state, grip, &mut commands);
+    begin_edit(cx.state, grip, cx.commands);
     // It was set in an earlier pass. By now the panels about the selection are open.
-    let frames_selection = std::mem::take(&mut state.frames_selection);
+    let frames_selection = std::mem::take(&mut cx.state.frames_selection);
     // A click outside of a popover closes it and does nothing else. So does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
-    let typed = state.keyboard.was_typing(ui.ctx());
-    let shuts_sheet = layout::sheet_covers_view(window, state);
-    let page_seen = layout::shows_side_page(window, state);
-    let picks_bones = state.skeleton.picks_bones(session, page_seen);
+    let typed = cx.state.keyboard.was_typing(ui.ctx());
+    let shuts_sheet = layout::sheet_covers_view(window, cx.state);
+    let page_seen = layout::shows_side_page(window, cx.state);
+    let picks_bones = cx.state.skeleton.picks_bones(cx.session, page_seen);
     let blocked = popover_open || shuts_sheet;
-    let clicked = viewport::show(ui, window, &mut state.view_hold, picks_bones, blocked, &mut commands);
+    let clicked = viewport::show(
+        ui,
+        window,
+        &mut cx.part(|state| &mut state.view_hold),
+        picks_bones,
+        blocked,
+    );
     if clicked && shuts_sheet && !popover_open {
-        state.sheet = None;
+        cx.state.sheet = None;
     }
-    if state.view_hold.is_held() {
-        state.offers_frame = false;
+    if cx.state.view_hold.is_held() {
+        cx.state.offers_frame = false;
     }
-    skeleton::show_marks(ui, session, &state.skeleton, window);
-    state.hovered_submesh = None;
-    state.timeline.update(session);
-    state.follow_selection(session);
-    state.offers_frame &= !session.is_framed() && session.open_model().is_some();
-    let (mut free, uncovered) = layout::show(ui, session, state, &mut commands);
-    if std::mem::take(&mut state.wants_export) {
-        export::open(state, layout::is_wide(window));
+    skeleton::show_marks(ui, cx.session, &cx.state.skeleton, window);
+    cx.state.hovered_submesh = None;
+    cx.state.timeline.update(cx.session);
+    cx.state.follow_selection(cx.session);
+    cx.state.offers_frame &= !cx.session.is_framed() && cx.session.open_model().is_some();
+    let (mut free, uncovered) = layout::show(ui, cx);
+    if std::mem::take(&mut cx.state.wants_export) {
+        export::open(cx.state, layout::is_wide(window));
     }
-    let export_is_open = export::settle(session, state, &mut commands);
-    split::show(ui, session, window, free, &mut commands);
-    if let Some(bottom) = chips::show(ui, session, uncovered, export_is_open, &mut commands)
+    let export_is_open = export::settle(cx);
+    split::show(ui, cx.session, window, free, cx.commands);
+    if let Some(bottom) = chips::show(ui, cx, uncovered, export_is_open)
         && !layout::is_wide(window)
         && free.max.y - bottom >= LEAST_BELOW_CHIPS * window.height()
     {
         // In a narrow window they would lie over the model's head.
         free.min.y = free.min.y.max(bottom + MARGIN);
     }
-    match message::show(ui, &mut state.messages, session.history().undo_label(), uncovered) {
-        Some(Offer::SavePicture) => state.requests.push(Request::SavePictureAs),
-        Some(Offer::Undo) => commands.push(HistoryCommand::Undo.into()),
-        Some(Offer::UseSky(path)) => commands.push(FileCommand::UseSky(path).into()),
+    match message::show(ui, &mut cx.state.messages, cx.session.history().undo_label(), uncovered) {
+        Some(Offer::SavePicture) => cx.state.requests.push(Request::SavePictureAs),
+        Some(Offer::Undo) => cx.push(HistoryCommand::Undo),
+        Some(Offer::UseSky(path)) => cx.push(FileCommand::UseSky(path)),
         None => {}
     }
     if ui.ctx().will_discard() {
-        state.frames_selection |= frames_selection;
+        cx.state.frames_selection |= frames_selection;
     } else {
-        commands.extend(set_viewport(session, state, window, free));
+        cx.commands.extend(set_viewport(cx.session, cx.state, window, free));
         if frames_selection {
-            commands.push(CameraCommand::Glide(Box::new(CameraCommand::FrameSelection)).into());
+            cx.push(CameraCommand::Glide(Box::new(CameraCommand::FrameSelection)));
         }
     }
-    if session.submeshes().hovered() != state.hovered_submesh {
-        commands.push(SubmeshCommand::Hover(state.hovered_submesh).into());
+    if cx.session.submeshes().hovered() != cx.state.hovered_submesh {
+        cx.push(SubmeshCommand::Hover(cx.state.hovered_submesh));
     }
-    state.skeleton.hover(session, state.timeline.hovered(), &mut commands);
-    state.skeleton.settle_naming(ui, &mut commands);
-    state.skeleton.draw_bones(session, &mut commands);
+    cx.state
+        .skeleton
+        .hover(cx.session, cx.state.timeline.hovered(), cx.commands);
+    cx.state.skeleton.settle_naming(ui, cx.commands);
+    cx.state.skeleton.draw_bones(cx.session, cx.commands);
     // Shortcuts come last, since a focused control takes its keys first. Keys typed into a field are not shortcuts, whether the field
     // had the focus when the pass began or has it now.
-    let typing = state.keyboard.is_typing(ui.ctx()) || state.skeleton.awaits_field();
-    let escape_shuts = popover_open || (!typed && !typing && keys::escape_shuts_panel(session, state));
-    state.focus.go_to_ends(ui.ctx());
+    let typing = cx.state.keyboard.is_typing(ui.ctx()) || cx.state.skeleton.awaits_field();
+    let escape_shuts = popover_open || (!typed && !typing && keys::escape_shuts_panel(cx.session, cx.state));
+    cx.state.focus.go_to_ends(ui.ctx());
     if !typed && !typing {
-        keys::read(ui, session, state, popover_open, &mut commands);
+        keys::read(ui, cx, popover_open);
     }
     let escape_shut = escape_shuts && ui.input(|input| input.key_pressed(egui::Key::Escape));
-    state.focus.end(ui.ctx(), popover_open, escape_shut);
-    state.focus.paint(ui);
-    end_edit(state, grip.filter(|&grip| grip != Grip::Request), &mut commands);
+    cx.state.focus.end(ui.ctx(), popover_open, escape_shut);
+    cx.state.focus.paint(ui);
+    end_edit(cx.state, grip.filter(|&grip| grip != Grip::Request), cx.commands);
     commands
 }
 

@@ -1,9 +1,10 @@
 //! The open model: counts, handedness, up axis, size, diagnostics, books' programs, maps, submeshes.
 
 use egui::accesskit::HasPopup;
-use egui::{Align2, Color32, FontId, Popup, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Popup, Rect, Response, Role, Ui, WidgetInfo, pos2, vec2};
 
 use super::crowd;
+use super::cx::Cx;
 use super::findings;
 use super::icons::Icon;
 use super::skeleton::state::has_joints;
@@ -11,8 +12,8 @@ use super::state::UiState;
 use super::textures;
 use super::theme::{self, MARGIN, Tokens};
 use super::widgets::{
-    MenuLine, RowList, choice_row, hint_beside, is_touch, menu_item, paint_chip, paint_name, paint_swatch, pressed_row,
-    row_icon, rule, section_with_action, tell_open, tell_popup, tell_push, value_row,
+    MenuLine, Row, RowList, choice_row, hint_beside, is_touch, menu_item, paint_chip, paint_swatch, row_icon, rule,
+    section_with_action, tell_open, tell_popup, tell_push, value_row,
 };
 use super::wording::{counted, grouped, measured};
 use crate::diagnostic::Severity;
@@ -23,49 +24,47 @@ use crate::session::{Command, OpenModel, Session, SubmeshCommand};
 /// Width of an icon of a row where a mouse is the pointer.
 const ICON_WIDTH: f32 = 22.0;
 
-pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    let Some(open) = session.open_model() else { return };
+pub(super) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
+    let Some(open) = cx.session.open_model() else { return };
     // With a skeleton the switch between the panel's pages is the heading.
-    if !has_joints(session) {
+    if !has_joints(cx.session) {
         heading(ui);
     }
     counts(ui, open);
-    space_rows(ui, session, commands);
+    space_rows(ui, cx.session, cx.commands);
     bounds_row(ui, open);
-    diagnostics_row(ui, session, state);
-    let has_maps = session.maps().checklist().named > 0;
+    diagnostics_row(ui, cx.session, cx.state);
+    let has_maps = cx.session.maps().checklist().named > 0;
     // The rows of a phone are high: there the subsets come first.
     let subsets_first = is_touch(ui);
     if !subsets_first {
-        findings::show_books_row(ui, session, state);
+        findings::show_books_row(ui, cx.session, cx.state);
     }
     if has_maps && !subsets_first {
-        textures::show(ui, session, open, state);
+        textures::show(ui, cx.session, open, cx.state);
     }
     rule(ui, MARGIN);
     if !subsets_first {
-        crowd::show(ui, session, &mut state.cost, commands);
+        crowd::show(ui, cx.session, &mut cx.state.cost, cx.commands);
         rule(ui, MARGIN);
     }
-    submesh_list(ui, session, open, state, commands);
+    submesh_list(ui, cx, open);
     if subsets_first {
         rule(ui, MARGIN);
-        findings::show_books_row(ui, session, state);
+        findings::show_books_row(ui, cx.session, cx.state);
         rule(ui, MARGIN);
-        crowd::show(ui, session, &mut state.cost, commands);
+        crowd::show(ui, cx.session, &mut cx.state.cost, cx.commands);
     }
     if has_maps && subsets_first {
         rule(ui, MARGIN);
-        textures::show(ui, session, open, state);
+        textures::show(ui, cx.session, open, cx.state);
     }
 }
 
 fn heading(ui: &mut Ui) {
-    let (heading, response) = ui.allocate_exact_size(vec2(ui.available_width(), 22.0), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Heading, true, "Model"));
-    let (at, font) = (heading.left_center(), theme::semibold(13.0));
-    ui.painter()
-        .text(at, Align2::LEFT_CENTER, "Model", font, Tokens::of(ui).text);
+    let mut heading = Row::new(ui, 22.0);
+    heading.left_in(theme::semibold(13.0), "Model", Tokens::of(ui).text);
+    heading.told(Role::Heading, "Model");
     rule(ui, MARGIN);
 }
 
@@ -140,15 +139,12 @@ fn bounds_row(ui: &mut Ui, open: &OpenModel) {
 
 fn diagnostics_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let tokens = Tokens::of(ui);
-    let (rect, response) = pressed_row(ui, false);
-    let font = FontId::proportional(13.0);
-    ui.painter()
-        .text(rect.left_center(), Align2::LEFT_CENTER, "Findings", font, tokens.text);
+    let mut row = Row::pressed(ui, false);
+    row.left("Findings", tokens.text);
     let (count, color) = summary(session, &tokens);
-    let right = rect.right_center();
+    let right = row.rect.right_center();
     paint_chip(ui.painter(), right, Align2::RIGHT_CENTER, &count, color, tokens.field);
-    let label = format!("Findings: {count}");
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
+    let response = row.told(Role::Button, format!("Findings: {count}"));
     tell_open(&response, state.diagnostics_open);
     if hint_beside(response, None, "What was found in the file").clicked() {
         state.diagnostics_open = !state.diagnostics_open;
@@ -175,17 +171,17 @@ pub(super) fn summary(session: &Session, tokens: &Tokens) -> (String, Color32) {
 }
 
 /// The submeshes: which are drawn, which one is selected.
-fn submesh_list(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState, commands: &mut Vec<Command>) {
-    let all_drawn = !session.submeshes().left_out().contains(&true);
+fn submesh_list(ui: &mut Ui, cx: &mut Cx<'_, UiState>, open: &OpenModel) {
+    let all_drawn = !cx.session.submeshes().left_out().contains(&true);
     let action = (!all_drawn).then_some("Show all");
     if section_with_action(ui, "Subsets", action) {
-        commands.push(SubmeshCommand::ShowAll.into());
+        cx.push(SubmeshCommand::ShowAll);
     }
     RowList::show(ui, "Subsets", |ui, list| {
         for (index, submesh) in open.model.mesh.submeshes.iter().enumerate() {
-            let submesh = SubmeshRow::new(session, index, submesh);
-            if submesh.show(ui, list, commands) {
-                state.hovered_submesh = Some(index);
+            let submesh = SubmeshRow::new(cx.session, index, submesh);
+            if submesh.show(ui, list, cx.commands) {
+                cx.state.hovered_submesh = Some(index);
             }
         }
     });
@@ -237,24 +233,23 @@ impl<'a> SubmeshRow<'a> {
     /// Shows it. Returns whether the pointer is over it.
     fn show(&self, ui: &mut Ui, list: &mut RowList, commands: &mut Vec<Command>) -> bool {
         let tokens = Tokens::of(ui);
-        let (rect, response) = pressed_row(ui, self.selected);
-        let over = response.contains_pointer() && !is_touch(ui);
-        response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, self.label()));
-        list.row(&response, self.selected);
+        let mut row = Row::pressed(ui, self.selected);
+        let (rect, over) = (row.rect, row.response.contains_pointer() && !is_touch(ui));
+        row.response
+            .widget_info(|| WidgetInfo::labeled(Role::ListItem, true, self.label()));
+        list.row(&row.response, self.selected);
 
         let opacity = if self.visible { 1.0 } else { 0.35 };
         paint_swatch(ui, rect.left_center() + vec2(5.0, 0.0), self.color, opacity);
-        let end = self.show_end(ui, rect, &response, commands);
+        row.right = self.show_end(ui, rect, &row.response, commands) - 6.0;
+        row.left += 18.0;
         let color = match (self.selected, self.visible) {
             (true, _) => tokens.accent,
             (false, true) => tokens.text,
             (false, false) => tokens.muted,
         };
-        let left = rect.min.x + 18.0;
-        let middle = pos2(left, rect.center().y);
-        let font = FontId::proportional(13.0);
-        paint_name(ui.painter(), middle, self.name, font, color, end - 6.0 - left);
-        let response = hint_beside(response, Some(rect), &self.hint());
+        row.name(self.name, color);
+        let response = hint_beside(row.response, Some(rect), &self.hint());
 
         if response.clicked() {
             let alone = ui.input(|input| input.modifiers.alt);

@@ -1,13 +1,14 @@
 //! Lines over and beside the model; bones, their names, bind pose, ghosts, trails.
 
-use egui::{Align2, Color32, FontId, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, FontId, Rect, Role, Sense, Ui, Vec2, pos2, vec2};
 
+use super::cx::Cx;
 use super::icons::Icon;
 use super::panel::popover_gap;
 use super::skeleton::state::{SkeletonState, has_joints};
 use super::theme::Tokens;
 use super::widgets::{
-    Slider, action_switch, control_size, noted_switch_row, number_field, paint_name, push_button, section_name,
+    Row, Slider, action_switch, control_size, noted_switch_row, number_field, push_button, section_name,
     section_with_action, segmented, switch_row,
 };
 use crate::actions;
@@ -25,21 +26,21 @@ const FIRST_GHOSTS: GhostPlan = GhostPlan {
 const MOST_GHOSTS: f32 = 16.0;
 const MOST_STEP: f32 = 120.0;
 
-pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
-    let overlays = &session.look().overlays;
+pub(super) fn show(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
+    let overlays = &cx.session.look().overlays;
     section_name(ui, "Overlays");
     for overlay in Overlay::ALL {
         let command = LookCommand::ToggleOverlay(overlay).into();
-        let key = actions::key_of(session, &command);
+        let key = actions::key_of(cx.session, &command);
         if switch_row(ui, overlay.label(), key, overlays.has(overlay)).clicked() {
-            commands.push(command);
+            cx.push(command);
         }
         let last_with_lines = overlay == Overlay::Tangents;
         if last_with_lines && (overlays.has(Overlay::Normals) || overlays.has(Overlay::Tangents)) {
-            line_length(ui, overlays.line_length, commands);
+            line_length(ui, overlays.line_length, cx.commands);
         }
     }
-    skeleton_rows(ui, session, state, commands);
+    skeleton_rows(ui, cx);
 }
 
 /// Whether any overlay but the grid is on.
@@ -65,27 +66,27 @@ fn any_of_skeleton(session: &Session) -> bool {
 }
 
 /// Bones, names, bind pose, ghosts, trails.
-fn skeleton_rows(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
-    if !has_joints(session) {
+fn skeleton_rows(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
+    if !has_joints(cx.session) {
         return;
     }
-    let look = session.look();
+    let look = cx.session.look();
     popover_gap(ui);
     section_name(ui, "Skeleton");
-    action_switch(ui, session, &actions::BONES, commands);
+    action_switch(ui, cx.session, &actions::BONES, cx.commands);
     if look.bones_visible {
         let styles = BoneStyle::ALL.map(|style| (style, style.label()));
         if let Some(style) = segmented(ui, "Bones", &styles, Some(look.bone_style)) {
-            commands.push(LookCommand::SetBoneStyle(style).into());
+            cx.push(LookCommand::SetBoneStyle(style));
         }
     }
-    action_switch(ui, session, &actions::BONE_NAMES, commands);
+    action_switch(ui, cx.session, &actions::BONE_NAMES, cx.commands);
     popover_gap(ui);
     section_name(ui, "Pose");
-    bind_pose(ui, session, commands);
-    if session.clip().is_some() {
-        ghosts(ui, session, commands);
-        trails(ui, session, state, commands);
+    bind_pose(ui, cx.session, cx.commands);
+    if cx.session.clip().is_some() {
+        ghosts(ui, cx.session, cx.commands);
+        trails(ui, cx);
     }
 }
 
@@ -153,43 +154,41 @@ fn ghost_color(ui: &Ui, ghost: usize) -> Color32 {
 }
 
 /// The joints whose path through the clip is drawn.
-fn trails(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
-    let trails = &session.look().trails;
-    let selected = session.joints().selected();
+fn trails(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
+    let trails = &cx.session.look().trails;
+    let selected = cx.session.joints().selected();
     if let Some(joint) = selected.filter(|joint| !trails.contains(joint))
-        && switch_row(ui, &format!("Trail of {}", session.joint_label(joint)), "", false).clicked()
+        && switch_row(ui, &format!("Trail of {}", cx.session.joint_label(joint)), "", false).clicked()
     {
-        commands.push(LookCommand::ToggleTrail(joint).into());
+        cx.push(LookCommand::ToggleTrail(joint));
     }
     if trails.is_empty() {
         return;
     }
     popover_gap(ui);
     if section_with_action(ui, "Trails", Some("Clear")) {
-        commands.push(LookCommand::ClearTrails.into());
+        cx.push(LookCommand::ClearTrails);
     }
-    let colors = session.open_model().map(|open| joint_colors(&open.model.skeleton));
+    let colors = cx.session.open_model().map(|open| joint_colors(&open.model.skeleton));
     for &joint in trails {
-        let name = session.joint_label(joint);
-        let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), control_size(ui)), Sense::hover());
-        if response.contains_pointer() {
-            state.hovered = Some(joint);
-        }
+        let name = cx.session.joint_label(joint);
         let side = control_size(ui);
-        let tokens = Tokens::of(ui);
-        let font = FontId::proportional(13.0);
-        let room = rect.width() - side - 14.0;
+        let mut row = Row::new(ui, side);
+        if row.response.contains_pointer() {
+            cx.state.hovered = Some(joint);
+        }
         if let Some(&[red, green, blue, _]) = colors.as_ref().and_then(|colors| colors.get(joint.index())) {
-            let at = rect.left_center() + vec2(4.0, 0.0);
+            let at = row.rect.left_center() + vec2(4.0, 0.0);
             ui.painter().circle_filled(at, 4.0, Color32::from_rgb(red, green, blue));
         }
-        let at = rect.left_center() + vec2(14.0, 0.0);
-        paint_name(ui.painter(), at, &name, font, tokens.text, room);
-        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Trail: {name}")));
+        row.left += 14.0;
+        row.right -= side;
+        row.name(&name, Tokens::of(ui).text);
+        let rect = row.told(Role::Label, format!("Trail: {name}")).rect;
         let place = Rect::from_center_size(pos2(rect.max.x - 0.5 * side + 6.0, rect.center().y), Vec2::splat(side));
         let mut corner = ui.new_child(egui::UiBuilder::new().max_rect(place).id_salt(joint.0));
         if push_button(&mut corner, Icon::Close, &format!("Leave the trail of {name}")).clicked() {
-            commands.push(LookCommand::ToggleTrail(joint).into());
+            cx.push(LookCommand::ToggleTrail(joint));
         }
     }
 }

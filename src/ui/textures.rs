@@ -1,15 +1,12 @@
 //! The maps of the open model: how many were found, which are missing, what each holds and which materials use it.
 
 use egui::epaint::RectShape;
-use egui::{
-    Align2, Color32, FontId, Rect, Response, Role, Sense, Stroke, StrokeKind, TextureId, Ui, Vec2, WidgetInfo, pos2,
-    vec2,
-};
+use egui::{Color32, FontId, Rect, Response, Role, Stroke, StrokeKind, TextureId, Ui, Vec2, pos2, vec2};
 
 use super::state::UiState;
 use super::theme::Tokens;
 use super::thumbnails::Thumbnails;
-use super::widgets::{RowList, hint_beside, paint_ends, paint_fold_mark, paint_name, pressed_row};
+use super::widgets::{Row, RowList, hint_beside, paint_fold_mark, tell_node};
 use super::wording::{counted, grouped};
 use crate::image::{Channels, Image, ImageKind};
 use crate::model::MapSlot;
@@ -66,7 +63,7 @@ fn rows_in_view(ui: &mut Ui, height: f32, count: usize, mut row: impl FnMut(&mut
 /// How many maps are there, and how many are not. A click opens and closes the list.
 fn maps_line(ui: &mut Ui, checklist: &Checklist, is_open: &mut bool) {
     let tokens = Tokens::of(ui);
-    let (rect, response) = pressed_row(ui, false);
+    let mut row = Row::pressed(ui, false);
     let found = format!("{} of {}", checklist.found(), checklist.named);
     let counts = [
         (checklist.missing.len(), "missing"),
@@ -83,13 +80,12 @@ fn maps_line(ui: &mut Ui, checklist: &Checklist, is_open: &mut bool) {
     // The panel has room for two of the three.
     let shown = all[all.len().saturating_sub(2)..].join(", ");
     let color = if absent.is_empty() { tokens.text } else { tokens.warning };
-    paint_ends(ui, rect, ("Maps", tokens.text), (&shown, color));
-    let words = all.join(", ");
-    let mark = rect.left_center() + vec2(MARK_AT, 0.0);
+    row.left("Maps", tokens.text);
+    row.right(&shown, color);
+    let mark = row.rect.left_center() + vec2(MARK_AT, 0.0);
     paint_fold_mark(ui.painter(), mark, !*is_open, tokens.muted);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Maps: {words}")));
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_expanded(*is_open));
+    let response = row.told(Role::Button, format!("Maps: {}", all.join(", ")));
+    tell_node(&response, |node| node.set_expanded(*is_open));
     if response.clicked() {
         *is_open = !*is_open;
     }
@@ -121,24 +117,16 @@ fn unreadable_row(ui: &mut Ui, open: &OpenModel, map: &UnreadableMap<'_>) -> Res
 /// A map that cannot be shown: an empty frame and its name in a colour, and words in the second line.
 fn absent_row(ui: &mut Ui, [name, words]: [&str; 2], color: Color32, details: &str) -> Response {
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), MAP_ROW_HEIGHT), Sense::hover());
-    let frame = frame_in(rect);
+    let mut row = Row::new(ui, MAP_ROW_HEIGHT);
+    let frame = frame_in(row.rect);
     let outline = Stroke::new(1.0, color.gamma_multiply(0.5));
     ui.painter().rect_stroke(frame, 4.0, outline, StrokeKind::Inside);
-    let left = frame.max.x + 8.0;
-    for (text, size, color, y) in [(name, 13.0, color, -8.0), (words, 11.0, tokens.muted, 8.0)] {
-        let at = pos2(left, rect.center().y + y);
-        paint_name(
-            ui.painter(),
-            at,
-            text,
-            FontId::proportional(size),
-            color,
-            rect.max.x - left,
-        );
-    }
-    response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, details));
-    hint_beside(response, None, details)
+    row.left = frame.max.x + 8.0;
+    row.y = row.rect.center().y - 8.0;
+    row.name(name, color);
+    row.y = row.rect.center().y + 8.0;
+    row.name_in(FontId::proportional(11.0), words, tokens.muted);
+    hint_beside(row.told(Role::ListItem, details), None, details)
 }
 
 /// The rect of a row's thumbnail.
@@ -156,8 +144,8 @@ pub(super) fn picture_row(
     details: &str,
 ) -> Response {
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), MAP_ROW_HEIGHT), Sense::hover());
-    let picture = frame_in(rect);
+    let mut row = Row::new(ui, MAP_ROW_HEIGHT);
+    let picture = frame_in(row.rect);
     ui.painter().rect_filled(picture, 4.0, tokens.field);
     if let Some(texture) = thumbnail {
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
@@ -167,22 +155,18 @@ pub(super) fn picture_row(
     let outline = Stroke::new(1.0, tokens.hairline);
     ui.painter().rect_stroke(picture, 4.0, outline, StrokeKind::Inside);
 
-    let left = picture.max.x + 8.0;
-    let size = format!("{}\u{2009}×\u{2009}{}", image.width(), image.height());
-    let size_at = pos2(rect.max.x, rect.center().y + 8.0);
-    let small = FontId::proportional(11.0);
-    let painter = ui.painter();
-    let drawn = painter.text(size_at, Align2::RIGHT_CENTER, size, small.clone(), tokens.muted);
-    let lines = [
-        (name, FontId::proportional(13.0), tokens.text, rect.max.x, -8.0),
-        (&holds(image), small, tokens.muted, drawn.min.x - 6.0, 8.0),
-    ];
-    for (text, font, color, right, y) in lines {
-        let at = pos2(left, rect.center().y + y);
-        paint_name(ui.painter(), at, text, font, color, right - left);
-    }
-    response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, details));
-    hint_beside(response, None, details)
+    row.left = picture.max.x + 8.0;
+    row.y = row.rect.center().y - 8.0;
+    row.name(name, tokens.text);
+    row.y = row.rect.center().y + 8.0;
+    let (size, small) = (
+        format!("{}\u{2009}×\u{2009}{}", image.width(), image.height()),
+        FontId::proportional(11.0),
+    );
+    row.right_in(small.clone(), &size, tokens.muted);
+    row.right -= 6.0;
+    row.name_in(small, &holds(image), tokens.muted);
+    hint_beside(row.told(Role::ListItem, details), None, details)
 }
 
 /// Format, mips and channels: `BC1 · 10 mips · RGB`.

@@ -7,6 +7,7 @@ use egui::{
 };
 
 use super::cost::SteadyCost;
+use super::cx::Cx;
 use super::icons::{self, Icon};
 use super::model_panel::summary;
 use super::panel::{popover, popover_menu, unscrolled_popover};
@@ -15,8 +16,8 @@ use super::state::{Request, SheetPage, UiState};
 use super::theme::{self, LOW_HEIGHT, LOW_WIDTH, Tokens};
 use super::widgets::{
     ICON_SIZE, MenuLine, TextButton, action_button, chip, chip_size, control_size, hint_beside, hint_of_name,
-    icon_button, keyed_menu_item, menu_item, pressed_chip, push_action, push_button, section_name, tell_open,
-    untold_icon_button, valued_choice, valued_menu_item,
+    icon_button, keyed_menu_item, menu_item, pressed_chip, push_action, push_button, section_name, tell_node,
+    tell_open, untold_icon_button, valued_choice, valued_menu_item,
 };
 use super::wording::{bytes, shortened_front};
 use super::{export, light, overlays, picture};
@@ -55,37 +56,37 @@ fn as_toolbar(ui: &Ui) {
 }
 
 /// Buttons in one row.
-pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = SPACING;
-        for (action, icon, label) in history(session) {
+        for (action, icon, label) in history(cx.session) {
             let hint = action.hint_of(&label);
-            ui.add_enabled_ui(action.ask(session).is_some(), |ui| {
+            ui.add_enabled_ui(action.ask(cx.session).is_some(), |ui| {
                 if push_button(ui, icon, &hint).clicked() {
-                    commands.extend(action.command(session));
+                    cx.commands.extend(action.command(cx.session));
                 }
             });
         }
-        view_mode_menu(ui, session, commands);
-        light_button(ui, session, &mut state.cost, commands);
-        overlays_button(ui, session, &mut state.skeleton, commands);
-        view_from_menu(ui, session, commands);
-        push_action(ui, session, &actions::FRAME_MODEL, Icon::Frame, commands);
-        action_button(ui, session, &actions::TURNTABLE, Icon::Turntable, commands);
+        view_mode_menu(ui, cx.session, cx.commands);
+        light_button(ui, cx.session, &mut cx.state.cost, cx.commands);
+        overlays_button(ui, &mut cx.part(|state| &mut state.skeleton));
+        view_from_menu(ui, cx.session, cx.commands);
+        push_action(ui, cx.session, &actions::FRAME_MODEL, Icon::Frame, cx.commands);
+        action_button(ui, cx.session, &actions::TURNTABLE, Icon::Turntable, cx.commands);
         let save = &actions::SAVE_PICTURE;
         let hint = format!("Picture… ({} saves one at once)", save.key());
         let camera = push_button(ui, Icon::Camera, &hint);
         popover(ui, (&camera, "Picture"), 224.0, |ui| {
             section_name(ui, "Picture");
-            picture::show(ui, session, state);
+            picture::show(ui, cx.session, cx.state);
         });
-        export_button(ui, session, state, commands);
-        theme_button(ui, state);
-        open_button(ui, state);
-        let help = icon_button(ui, Icon::Help, &actions::HELP.hint(), state.help_open);
-        tell_open(&help, state.help_open);
+        export_button(ui, cx);
+        theme_button(ui, cx.state);
+        open_button(ui, cx.state);
+        let help = icon_button(ui, Icon::Help, &actions::HELP.hint(), cx.state.help_open);
+        tell_open(&help, cx.state.help_open);
         if help.clicked() {
-            state.help_open = !state.help_open;
+            cx.state.help_open = !cx.state.help_open;
         }
         as_toolbar(ui);
     });
@@ -110,22 +111,22 @@ pub(super) fn narrow_width(ui: &Ui) -> f32 {
 }
 
 /// In a narrow window. The rarer buttons are in the menu behind the dots, and open pages of the sheet.
-pub(super) fn show_narrow(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+pub(super) fn show_narrow(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     ui.spacing_mut().item_spacing.x = SPACING;
-    let shown = state.sheet == Some(SheetPage::Light);
-    let lighting = lighting(session);
+    let shown = cx.state.sheet == Some(SheetPage::Light);
+    let lighting = lighting(cx.session);
     let button = untold_icon_button(ui, Icon::Sun, &lighting, shown);
     let icon = button.rect.center();
-    let button = light::mark_button(ui, session, button, icon, "Light and background");
+    let button = light::mark_button(ui, cx.session, button, icon, "Light and background");
     tell_open(&button, shown);
     if button.clicked() {
-        state.sheet = (!shown).then_some(SheetPage::Light);
+        cx.state.sheet = (!shown).then_some(SheetPage::Light);
     }
-    open_button(ui, state);
+    open_button(ui, cx.state);
     let dots = push_button(ui, Icon::Dots, "More");
     let width = if is_low(ui) { 420.0 } else { 230.0 };
     popover_menu(ui, &dots, RectAlign::BOTTOM_END, width, |ui| {
-        more_menu(ui, session, state, commands);
+        more_menu(ui, cx);
     });
     as_toolbar(ui);
 }
@@ -162,34 +163,33 @@ fn lighting(session: &Session) -> String {
     format!("Lighting: {}{}", light::label(session), sky.unwrap_or_default())
 }
 
-fn overlays_button(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
-    let on = overlays::any_beside_the_grid(session);
+fn overlays_button(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
+    let on = overlays::any_beside_the_grid(cx.session);
     let button = icon_button(ui, Icon::Layers, "Lines over the model", on);
     popover(ui, (&button, "Lines over the model"), 236.0, |ui| {
-        overlays::show(ui, session, state, commands);
+        overlays::show(ui, cx);
     });
 }
 
 fn open_button(ui: &mut Ui, state: &mut UiState) {
     let open = push_button(ui, Icon::Open, &actions::OPEN_FILES.hint());
     // The page opens the dialog at once, which browsers let it only within the click.
-    ui.ctx()
-        .accesskit_node_builder(open.id, |node| node.set_author_id("files"));
+    tell_node(&open, |node| node.set_author_id("files"));
     if open.clicked() {
         state.requests.push(Request::PickFiles);
     }
 }
 
-fn export_button(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+fn export_button(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     let button = push_button(ui, Icon::Export, &actions::EXPORT.hint());
-    if std::mem::take(&mut state.export.asked) {
+    if std::mem::take(&mut cx.state.export.asked) {
         Popup::toggle_id(ui.ctx(), Popup::default_response_id(&button));
     }
     unscrolled_popover(ui, (&button, "Export"), export::WIDTH, |ui, most| {
         let top = ui.cursor().min.y;
         section_name(ui, "Export");
         let most = most - (ui.cursor().min.y - top);
-        export::show(ui, most, session, state, commands);
+        export::show(ui, most, cx);
     });
 }
 
@@ -240,15 +240,15 @@ pub(super) fn view_from_items(ui: &mut Ui, session: &Session, commands: &mut Vec
 }
 
 /// In one column, or in two in a window too low for one.
-fn more_menu(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+fn more_menu(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     if is_low(ui) {
         ui.columns_const(|[left, right]| {
-            page_items(left, session, state);
-            action_items(right, session, state, commands);
+            page_items(left, cx.session, cx.state);
+            action_items(right, cx);
         });
     } else {
-        page_items(ui, session, state);
-        action_items(ui, session, state, commands);
+        page_items(ui, cx.session, cx.state);
+        action_items(ui, cx);
     }
 }
 
@@ -275,29 +275,29 @@ fn page_items(ui: &mut Ui, session: &Session, state: &mut UiState) {
     }
 }
 
-fn action_items(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    for (action, _, label) in history(session) {
-        if let Some(command) = action.command(session)
+fn action_items(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
+    for (action, _, label) in history(cx.session) {
+        if let Some(command) = action.command(cx.session)
             && menu_item(ui, &label, MenuLine::Action).clicked()
         {
-            commands.push(command);
+            cx.push(command);
             ui.close();
         }
     }
-    let turns = MenuLine::Switch(actions::TURNTABLE.is_on(session));
+    let turns = MenuLine::Switch(actions::TURNTABLE.is_on(cx.session));
     for (action, line) in [(&actions::FRAME_MODEL, MenuLine::Action), (&actions::TURNTABLE, turns)] {
         if menu_item(ui, action.label, line).clicked() {
-            commands.extend(action.command(session));
+            cx.commands.extend(action.command(cx.session));
             ui.close();
         }
     }
     let (label, theme) = other_theme(ui);
     if menu_item(ui, label, MenuLine::Action).clicked() {
-        state.theme = Some(theme);
+        cx.state.theme = Some(theme);
         ui.close();
     }
     if menu_item(ui, actions::HELP.label, MenuLine::Action).clicked() {
-        state.help_open = true;
+        cx.state.help_open = true;
         ui.close();
     }
 }
@@ -419,8 +419,7 @@ fn file_line(ui: &mut Ui, file: &File, is_open: bool, commands: &mut Vec<Command
         });
         let line = hint_beside(line.inner, None, &file.path);
         let note = format!("{size}, Delete closes it");
-        ui.ctx()
-            .accesskit_node_builder(line.id, |node| node.set_description(note));
+        tell_node(&line, |node| node.set_description(note));
         // It takes no focus, so that arrows go from line to line.
         let (rect, cross) = ui.allocate_exact_size(Vec2::splat(control_size(ui)), Sense::CLICK);
         let (icon, tokens) = (

@@ -5,6 +5,7 @@ use std::f32::consts::PI;
 use egui::{Id, Key, Modifiers, PointerButton, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo};
 use glam::{Vec2, Vec3};
 
+use super::cx::Cx;
 use crate::session::{CameraCommand, Command, JointCommand, LookCommand, SubmeshCommand};
 
 /// Radians of orbit for a drag over the height of the view.
@@ -34,56 +35,49 @@ pub(super) fn id(ui: &Ui) -> Id {
 
 /// The whole window behind the panels. A click selects a bone or a vertex if `picks_bones`, otherwise a submesh. `popover_open`: a click
 /// closes what is open and does nothing else. Returns whether it was clicked.
-pub(super) fn show(
-    ui: &Ui,
-    rect: Rect,
-    hold: &mut ViewHold,
-    picks_bones: bool,
-    popover_open: bool,
-    commands: &mut Vec<Command>,
-) -> bool {
+pub(super) fn show(ui: &Ui, rect: Rect, cx: &mut Cx<'_, ViewHold>, picks_bones: bool, popover_open: bool) -> bool {
     let response = ui.interact(rect, id(ui), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Model view"));
     let height = rect.height().max(1.0);
     let fractions = |v: egui::Vec2| Vec2::new(v.x, v.y) / height;
 
     let down = response.is_pointer_button_down_on();
-    if down != hold.held {
-        hold.held = down;
+    if down != cx.state.held {
+        cx.state.held = down;
         let command = if down {
             CameraCommand::BeginDrag
         } else {
             CameraCommand::EndDrag
         };
-        commands.push(command.into());
+        cx.push(command);
     }
     if let Some(touch) = ui.input(egui::InputState::multi_touch)
         && rect.contains(touch.center_pos)
         && down
     {
-        hold.orbit.clear();
-        commands.push(Command::Camera(CameraCommand::Pan {
+        cx.state.orbit.clear();
+        cx.push(CameraCommand::Pan {
             drag: fractions(touch.translation_delta),
-        }));
+        });
         if touch.zoom_delta != 1.0 {
             let pointer = fractions(touch.center_pos - rect.center());
-            commands.push(Command::Camera(CameraCommand::Zoom {
+            cx.push(CameraCommand::Zoom {
                 factor: 1.0 / touch.zoom_delta,
                 pointer,
-            }));
+            });
         }
         return false;
     }
-    let flies = hold.flight.update(ui, &response, height, commands);
-    drag(ui, &response, &fractions, flies, hold, commands);
+    let flies = cx.state.flight.update(ui, &response, height, cx.commands);
+    drag(ui, &response, &fractions, flies, cx);
     if response.double_clicked() {
-        commands.push(CameraCommand::Glide(Box::new(CameraCommand::FrameModel)).into());
+        cx.push(CameraCommand::Glide(Box::new(CameraCommand::FrameModel)));
     } else if response.clicked()
         && !popover_open
         && let Some(pointer) = response.interact_pointer_pos()
     {
         let at = in_picture(rect, pointer);
-        commands.push(if picks_bones {
+        cx.commands.push(if picks_bones {
             JointCommand::SelectAt(at).into()
         } else {
             SubmeshCommand::SelectAt(at).into()
@@ -95,56 +89,49 @@ pub(super) fn show(
         let (wheel, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
         let factor = (-wheel * ZOOM_PER_POINT).exp() / pinch;
         if factor != 1.0 {
-            commands.push(Command::Camera(CameraCommand::Zoom {
+            cx.push(CameraCommand::Zoom {
                 factor,
                 pointer: fractions(pointer - rect.center()),
-            }));
+            });
         }
     }
     response.clicked()
 }
 
 /// A drag with one pointer moves the environment, the model or the eye.
-fn drag(
-    ui: &Ui,
-    response: &Response,
-    fractions: &dyn Fn(egui::Vec2) -> Vec2,
-    flies: bool,
-    hold: &mut ViewHold,
-    commands: &mut Vec<Command>,
-) {
+fn drag(ui: &Ui, response: &Response, fractions: &dyn Fn(egui::Vec2) -> Vec2, flies: bool, cx: &mut Cx<'_, ViewHold>) {
     let Modifiers { shift, alt, .. } = ui.input(|input| input.modifiers);
     let moved = fractions(response.drag_delta());
     let now_secs = ui.input(|input| input.time);
     let orbits = response.dragged_by(PointerButton::Primary) && !shift && !alt;
     if orbits {
         let turn = moved * ORBIT_PER_HEIGHT;
-        hold.orbit.add(now_secs, turn);
+        cx.state.orbit.add(now_secs, turn);
         if turn != Vec2::ZERO {
-            commands.push(Command::Camera(CameraCommand::Orbit {
+            cx.push(CameraCommand::Orbit {
                 yaw_radians: turn.x,
                 pitch_radians: turn.y,
-            }));
+            });
         }
     } else if alt && response.dragged_by(PointerButton::Primary) {
         let turn = moved.x * ENVIRONMENT_TURN_PER_HEIGHT;
         if turn != 0.0 {
-            commands.push(LookCommand::TurnEnvironment(turn).into());
+            cx.push(LookCommand::TurnEnvironment(turn));
         }
     } else if response.dragged() && !flies {
-        commands.push(CameraCommand::Pan { drag: moved }.into());
+        cx.push(CameraCommand::Pan { drag: moved });
     }
     if response.drag_stopped() {
-        let rate = hold.orbit.rate_per_sec(now_secs);
+        let rate = cx.state.orbit.rate_per_sec(now_secs);
         if rate != Vec2::ZERO && !shift && !alt {
-            commands.push(Command::Camera(CameraCommand::Fling {
+            cx.push(CameraCommand::Fling {
                 yaw_radians_per_sec: rate.x,
                 pitch_radians_per_sec: rate.y,
-            }));
+            });
         }
     }
     if !orbits {
-        hold.orbit.clear();
+        cx.state.orbit.clear();
     }
 }
 

@@ -1,10 +1,10 @@
 //! Which findings are listed: chips that count and choose a severity, and a search in words and codes.
 
-use egui::{Align2, Key, Role, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Role, Ui, WidgetInfo};
 
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::ui::theme::Tokens;
-use crate::ui::widgets::{control_size, pressed_chip};
+use crate::ui::widgets::{pressed_chip, search_field};
 use crate::ui::wording::counted;
 
 /// The worst first.
@@ -77,19 +77,5 @@ pub(super) fn color(ui: &Ui, severity: Severity) -> egui::Color32 {
 }
 
 fn search(ui: &mut Ui, query: &mut String) {
-    let field = TextEdit::singleline(query)
-        .id_salt("search findings")
-        .hint_text("Words or code")
-        .text_color(Tokens::of(ui).text)
-        .char_limit(64)
-        .margin(vec2(8.0, 6.0))
-        .min_size(vec2(0.0, control_size(ui)))
-        .align(Align2::LEFT_CENTER)
-        .desired_width(ui.available_width());
-    let response = ui.add(field);
-    response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Search findings"));
-    // Esc clears the search and does nothing else.
-    if response.lost_focus() && ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, Key::Escape)) {
-        query.clear();
-    }
+    search_field(ui, "Search findings", "Words or code", ui.available_width(), query);
 }

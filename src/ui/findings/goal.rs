@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use crate::diagnostic::{Moment, Subject};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, OpenModel, PlayCommand, Session, SubmeshCommand, named_maps};
+use crate::ui::cx::Cx;
 use crate::ui::skeleton::state::SidePage;
 use crate::ui::state::UiState;
 use crate::ui::wording::grouped;
@@ -104,15 +105,15 @@ impl Goal {
     }
 
     /// Goes there. The selection is framed in the next pass, when its panels are open.
-    pub(super) fn go(self, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-        state.frames_selection = self
+    pub(super) fn go(self, cx: &mut Cx<'_, UiState>) {
+        cx.state.frames_selection = self
             .commands
             .iter()
             .any(|command| matches!(command, Command::Joint(_) | Command::Submesh(_)));
         if let Some(page) = self.page {
-            state.skeleton.show_page(session, page);
+            cx.state.skeleton.show_page(cx.session, page);
         }
-        commands.extend(self.commands);
+        cx.commands.extend(self.commands);
     }
 }
 

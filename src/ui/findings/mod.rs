@@ -13,13 +13,14 @@ use std::cmp::Reverse;
 
 use egui::{RichText, Ui};
 
+use super::cx::Cx;
 use super::panel::scrolled;
 use super::state::{Request, SheetPage, UiState};
 use super::theme::{MARGIN, Tokens};
 use super::widgets::{RowList, TextButton, closable_heading, control_size, is_touch, rule};
 use super::wording::{counted, counted_vertices};
 use crate::diagnostic::Diagnostic;
-use crate::session::{Command, OpenModel, Session};
+use crate::session::{OpenModel, Session};
 use row::{FindingRow, row_height};
 
 /// Gap between the parts of the panel.
@@ -38,10 +39,10 @@ pub(super) fn toggle(state: &mut UiState, is_wide: bool) {
     }
 }
 
-pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    let Some(open) = session.open_model() else { return };
+pub(super) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
+    let Some(open) = cx.session.open_model() else { return };
     if closable_heading(ui, "Findings") {
-        state.diagnostics_open = false;
+        cx.state.diagnostics_open = false;
     }
     rule(ui, MARGIN);
     // The rows of a phone are high: there the buttons come after them and leave them the room.
@@ -50,36 +51,36 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut UiState, commands
     let most = (ui.available_height() - below).max(LEAST_SCROLLED);
     scrolled("findings", most).auto_shrink([false, true]).show(ui, |ui| {
         // The books' programs read no glTF.
-        if !session.verdicts().is_empty() {
-            books::show(ui, session, open, state);
+        if !cx.session.verdicts().is_empty() {
+            books::show(ui, cx.session, open, cx.state);
             rule(ui, MARGIN);
         }
-        found(ui, session, open, state, commands);
+        found(ui, cx, open);
         if at_end {
-            take_along(ui, session, state);
+            take_along(ui, cx.session, cx.state);
         }
     });
     if !at_end {
-        take_along(ui, session, state);
+        take_along(ui, cx.session, cx.state);
     }
 }
 
 /// Chips, search and rows; or that there is no finding.
-fn found(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState, commands: &mut Vec<Command>) {
-    let mut all: Vec<&Diagnostic> = session.diagnostics().collect();
+fn found(ui: &mut Ui, cx: &mut Cx<'_, UiState>, open: &OpenModel) {
+    let mut all: Vec<&Diagnostic> = cx.session.diagnostics().collect();
     // The worst first, and those as bad in the order of the file.
     all.sort_by_key(|diagnostic| Reverse(diagnostic.severity));
     if all.is_empty() {
-        nothing_found(ui, session, open);
+        nothing_found(ui, cx.session, open);
         return;
     }
-    filter::show(ui, &all, &mut state.findings.filter);
+    filter::show(ui, &all, &mut cx.state.findings.filter);
     ui.add_space(GAP);
-    let listed = state.findings.filter.of(&all);
+    let listed = cx.state.findings.filter.of(&all);
     if listed.is_empty() {
         ui.label(RichText::new("No finding fits what is chosen above.").color(Tokens::of(ui).muted));
     } else {
-        rows(ui, session, open, &listed, state, commands);
+        rows(ui, cx, open, &listed);
     }
 }
 
@@ -104,21 +105,14 @@ fn nothing_found(ui: &mut Ui, session: &Session, open: &OpenModel) {
 }
 
 /// The rows, of which only those near the view are laid out.
-fn rows(
-    ui: &mut Ui,
-    session: &Session,
-    open: &OpenModel,
-    listed: &[&Diagnostic],
-    state: &mut UiState,
-    commands: &mut Vec<Command>,
-) {
-    let height_of = |diagnostic: &Diagnostic| row_height(ui, session, open, diagnostic);
-    let heights = state.findings.heights.take_of(ui, listed, height_of);
+fn rows(ui: &mut Ui, cx: &mut Cx<'_, UiState>, open: &OpenModel, listed: &[&Diagnostic]) {
+    let height_of = |diagnostic: &Diagnostic| row_height(ui, cx.session, open, diagnostic);
+    let heights = cx.state.findings.heights.take_of(ui, listed, height_of);
     let seen = ui.clip_rect().y_range();
     RowList::show(ui, "Findings", |ui, list| {
         let (mut y, mut skipped) = (ui.cursor().min.y, 0.0);
         for (index, diagnostic) in listed.iter().copied().enumerate() {
-            let height = heights[index] + state.findings.unfolded_height_of(diagnostic);
+            let height = heights[index] + cx.state.findings.unfolded_height_of(diagnostic);
             if y + height < seen.min - BEYOND_VIEW || y > seen.max + BEYOND_VIEW {
                 skipped += height;
                 y += height;
@@ -132,12 +126,12 @@ fn rows(
                 place: (index, listed.len()),
                 height: heights[index],
             };
-            row.show(ui, list, session, open, state, commands);
+            row.show(ui, list, cx, open);
             y += height;
         }
         ui.add_space(skipped);
     });
-    state.findings.heights.put_back(heights);
+    cx.state.findings.heights.put_back(heights);
 }
 
 /// Buttons that copy and save all of it.

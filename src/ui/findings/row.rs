@@ -2,7 +2,7 @@
 
 use egui::accesskit::Action;
 use egui::text::{LayoutJob, TextFormat};
-use egui::{CursorIcon, FontId, Response, RichText, Role, Sense, Ui, UiBuilder, WidgetInfo, vec2};
+use egui::{CursorIcon, FontId, Response, RichText, Role, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
 use super::filter::color;
 use super::goal::Goal;
@@ -10,10 +10,11 @@ use super::state::ShownDiagnostic;
 use crate::actions;
 use crate::diagnostic::{Code, Diagnostic, Mended, codes};
 use crate::session::{Command, MaterialCommand, OpenModel, Session};
+use crate::ui::cx::Cx;
 use crate::ui::error_card::{expected_and_found, show_excerpt};
 use crate::ui::state::{Request, UiState};
 use crate::ui::theme::{self, Tokens};
-use crate::ui::widgets::{RowList, TextButton, paint_elided, paint_row_ground, pressed_row};
+use crate::ui::widgets::{Row, RowList, TextButton, paint_elided, paint_row_ground, tell_node};
 use crate::ui::wording::grouped;
 
 /// Where the words of a line begin, behind its dot.
@@ -72,29 +73,21 @@ fn words(ui: &Ui, diagnostic: &Diagnostic, goal: Option<&Goal>) -> LayoutJob {
 
 impl FindingRow<'_> {
     /// Shows it, and what is unfolded below it.
-    pub(super) fn show(
-        &self,
-        ui: &mut Ui,
-        list: &mut RowList,
-        session: &Session,
-        open: &OpenModel,
-        state: &mut UiState,
-        commands: &mut Vec<Command>,
-    ) {
+    pub(super) fn show(&self, ui: &mut Ui, list: &mut RowList, cx: &mut Cx<'_, UiState>, open: &OpenModel) {
         let diagnostic = self.diagnostic;
-        let goal = goal_of(session, open, diagnostic);
-        let is_shown = state.findings.is_shown(diagnostic);
+        let goal = goal_of(cx.session, open, diagnostic);
+        let is_shown = cx.state.findings.is_shown(diagnostic);
         let response = self.line(ui, goal.as_ref(), is_shown);
         list.row(&response, is_shown);
         let (index, count) = self.place;
-        ui.ctx().accesskit_node_builder(response.id, |node| {
+        tell_node(&response, |node| {
             node.set_position_in_set(index);
             node.set_size_of_set(count);
         });
         if tell_fold(ui, &response, is_shown) {
-            state.findings.shown = (!is_shown).then(|| ShownDiagnostic::new(open, diagnostic));
+            cx.state.findings.shown = (!is_shown).then(|| ShownDiagnostic::new(open, diagnostic));
             if let Some(goal) = goal.filter(|_| !is_shown) {
-                goal.go(session, state, commands);
+                goal.go(cx);
             }
         }
         if !is_shown {
@@ -103,11 +96,11 @@ impl FindingRow<'_> {
         // Rows before it come and go while the list scrolls; what is in here is the same all the time.
         let scope = UiBuilder::new().scope_id(response.id.with("unfolded"));
         let unfolded = ui.scope_builder(scope, |ui| {
-            self.occurrences(ui, list, session, open, state, commands);
-            self.details(ui, session, state, commands);
+            self.occurrences(ui, list, cx, open);
+            self.details(ui, cx);
         });
         let height = unfolded.response.rect.height();
-        if let Some(shown) = &mut state.findings.shown {
+        if let Some(shown) = &mut cx.state.findings.shown {
             shown.height = height;
         }
     }
@@ -133,9 +126,10 @@ impl FindingRow<'_> {
     }
 
     /// The lines of the file, what belonged there, and how to mend it for good.
-    fn details(&self, ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+    fn details(&self, ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
         let diagnostic = self.diagnostic;
-        if let Some(lines) = state.findings.shown.as_ref().and_then(|shown| shown.excerpt.as_ref()) {
+        let shown = cx.state.findings.shown.as_ref();
+        if let Some(lines) = shown.and_then(|shown| shown.excerpt.as_ref()) {
             ui.add_space(4.0);
             show_excerpt(ui, lines, color(ui, diagnostic.severity));
         }
@@ -143,26 +137,18 @@ impl FindingRow<'_> {
         if let Some(expected) = expected_and_found(diagnostic) {
             ui.label(RichText::new(expected).size(12.5).color(Tokens::of(ui).text));
         }
-        explanation(ui, diagnostic.code, &mut state.requests);
+        explanation(ui, diagnostic.code, &mut cx.state.requests);
         if let Some(code) = codes::named(diagnostic.code) {
-            permanence(ui, code, state);
+            permanence(ui, code, cx.state);
         }
         if diagnostic.code == codes::TRIANGLES_TURNED_AWAY.name {
-            sides(ui, session, commands);
+            sides(ui, cx.session, cx.commands);
         }
         ui.add_space(8.0);
     }
 
     /// The occurrences, if there are several. A click shows the lines of one, and goes to its part.
-    fn occurrences(
-        &self,
-        ui: &mut Ui,
-        list: &mut RowList,
-        session: &Session,
-        open: &OpenModel,
-        state: &mut UiState,
-        commands: &mut Vec<Command>,
-    ) {
+    fn occurrences(&self, ui: &mut Ui, list: &mut RowList, cx: &mut Cx<'_, UiState>, open: &OpenModel) {
         let tokens = Tokens::of(ui);
         let diagnostic = self.diagnostic;
         let known = diagnostic.occurrences();
@@ -170,9 +156,9 @@ impl FindingRow<'_> {
         if listed < 2 {
             return;
         }
-        let chosen = state.findings.shown.as_ref().map(|shown| shown.occurrence);
+        let chosen = cx.state.findings.shown.as_ref().map(|shown| shown.occurrence);
         for (index, (subject, position, moment)) in known.enumerate() {
-            let goal = subject.and_then(|subject| Goal::of(session, open, subject, moment));
+            let goal = subject.and_then(|subject| Goal::of(cx.session, open, subject, moment));
             let line = position.map(|position| format!("line {}", position.line));
             let words: Vec<&str> = goal
                 .iter()
@@ -181,17 +167,17 @@ impl FindingRow<'_> {
                 .collect();
             let words = words.join(" · ");
             let is_chosen = chosen == Some(index);
-            let (rect, response) = pressed_row(ui, is_chosen);
-            let (at, font) = (rect.left_center() + vec2(INDENT, 0.0), FontId::proportional(12.0));
-            paint_elided(ui.painter(), at, &words, font, tokens.accent, rect.width() - INDENT);
-            response.widget_info(|| WidgetInfo::labeled(Role::ListItem, true, format!("Go to {words}")));
+            let row = Row::pressed(ui, is_chosen);
+            let (at, font) = (pos2(row.left + INDENT, row.y), FontId::proportional(12.0));
+            paint_elided(ui.painter(), at, &words, font, tokens.accent, row.rect.width() - INDENT);
+            let response = row.told(Role::ListItem, format!("Go to {words}"));
             list.row(&response, is_chosen);
             if response.on_hover_cursor(CursorIcon::PointingHand).clicked() {
-                if let Some(shown) = &mut state.findings.shown {
+                if let Some(shown) = &mut cx.state.findings.shown {
                     shown.choose(open, index);
                 }
                 if let Some(goal) = goal {
-                    goal.go(session, state, commands);
+                    goal.go(cx);
                 }
             }
         }
@@ -263,7 +249,7 @@ fn about(ui: &mut Ui, words: Option<&str>, code: &'static str, requests: &mut Ve
 /// Tells programs that read the screen whether something is unfolded. Returns whether the person wants it to be otherwise.
 pub(super) fn tell_fold(ui: &Ui, response: &Response, is_open: bool) -> bool {
     let action = if is_open { Action::Collapse } else { Action::Expand };
-    ui.ctx().accesskit_node_builder(response.id, |node| {
+    tell_node(response, |node| {
         // A row of a list is drawn as the chosen one too.
         node.clear_selected();
         node.set_expanded(is_open);

@@ -11,11 +11,12 @@ use crate::actions;
 use crate::anim::{JointReadout, KeyRow, key_rows, key_table};
 use crate::check::book::MOST_BONES;
 use crate::model::JointIndex;
-use crate::session::{Command, JointCommand, LookCommand, PlayCommand, Session};
+use crate::session::{JointCommand, LookCommand};
+use crate::ui::cx::Cx;
 use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::widgets::{
-    TextButton, explained, explained_section, explained_segmented, focus_ring, is_touch, paint_name, paint_row_ground,
-    pressed_row, pressed_row_height, rule, section_with_action, section_with_labelled_action, segmented,
+    Row, TextButton, explained, explained_section, explained_segmented, focus_ring, is_touch, paint_name,
+    paint_row_ground, pressed_row_height, rule, section_with_action, section_with_labelled_action, segmented,
     selected_heading, switch_row, value_row, walked,
 };
 use crate::ui::wording::{counted, counted_vertices, grouped};
@@ -34,61 +35,55 @@ const CHILDREN: usize = 12;
 const LABEL_WIDTH: f32 = 72.0;
 
 /// The panel's contents. Nothing while nothing is selected.
-pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
+pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
     // Both were read in this pass, so they are about what is selected now.
-    let joint = state.reading.joint.take();
-    let vertex = state.reading.vertex.take();
+    let joint = cx.state.reading.joint.take();
+    let vertex = cx.state.reading.vertex.take();
     let shown = vertex.as_ref().map(|explanation| explanation.vertex);
-    let newly_shown = shown.is_some() && state.shown_vertex != shown;
-    state.shown_vertex = shown;
+    let newly_shown = shown.is_some() && cx.state.shown_vertex != shown;
+    cx.state.shown_vertex = shown;
     if newly_shown {
         // The panel may be scrolled to the numbers of the bone.
         ui.scroll_to_cursor_animation(Some(Align::TOP), ScrollAnimation::none());
     }
     if let Some(explanation) = &vertex {
-        vertex_panel::show(ui, session, state, explanation, commands);
+        vertex_panel::show(ui, cx, explanation);
     }
     if let Some(readout) = &joint {
         if vertex.is_some() {
             rule(ui, MARGIN);
         }
-        if selected_heading(ui, &session.joint_label(readout.joint), Tokens::of(ui).accent, None) {
-            commands.push(JointCommand::Select(None).into());
+        if selected_heading(ui, &cx.session.joint_label(readout.joint), Tokens::of(ui).accent, None) {
+            cx.push(JointCommand::Select(None));
         }
         rule(ui, MARGIN);
-        show_joint(ui, session, state, readout, commands);
+        show_joint(ui, cx, readout);
     }
-    (state.reading.joint, state.reading.vertex) = (joint, vertex);
+    (cx.state.reading.joint, cx.state.reading.vertex) = (joint, vertex);
 }
 
-fn show_joint(
-    ui: &mut Ui,
-    session: &Session,
-    state: &mut SkeletonState,
-    readout: &JointReadout,
-    commands: &mut Vec<Command>,
-) {
+fn show_joint(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, readout: &JointReadout) {
     let joint = readout.joint;
     if section_with_action(ui, "Bone", Some(actions::NAME_BONE.label)) {
-        state.rename_selected(ui, session);
+        cx.state.rename_selected(ui, cx.session);
     }
     value_row(ui, "Number in the file", &readout.bone.to_string());
-    let counts = session.joints().vertex_counts();
+    let counts = cx.session.joints().vertex_counts();
     let own = counts.own.get(joint.index()).copied().unwrap_or_default();
     value_row(ui, "Moves", &counted_vertices(own));
     let of = format!(
         "{} of {}; the demo holds {MOST_BONES}",
         readout.bone,
-        session.joints().count()
+        cx.session.joints().count()
     );
     explained(
         value_row(ui, "Palette", &of),
         "The place of its final transform in gBoneTransforms, the matrix palette that the books' vertex shader reads.",
     );
-    relatives(ui, session, state, joint, commands);
+    relatives(ui, cx, joint);
 
     rule(ui, MARGIN);
-    let parts = match state.space {
+    let parts = match cx.state.space {
         Space::Local => &readout.local,
         Space::Model => &readout.model,
     };
@@ -100,11 +95,11 @@ fn show_joint(
         "toParent brings what is in the bone's space into that of its parent; the clip's keys are of it.",
         "toRoot brings what is in the bone's space into that of the model: toParent times the parent's toRoot.",
     ];
-    if let Some(space) = explained_segmented(ui, "Relative to", &spaces, &sentences, Some(state.space)) {
-        state.space = space;
+    if let Some(space) = explained_segmented(ui, "Relative to", &spaces, &sentences, Some(cx.state.space)) {
+        cx.state.space = space;
     }
     ui.add_space(4.0);
-    let digits = state.reading.digits;
+    let digits = cx.state.reading.digits;
     show_parts(ui, parts, digits);
     let matrices = [
         ("Offset", "offset", OFFSET_EXPLAINED, &readout.offset),
@@ -133,38 +128,32 @@ fn show_joint(
         ui.ctx().copy_text(readout.to_text());
     }
     rule(ui, MARGIN);
-    let trail = session.look().trails.contains(&joint);
+    let trail = cx.session.look().trails.contains(&joint);
     if switch_row(ui, "Trail through the clip", "", trail).clicked() {
-        commands.push(LookCommand::ToggleTrail(joint).into());
+        cx.push(LookCommand::ToggleTrail(joint));
     }
-    key_list(ui, session, state, joint, commands);
+    key_list(ui, cx, joint);
 }
 
 /// Parent, children and the joint of the other side as links.
-fn relatives(
-    ui: &mut Ui,
-    session: &Session,
-    state: &mut SkeletonState,
-    joint: JointIndex,
-    commands: &mut Vec<Command>,
-) {
-    let Some(open) = session.open_model() else { return };
+fn relatives(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, joint: JointIndex) {
+    let Some(open) = cx.session.open_model() else { return };
     let parent = open.model.skeleton.parents().get(joint.index()).copied().flatten();
-    let children: Vec<_> = session.joints().tree().children(joint).collect();
+    let children: Vec<_> = cx.session.joints().tree().children(joint).collect();
     match parent {
-        Some(parent) => links(ui, session, state, ["Parent"; 2], &[parent], commands),
+        Some(parent) => links(ui, cx, ["Parent"; 2], &[parent]),
         None => no_link(ui, "Parent", "none, it is a root"),
     }
     let shown = &children[..children.len().min(CHILDREN)];
     match shown {
         [] => no_link(ui, "Children", "none"),
-        _ => links(ui, session, state, ["Children", "Child"], shown, commands),
+        _ => links(ui, cx, ["Children", "Child"], shown),
     }
     if let more @ 1.. = children.len() - shown.len() {
         value_row(ui, "", &format!("and {more} more in the tree"));
     }
-    match state.mirrored.partner(session, joint) {
-        Some(partner) => links(ui, session, state, ["Mirror"; 2], &[partner], commands),
+    match cx.state.mirrored.partner(cx.session, joint) {
+        Some(partner) => links(ui, cx, ["Mirror"; 2], &[partner]),
         None => no_link(ui, "Mirror", "none"),
     }
 }
@@ -177,22 +166,16 @@ fn no_link(ui: &mut Ui, label: &str, words: &str) {
 }
 
 /// A label, then joints on as many lines as they need. By touch each joint has a row. `one`: what screen readers call each of them.
-fn links(
-    ui: &mut Ui,
-    session: &Session,
-    state: &mut SkeletonState,
-    [label, one]: [&str; 2],
-    joints: &[JointIndex],
-    commands: &mut Vec<Command>,
-) {
+fn links(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, [label, one]: [&str; 2], joints: &[JointIndex]) {
+    let session = cx.session;
     let mut follow = |link: Response, joint: JointIndex| {
         let name = format!("{one}: {}", session.joint_label(joint));
         link.widget_info(|| WidgetInfo::labeled(Role::Link, true, &name));
         if link.contains_pointer() {
-            state.hovered = Some(joint);
+            cx.state.hovered = Some(joint);
         }
         if link.clicked() {
-            commands.push(JointCommand::Select(Some(joint)).into());
+            cx.push(JointCommand::Select(Some(joint)));
         }
     };
     let (font, color) = (FontId::proportional(13.0), Tokens::of(ui).muted);
@@ -221,14 +204,11 @@ fn links(
 /// A joint's name as a link in a row of its own, after a label.
 fn link_row(ui: &mut Ui, label: &str, name: &str) -> Response {
     let tokens = Tokens::of(ui);
-    let (rect, response) = pressed_row(ui, false);
-    let font = FontId::proportional(13.0);
-    let left = rect.left_center();
-    ui.painter()
-        .text(left, Align2::LEFT_CENTER, label, font.clone(), tokens.muted);
-    let at = left + vec2(LABEL_WIDTH + 5.0, 0.0);
-    paint_name(ui.painter(), at, name, font, tokens.accent, rect.max.x - at.x);
-    response
+    let mut row = Row::pressed(ui, false);
+    row.left(label, tokens.muted);
+    row.left = row.rect.min.x + LABEL_WIDTH + 5.0;
+    row.name(name, tokens.accent);
+    row.response
 }
 
 /// A joint's name as a link.
@@ -252,9 +232,9 @@ fn joint_link(ui: &mut Ui, name: &str) -> Response {
 
 /// The keys of a joint's track in the open clip. Only rows in view are laid out. A click goes to the key. The list opens at the key
 /// in force.
-fn key_list(ui: &mut Ui, session: &Session, state: &mut SkeletonState, joint: JointIndex, commands: &mut Vec<Command>) {
+fn key_list(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, joint: JointIndex) {
     rule(ui, MARGIN);
-    let clip = session.clip();
+    let clip = cx.session.clip();
     let track = clip.and_then(|clip| clip.tracks.get(joint.index()));
     let (Some(clip), Some(track)) = (clip, track.filter(|track| track.has_keys())) else {
         section_with_labelled_action(ui, "Keys", None);
@@ -270,8 +250,8 @@ fn key_list(ui: &mut Ui, session: &Session, state: &mut SkeletonState, joint: Jo
         (KeyPart::Rotation, "Euler"),
         (KeyPart::Scale, "Scale"),
     ];
-    if let Some(chosen) = segmented(ui, "Keys", &parts, Some(state.key_part)) {
-        state.key_part = chosen;
+    if let Some(chosen) = segmented(ui, "Keys", &parts, Some(cx.state.key_part)) {
+        cx.state.key_part = chosen;
     }
     ui.add_space(4.0);
     let height = pressed_row_height(ui);
@@ -282,7 +262,7 @@ fn key_list(ui: &mut Ui, session: &Session, state: &mut SkeletonState, joint: Jo
     };
     let rows = key_rows(clip, track);
     // The last key at or before the present time.
-    let now_secs = session.playback().time_secs();
+    let now_secs = cx.session.playback().time_secs();
     let in_force = track
         .times_secs()
         .partition_point(|&secs| secs <= now_secs)
@@ -292,14 +272,14 @@ fn key_list(ui: &mut Ui, session: &Session, state: &mut SkeletonState, joint: Jo
         .max_height(most)
         .min_scrolled_height(most)
         .auto_shrink([false, true]);
-    let opened = Some((joint, session.clip_index(), session.clips_revision()));
-    if state.keys.opened != opened {
-        state.keys = KeyList { opened, stop: None };
+    let opened = Some((joint, cx.session.clip_index(), cx.session.clips_revision()));
+    if cx.state.keys.opened != opened {
+        cx.state.keys = KeyList { opened, stop: None };
         let middle = in_force.unwrap_or_default() as f32 * height - 0.5 * (most - height);
         list = list.vertical_scroll_offset(middle.max(0.0));
     }
     let count = rows.len();
-    let part = state.key_part;
+    let part = cx.state.key_part;
     list.show_rows(ui, height, count, |ui, range| {
         labelled(ui, Role::ListBox, "Keys of the bone", count, |ui| {
             let size = vec2(ui.available_width(), range.len() as f32 * height);
@@ -312,7 +292,7 @@ fn key_list(ui: &mut Ui, session: &Session, state: &mut SkeletonState, joint: Jo
             let layer = ui.layer_id();
             let id_of = |key: usize| Id::unique("key row").with((layer, joint.0, key));
             let mut walks_to = None;
-            let stop = state.keys.stop.or(in_force).unwrap_or_default().min(count - 1);
+            let stop = cx.state.keys.stop.or(in_force).unwrap_or_default().min(count - 1);
             let has_focus = ui.memory(|memory| memory.has_focus(id_of(stop)));
             // A row keeps the focus when it is scrolled out of view. Otherwise Tab stops at the nearest row in view.
             let out_of_view = has_focus && !range.contains(&stop);
@@ -325,19 +305,18 @@ fn key_list(ui: &mut Ui, session: &Session, state: &mut SkeletonState, joint: Jo
                 let is_stop = key == tab_stop;
                 let response = ui.interact(rect_of(key), id_of(key), row_sense(is_stop));
                 if key_row(ui, &response, &row, part, in_force == Some(key)) {
-                    state.keys.stop = Some(key);
+                    cx.state.keys.stop = Some(key);
                     focus_row(ui, response.id, response.rect);
                 }
                 if response.clicked() {
-                    let time_secs = row.time_secs;
-                    commands.extend([PlayCommand::Pause.into(), PlayCommand::Seek { time_secs }.into()]);
-                    state.keys.stop = Some(key);
+                    cx.pause_at(row.time_secs);
+                    cx.state.keys.stop = Some(key);
                 }
                 walks_to = walks_to.or(walked(ui, response.id, key, count, page));
             }
             // Only now: a row that is no stop yet would lose the focus when it is drawn.
             if let Some(to) = walks_to {
-                state.keys.stop = Some(to);
+                cx.state.keys.stop = Some(to);
                 focus_row(ui, id_of(to), rect_of(to));
             }
         });

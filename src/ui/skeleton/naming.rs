@@ -2,13 +2,14 @@
 
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
-use egui::{Align2, FontId, Id, Key, Rangef, Rect, Role, Sense, TextEdit, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{FontId, Id, Key, Rangef, Rect, Role, TextEdit, Ui, Vec2, WidgetInfo, vec2};
 
 use crate::model::{Handedness, JointIndex, UpAxis};
 use crate::session::{Command, NameCommand, Session};
+use crate::ui::cx::Cx;
 use crate::ui::panel::scrolled;
 use crate::ui::theme::{ROW_HEIGHT, Tokens};
-use crate::ui::widgets::{TextButton, control_size, paint_name, section_name};
+use crate::ui::widgets::{Row, TextButton, control_size, section_name};
 
 /// Naming waits so long for its row to scroll into view, in seconds …
 const LONGEST_WAIT_SECS: f64 = 1.0;
@@ -125,13 +126,8 @@ fn field_id() -> Id {
 
 /// The field in place of a joint's name, whose letters stand where the name's do. Enter or a click elsewhere accepts the name, Esc
 /// cancels. Returns whether the row gets the focus back.
-pub(super) fn show_field(
-    ui: &mut Ui,
-    naming: &mut Naming,
-    name: Rect,
-    unnamed: &str,
-    commands: &mut Vec<Command>,
-) -> bool {
+pub(super) fn show_field(ui: &mut Ui, cx: &mut Cx<'_, Naming>, name: Rect, unnamed: &str) -> bool {
+    let naming = &mut *cx.state;
     let begins = naming.awaits_field();
     if begins {
         select_all(ui, &naming.text);
@@ -162,7 +158,7 @@ pub(super) fn show_field(
         if escape {
             *naming = Naming::default();
         } else {
-            naming.take_name(commands);
+            naming.take_name(cx.commands);
         }
         return by_key && (escape || enter);
     }
@@ -182,12 +178,12 @@ fn select_all(ui: &Ui, text: &str) {
 const BUTTONS_GAP: f32 = 10.0;
 
 /// The names proposed for mirrored joints, to accept or refuse.
-pub(super) fn show_proposals(ui: &mut Ui, session: &Session, naming: &mut Naming, commands: &mut Vec<Command>) {
+pub(super) fn show_proposals(ui: &mut Ui, cx: &mut Cx<'_, Naming>) {
     let tokens = Tokens::of(ui);
-    let proposed = naming.proposed.of(session);
+    let proposed = cx.state.proposed.of(cx.session);
     section_name(ui, "Mirrored names");
     if proposed.is_empty() {
-        let words = if session.joint_names().is_empty() {
+        let words = if cx.session.joint_names().is_empty() {
             "Name bones of one side first: double click a bone, or press F2."
         } else {
             "There are no names to propose: both bones of each pair are named, or neither is."
@@ -199,14 +195,11 @@ pub(super) fn show_proposals(ui: &mut Ui, session: &Session, naming: &mut Naming
     let rows = list.auto_shrink([false, true]);
     rows.show_rows(ui, ROW_HEIGHT, proposed.len(), |ui, range| {
         for (bone, name) in &proposed[range] {
-            let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
-            let font = FontId::proportional(13.0);
-            let (left, number) = (rect.left_center(), format!("Bone {bone}"));
-            ui.painter()
-                .text(left, Align2::LEFT_CENTER, number, font.clone(), tokens.muted);
-            let at = pos2(rect.min.x + 76.0, rect.center().y);
-            paint_name(ui.painter(), at, name, font, tokens.text, rect.max.x - at.x);
-            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Bone {bone} would be {name}")));
+            let mut row = Row::new(ui, ROW_HEIGHT);
+            row.left(&format!("Bone {bone}"), tokens.muted);
+            row.left = row.rect.min.x + 76.0;
+            row.name(name, tokens.text);
+            row.told(Role::Label, format!("Bone {bone} would be {name}"));
         }
     });
     ui.add_space(BUTTONS_GAP);
@@ -219,8 +212,8 @@ pub(super) fn show_proposals(ui: &mut Ui, session: &Session, naming: &mut Naming
                 .show(ui)
                 .clicked()
             {
-                commands.push(NameCommand::AcceptMirrored.into());
-                naming.proposing = false;
+                cx.commands.push(NameCommand::AcceptMirrored.into());
+                cx.state.proposing = false;
             }
         }
         if TextButton::new("Back", "Back to the tree")
@@ -228,7 +221,7 @@ pub(super) fn show_proposals(ui: &mut Ui, session: &Session, naming: &mut Naming
             .show(ui)
             .clicked()
         {
-            naming.proposing = false;
+            cx.state.proposing = false;
         }
     });
 }

@@ -8,6 +8,7 @@ use super::walk::labelled;
 use crate::anim::{RowMatrix, TransformParts};
 use crate::model::Aabb;
 use crate::ui::theme::{self, ROW_HEIGHT, Tokens};
+use crate::ui::widgets::{Row, tell_node};
 
 /// Characters of a number: sign, digits, point.
 const NUMBER_CHARS: usize = 9;
@@ -121,39 +122,33 @@ pub(super) fn show_parts(ui: &mut Ui, parts: &TransformParts, digits: Digits) {
 /// A quaternion: its four numbers have a line of their own.
 fn quaternion_rows(ui: &mut Ui, numbers: [f32; 4]) {
     let tokens = Tokens::of(ui);
-    let size = vec2(ui.available_width(), ROW_HEIGHT + LINE_HEIGHT);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    let (label, line) = rect.split_top_bottom_at_y(rect.min.y + ROW_HEIGHT);
-    let (font, painter) = (FontId::proportional(12.0), ui.painter());
-    let left = label.left_center();
-    painter.text(left, Align2::LEFT_CENTER, "Quaternion", font, tokens.muted);
+    let mut row = Row::new(ui, ROW_HEIGHT + LINE_HEIGHT);
+    let (label, line) = row.rect.split_top_bottom_at_y(row.rect.min.y + ROW_HEIGHT);
+    row.y = label.center().y;
+    row.left_in(FontId::proportional(12.0), "Quaternion", tokens.muted);
     let numbers = numbers.map(|number| fitted(without_noise(number, 1.0), 4));
-    let column = number_column(rect.width()).min(0.25 * rect.width());
-    for (place, number) in numbers.iter().rev().enumerate() {
-        let at = pos2(rect.max.x - place as f32 * column, line.center().y);
-        painter.text(at, Align2::RIGHT_CENTER, number, theme::mono(FONT_SIZE), tokens.text);
-    }
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Quaternion {}", numbers.join(" "))));
+    let width = row.rect.width();
+    paint_numbers(ui, line, number_column(width).min(0.25 * width), &numbers);
+    row.told(Role::Label, format!("Quaternion {}", numbers.join(" ")));
 }
 
 /// A label and numbers to the right of columns of one width.
 pub(super) fn row(ui: &mut Ui, label: &str, numbers: &[String]) {
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
-    let (font, left) = (FontId::proportional(12.0), rect.left_center());
-    ui.painter().text(left, Align2::LEFT_CENTER, label, font, tokens.muted);
-    paint_columns(ui, rect, numbers);
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{label} {}", numbers.join(" "))));
+    let mut row = Row::new(ui, ROW_HEIGHT);
+    row.left_in(FontId::proportional(12.0), label, tokens.muted);
+    paint_columns(ui, row.rect, numbers);
+    row.told(Role::Label, format!("{label} {}", numbers.join(" ")));
 }
 
 /// A line of a table: a label (`spoken` for screen readers), and numbers in the columns of [`row`].
 pub(super) fn show_line(ui: &mut Ui, spoken: &str, label: LayoutJob, numbers: &[String]) {
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), LINE_HEIGHT), Sense::hover());
+    let row = Row::new(ui, LINE_HEIGHT);
     let galley = ui.painter().layout_job(label);
-    let at = pos2(rect.min.x, rect.center().y - 0.5 * galley.size().y);
+    let at = pos2(row.left, row.y - 0.5 * galley.size().y);
     ui.painter().galley(at, galley, Tokens::of(ui).muted);
-    paint_columns(ui, rect, numbers);
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{spoken} {}", numbers.join(" "))));
+    paint_columns(ui, row.rect, numbers);
+    row.told(Role::Label, format!("{spoken} {}", numbers.join(" ")));
 }
 
 /// The stroke under numbers that are added up.
@@ -171,7 +166,11 @@ pub(super) fn number_column(width: f32) -> f32 {
 
 /// Numbers in columns of one width that end at the right edge.
 fn paint_columns(ui: &Ui, rect: Rect, numbers: &[String]) {
-    let column = number_column(rect.width());
+    paint_numbers(ui, rect, number_column(rect.width()), numbers);
+}
+
+/// The same in columns of another width.
+fn paint_numbers(ui: &Ui, rect: Rect, column: f32, numbers: &[String]) {
     let (font, color) = (theme::mono(FONT_SIZE), Tokens::of(ui).text);
     for (place, number) in numbers.iter().rev().enumerate() {
         let at = pos2(rect.max.x - place as f32 * column, rect.center().y);
@@ -189,27 +188,23 @@ pub(super) fn show_matrix(ui: &mut Ui, name: &str, matrix: &RowMatrix, digits: D
 fn matrix_rows(ui: &mut Ui, matrix: &RowMatrix, digits: Digits) {
     let tokens = Tokens::of(ui);
     for (index, numbers) in matrix.0.iter().enumerate() {
-        let size = vec2(ui.available_width(), LINE_HEIGHT);
-        let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+        let mut row = Row::new(ui, LINE_HEIGHT);
+        let rect = row.rect;
         let column = (rect.width() - LAST_COLUMN_WIDTH) / 3.0;
         let [x, y, z, w] = *numbers;
         let last = if w.fract() == 0.0 { fitted(w, 0) } else { fitted(w, 2) };
         let [x, y, z] = digits.matrix(index, [x, y, z]);
         let texts = [x, y, z, last];
         for (place, text) in texts.iter().enumerate() {
-            let right = match place {
+            row.right = match place {
                 3 => rect.max.x,
                 place => rect.min.x + (place + 1) as f32 * column - 6.0,
             };
             let color = if place == 3 { tokens.faint } else { tokens.text };
-            let at = pos2(right, rect.center().y);
-            ui.painter()
-                .text(at, Align2::RIGHT_CENTER, text, theme::mono(FONT_SIZE), color);
+            row.right_in(theme::mono(FONT_SIZE), text, color);
         }
-        let label = format!("row {}: {}", index + 1, texts.join(" "));
-        response.widget_info(|| WidgetInfo::labeled(Role::Row, true, &label));
-        ui.ctx()
-            .accesskit_node_builder(response.id, |node| node.set_row_index(index));
+        let response = row.told(Role::Row, format!("row {}: {}", index + 1, texts.join(" ")));
+        tell_node(&response, |node| node.set_row_index(index));
     }
 }
 

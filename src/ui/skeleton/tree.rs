@@ -2,8 +2,8 @@
 
 use egui::accesskit::{Action, HasPopup};
 use egui::{
-    Align2, Color32, Event, FontId, Id, Key, Popup, Pos2, Rangef, Rect, Response, Role, ScrollArea, Sense, Stroke,
-    TextEdit, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+    Align2, Color32, Event, FontId, Id, Key, Popup, Pos2, Rangef, Rect, Response, Role, ScrollArea, Sense, Stroke, Ui,
+    UiBuilder, WidgetInfo, pos2, vec2,
 };
 
 use super::naming::{show_field, show_proposals};
@@ -11,11 +11,12 @@ use super::state::{SkeletonState, TreeState, Typed};
 use super::walk::{asks, focus_row, labelled, row_sense, tell_row};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, JointRow, NameCommand, Session};
+use crate::ui::cx::Cx;
 use crate::ui::icons::Icon;
 use crate::ui::theme::{self, Tokens};
 use crate::ui::widgets::{
     MenuLine, control_size, is_touch, menu_item, paint_fold_mark, paint_name, paint_row_ground, pressed_row_height,
-    push_button, retain_plain_keys, tell_popup, walked,
+    push_button, retain_plain_keys, search_field, tell_node, tell_popup, walked,
 };
 use crate::ui::wording::{counted_vertices, grouped};
 
@@ -25,29 +26,31 @@ const LEAST_ROWS: f32 = 4.0;
 const GAP: f32 = 8.0;
 
 /// The page's contents, no higher than what is available.
-pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
-    if state.naming.proposing {
-        show_proposals(ui, session, &mut state.naming, commands);
+pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
+    if cx.state.naming.proposing {
+        show_proposals(ui, &mut cx.part(|state| &mut state.naming));
         return;
     }
     ui.horizontal(|ui| {
-        search(ui, &mut state.tree.query);
-        menu(ui, session, state, commands);
+        let width = ui.available_width() - control_size(ui) - ui.spacing().item_spacing.x;
+        let query = &mut cx.state.tree.query;
+        search_field(ui, "Search bones", "Number or name", width, query);
+        menu(ui, cx);
     });
     ui.add_space(GAP);
-    session.joint_rows(&state.tree.query, &mut state.tree.rows);
-    if state.tree.rows.is_empty() {
+    cx.session.joint_rows(&cx.state.tree.query, &mut cx.state.tree.rows);
+    if cx.state.tree.rows.is_empty() {
         ui.label(egui::RichText::new("No bone has this number or name.").color(Tokens::of(ui).muted));
         return;
     }
     let height = pressed_row_height(ui);
     let most = ui.available_height().max(LEAST_ROWS * height);
-    if state.tree.room.replace(most) != Some(most) {
+    if cx.state.tree.room.replace(most) != Some(most) {
         // What was in view may not be any more.
-        state.tree.show_again();
+        cx.state.tree.show_again();
     }
-    let to_show = state.tree.row_to_show(session.joints().selected());
-    let rows = std::mem::take(&mut state.tree.rows);
+    let to_show = cx.state.tree.row_to_show(cx.session.joints().selected());
+    let rows = std::mem::take(&mut cx.state.tree.rows);
     ScrollArea::vertical()
         .id_salt("joints")
         .max_height(most)
@@ -67,19 +70,19 @@ pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonSt
                     let rows = rect_of(place).expand2(vec2(0.0, 2.0 * height));
                     ui.scroll_to_rect(rows.intersect(Rect::everything_below(top)), None);
                 }
-                let stop = state.tree.stop(&rows, session.joints().selected());
+                let stop = cx.state.tree.stop(&rows, cx.session.joints().selected());
                 let has_focus = ui.memory(|memory| memory.has_focus(row_id(ui, rows[stop].joint)));
                 // A row keeps the focus when it is scrolled out of view. Otherwise Tab stops at the nearest row in view.
                 let out_of_view = Some(stop).filter(|stop| has_focus && !range.contains(stop));
                 let in_view = stop.min(range.end.saturating_sub(1)).max(range.start);
                 let stop = if has_focus { stop } else { in_view };
-                let indent = Indent::new(ui, session, drawn);
+                let indent = Indent::new(ui, cx.session, drawn);
                 let mut walks_to = None;
                 for place in range.clone().chain(out_of_view) {
-                    let row = TreeRow::new(session, state, &rows[place], place, stop == place);
-                    let response = row.show(ui, rect_of(place), &indent, session, state, commands);
+                    let row = TreeRow::new(cx.session, cx.state, &rows[place], place, stop == place);
+                    let response = row.show(ui, rect_of(place), &indent, cx);
                     let page = range.len().saturating_sub(2).max(1);
-                    let to = row.walk(ui, &response, (&rows, page), session, state, commands);
+                    let to = row.walk(ui, &response, (&rows, page), cx);
                     walks_to = walks_to.or(to);
                     if response.gained_focus() {
                         ui.scroll_to_rect(response.rect, None);
@@ -88,47 +91,28 @@ pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut SkeletonSt
                 // Only now: a row that is no stop yet would lose the focus when it is drawn.
                 if let Some(to) = walks_to {
                     let joint = rows[to].joint;
-                    state.tree.stop = Some(joint);
+                    cx.state.tree.stop = Some(joint);
                     focus_row(ui, row_id(ui, joint), rect_of(to));
                 }
             });
         });
-    state.tree.rows = rows;
+    cx.state.tree.rows = rows;
 }
 
-fn search(ui: &mut Ui, query: &mut String) {
-    let width = ui.available_width() - control_size(ui) - ui.spacing().item_spacing.x;
-    let field = TextEdit::singleline(query)
-        .id_salt("search")
-        .hint_text("Number or name")
-        .text_color(Tokens::of(ui).text)
-        .char_limit(64)
-        .margin(vec2(8.0, 6.0))
-        .min_size(vec2(0.0, control_size(ui)))
-        .align(Align2::LEFT_CENTER)
-        .desired_width(width);
-    let response = ui.add(field);
-    response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Search bones"));
-    // Esc clears the search and does nothing else.
-    if response.lost_focus() && ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, Key::Escape)) {
-        query.clear();
-    }
-}
-
-fn menu(ui: &mut Ui, session: &Session, state: &mut SkeletonState, commands: &mut Vec<Command>) {
+fn menu(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
     let dots = push_button(ui, Icon::Dots, "Names and branches");
     let name = tell_popup(ui, &dots, HasPopup::Menu);
     Popup::menu(&dots).accessible_name(name).show(|ui| {
         ui.set_width(206.0);
         let mut chosen = true;
         if menu_item(ui, "Propose mirrored names…", MenuLine::Action).clicked() {
-            state.naming.proposing = true;
-        } else if !session.joint_names().is_empty() && menu_item(ui, "Clear names", MenuLine::Action).clicked() {
-            commands.push(NameCommand::Clear.into());
+            cx.state.naming.proposing = true;
+        } else if !cx.session.joint_names().is_empty() && menu_item(ui, "Clear names", MenuLine::Action).clicked() {
+            cx.push(NameCommand::Clear);
         } else if menu_item(ui, "Fold all", MenuLine::Action).clicked() {
-            commands.push(JointCommand::SetAllFolded(true).into());
+            cx.push(JointCommand::SetAllFolded(true));
         } else if menu_item(ui, "Unfold all", MenuLine::Action).clicked() {
-            commands.push(JointCommand::SetAllFolded(false).into());
+            cx.push(JointCommand::SetAllFolded(false));
         } else {
             chosen = false;
         }
@@ -230,27 +214,19 @@ impl<'a> TreeRow<'a> {
         }
     }
 
-    fn show(
-        &self,
-        ui: &mut Ui,
-        rect: Rect,
-        indent: &Indent,
-        session: &Session,
-        state: &mut SkeletonState,
-        commands: &mut Vec<Command>,
-    ) -> Response {
+    fn show(&self, ui: &mut Ui, rect: Rect, indent: &Indent, cx: &mut Cx<'_, SkeletonState>) -> Response {
         let tokens = Tokens::of(ui);
         let joint = self.row.joint;
         let response = ui.interact(rect, row_id(ui, joint), row_sense(self.is_stop));
         let over = response.contains_pointer() && !is_touch(ui);
         paint_row_ground(ui, rect, &response, self.selected, over || self.hovered);
         if over {
-            state.hovered = Some(joint);
+            cx.state.hovered = Some(joint);
         }
         if response.has_focus() {
-            state.tree.focused = Some(joint);
+            cx.state.tree.focused = Some(joint);
         }
-        self.tell(ui, &response, state, commands);
+        self.tell(ui, &response, cx);
 
         let middle = rect.center().y;
         let number = self.row.bone.to_string();
@@ -258,7 +234,7 @@ impl<'a> TreeRow<'a> {
         ui.painter().text(at, Align2::RIGHT_CENTER, number, font, tokens.faint);
         indent.paint_guides(ui, self.row.depth, rect.y_range());
         let left = indent.left(self.row.depth);
-        let folds = self.show_chevron(ui, &response, pos2(left, middle), commands);
+        let folds = self.show_chevron(ui, &response, pos2(left, middle), cx.commands);
         let mut at = pos2(left + CHEVRON_WIDTH, middle);
         if let Some(color) = self.color {
             ui.painter().circle_filled(at + vec2(4.0, 0.0), 4.0, color);
@@ -266,9 +242,9 @@ impl<'a> TreeRow<'a> {
         }
         let right = self.show_count(ui, rect);
         let name = Rect::from_min_max(pos2(at.x, rect.min.y), pos2(right - 6.0, rect.max.y));
-        if state.naming.of == Some(joint) {
-            if show_field(ui, &mut state.naming, name, &self.label, commands) {
-                state.tree.stop = Some(joint);
+        if cx.state.naming.of == Some(joint) {
+            if show_field(ui, &mut cx.part(|state| &mut state.naming), name, &self.label) {
+                cx.state.tree.stop = Some(joint);
                 focus_row(ui, response.id, rect);
             }
             return response;
@@ -283,11 +259,11 @@ impl<'a> TreeRow<'a> {
 
         // egui counts a double click soon after any other click as a triple click.
         if response.double_clicked() || response.triple_clicked() {
-            state.naming.begin(ui, session, joint);
+            cx.state.naming.begin(ui, cx.session, joint);
         } else if response.clicked() && !folds {
-            commands.push(JointCommand::Select(Some(joint)).into());
+            cx.push(JointCommand::Select(Some(joint)));
             // The row is in view, since it was clicked.
-            state.tree.select_in_place(joint);
+            cx.state.tree.select_in_place(joint);
         }
         response.on_hover_text(self.details())
     }
@@ -307,10 +283,10 @@ impl<'a> TreeRow<'a> {
     }
 
     /// Tells screen readers about the row, and does what they ask for.
-    fn tell(&self, ui: &Ui, response: &Response, state: &mut SkeletonState, commands: &mut Vec<Command>) {
+    fn tell(&self, ui: &Ui, response: &Response, cx: &mut Cx<'_, SkeletonState>) {
         let label = format!("{}, {}", self.label, counted_vertices(self.row.own_vertices));
         if tell_row(ui, response, Role::TreeItem, &label, self.place, self.selected) {
-            state.tree.stop = Some(self.row.joint);
+            cx.state.tree.stop = Some(self.row.joint);
             focus_row(ui, response.id, response.rect);
         }
         let (folds, asked) = if self.row.folded {
@@ -318,7 +294,7 @@ impl<'a> TreeRow<'a> {
         } else {
             (true, Action::Collapse)
         };
-        ui.ctx().accesskit_node_builder(response.id, |node| {
+        tell_node(response, |node| {
             node.set_level(self.row.depth as usize);
             if self.row.has_children {
                 node.set_expanded(folds);
@@ -326,7 +302,7 @@ impl<'a> TreeRow<'a> {
             }
         });
         if self.row.has_children && asks(ui, response.id, asked) {
-            self.fold(folds, commands);
+            self.fold(folds, cx.commands);
         }
     }
 
@@ -342,33 +318,31 @@ impl<'a> TreeRow<'a> {
         ui: &Ui,
         response: &Response,
         (rows, page): (&[JointRow], usize),
-        session: &Session,
-        state: &mut SkeletonState,
-        commands: &mut Vec<Command>,
+        cx: &mut Cx<'_, SkeletonState>,
     ) -> Option<usize> {
         if !response.has_focus() {
             return None;
         }
         let mut to = walked(ui, response.id, self.place, rows.len(), page);
         // A search shows all branches unfolded.
-        let folds = self.row.has_children && state.tree.query.is_empty();
+        let folds = self.row.has_children && cx.state.tree.query.is_empty();
         let mut names = false;
-        let mut types = state.tree.typed.goes_on(ui.input(|input| input.time));
+        let mut types = cx.state.tree.typed.goes_on(ui.input(|input| input.time));
         retain_plain_keys(ui, |key, _| {
             match key {
-                Key::ArrowLeft if folds && !self.row.folded => self.fold(true, commands),
+                Key::ArrowLeft if folds && !self.row.folded => self.fold(true, cx.commands),
                 Key::ArrowLeft => {
                     let above = rows[..self.place].iter();
                     to = above.clone().rposition(|row| row.depth < self.row.depth).or(to);
                 }
-                Key::ArrowRight if folds && self.row.folded => self.fold(false, commands),
+                Key::ArrowRight if folds && self.row.folded => self.fold(false, cx.commands),
                 Key::ArrowRight if self.row.has_children => to = Some(self.place + 1),
                 Key::ArrowRight => {}
                 Key::F2 => names = true,
                 // What is typed comes as text too. A letter is a shortcut only where no bone begins with it.
                 key if is_letter_or_digit(key) => {
                     let letter = key.name().to_lowercase();
-                    types |= rows.iter().any(|row| begins(row, session, &letter));
+                    types |= rows.iter().any(|row| begins(row, cx.session, &letter));
                     return !types;
                 }
                 _ => return true,
@@ -376,9 +350,9 @@ impl<'a> TreeRow<'a> {
             false
         });
         if names {
-            state.naming.begin_by_key(ui, session, self.row.joint);
+            cx.state.naming.begin_by_key(ui, cx.session, self.row.joint);
         }
-        self.jump(ui, rows, session, &mut state.tree).or(to)
+        self.jump(ui, rows, cx.session, &mut cx.state.tree).or(to)
     }
 
     /// The place of the next row that what was typed begins: its number, its name or a word of it.
@@ -446,11 +420,11 @@ impl<'a> TreeRow<'a> {
         } else {
             grouped(count as usize)
         };
-        let (font, color) = (FontId::proportional(11.5), Tokens::of(ui).faint);
-        let drawn = ui
-            .painter()
-            .text(rect.right_center(), Align2::RIGHT_CENTER, text, font, color);
-        drawn.min.x
+        let (painter, font, color) = (ui.painter(), FontId::proportional(11.5), Tokens::of(ui).faint);
+        painter
+            .text(rect.right_center(), Align2::RIGHT_CENTER, text, font, color)
+            .min
+            .x
     }
 }
 

@@ -11,11 +11,12 @@ use super::numbers::{
 use super::state::SkeletonState;
 use super::walk::{focus_row, labelled, tell_row};
 use crate::anim::{ExplainedInfluence, VertexExplanation};
-use crate::session::{Command, JointCommand, Session};
+use crate::session::{JointCommand, Session};
+use crate::ui::cx::Cx;
 use crate::ui::theme::{self, MARGIN, Tokens};
 use crate::ui::widgets::{
-    elided_name, explained, is_touch, paint_fold_mark, paint_name, paint_row_ground, pressed_row, pressed_row_height,
-    rule, section_name, section_with_labelled_action, selected_heading, walked,
+    Row, elided_name, explained, is_touch, paint_fold_mark, paint_row_ground, pressed_row_height, rule, section_name,
+    section_with_labelled_action, selected_heading, walked,
 };
 use crate::ui::wording::grouped;
 
@@ -32,20 +33,14 @@ const NAMES_FRACTION: f32 = 0.45;
 const BAR_GAP: f32 = 8.0;
 const BAR_END: f32 = 52.0;
 
-pub(super) fn show(
-    ui: &mut Ui,
-    session: &Session,
-    state: &mut SkeletonState,
-    explanation: &VertexExplanation,
-    commands: &mut Vec<Command>,
-) {
+pub(super) fn show(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, explanation: &VertexExplanation) {
     let name = format!("Vertex {}", grouped(explanation.vertex as usize));
     if selected_heading(ui, &name, Tokens::of(ui).accent, None) {
-        commands.push(JointCommand::SelectVertex(None).into());
+        cx.push(JointCommand::SelectVertex(None));
     }
     rule(ui, MARGIN);
-    let triangle = session.joints().selected_triangle();
-    let corners = triangle.and_then(|triangle| session.open_model()?.model.mesh.triangle(triangle));
+    let triangle = cx.session.joints().selected_triangle();
+    let corners = triangle.and_then(|triangle| cx.session.open_model()?.model.mesh.triangle(triangle));
     if let (Some(triangle), Some([a, b, c])) = (triangle, corners) {
         let [triangle, a, b, c] = [triangle, a, b, c].map(|number| grouped(number as usize));
         let words = format!("First corner of triangle {triangle}, which has vertices {a}, {b} and {c}.");
@@ -60,26 +55,26 @@ pub(super) fn show(
     let count = explanation.influences.len();
     if count > 0 {
         labelled(ui, Role::ListBox, "Weights of the vertex", count, |ui| {
-            let names_width = names_width(ui, session, explanation);
+            let names_width = names_width(ui, cx.session, explanation);
             for slot in 0..count {
-                influence_bar(ui, session, state, explanation, (slot, names_width), commands);
+                influence_bar(ui, cx, explanation, (slot, names_width));
             }
         });
     }
     rule(ui, MARGIN);
-    let action = if state.explains {
+    let action = if cx.state.explains {
         ("Hide", "Hide the explanation")
     } else {
         ("Explain this vertex", "Explain this vertex")
     };
     if section_with_labelled_action(ui, "Place now", Some(action)) {
-        state.explains = !state.explains;
+        cx.state.explains = !cx.state.explains;
     }
-    if state.explains {
-        show_sum(ui, session, state, explanation);
+    if cx.state.explains {
+        show_sum(ui, cx, explanation);
         return;
     }
-    let digits = state.reading.digits;
+    let digits = cx.state.reading.digits;
     row(ui, "Bind", &digits.place(explanation.bind_position.to_array()));
     row(ui, "Place", &digits.place(explanation.position.to_array()));
 }
@@ -100,39 +95,36 @@ fn names_width(ui: &Ui, session: &Session, explanation: &VertexExplanation) -> f
 /// A joint, a bar as long as its weight, and the weight.
 fn influence_bar(
     ui: &mut Ui,
-    session: &Session,
-    state: &mut SkeletonState,
+    cx: &mut Cx<'_, SkeletonState>,
     explanation: &VertexExplanation,
     (slot, names_width): (usize, f32),
-    commands: &mut Vec<Command>,
 ) {
     let tokens = Tokens::of(ui);
     let influence = &explanation.influences[slot];
-    let selected = session.joints().selected() == Some(influence.joint);
+    let selected = cx.session.joints().selected() == Some(influence.joint);
     let size = vec2(ui.available_width(), pressed_row_height(ui));
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     let id_of = |slot: usize| Id::unique("weight").with((ui.layer_id(), slot));
     let response = ui.interact(rect, id_of(slot), Sense::click());
     paint_row_ground(ui, rect, &response, selected, response.contains_pointer());
     if response.contains_pointer() && !is_touch(ui) {
-        state.hovered = Some(influence.joint);
+        cx.state.hovered = Some(influence.joint);
     }
-    let name = session.joint_label(influence.joint);
+    let name = cx.session.joint_label(influence.joint);
     let color = if selected { tokens.accent } else { tokens.text };
-    let font = FontId::proportional(13.0);
-    paint_name(ui.painter(), rect.left_center(), &name, font, color, names_width);
-    let y = rect.center().y;
+    let mut row = Row::of(ui, rect, response);
+    let weight = format!("{:.3}", influence.weight);
+    row.right_in(theme::mono(11.5), &weight, tokens.text);
+    row.right = row.left + names_width;
+    row.name(&name, color);
+    let (response, y) = (row.response, row.y);
     let bar = |fraction: f32| {
-        let (left, right) = (rect.min.x + names_width + BAR_GAP, rect.max.x - BAR_END);
+        let (left, right) = (row.right + BAR_GAP, rect.max.x - BAR_END);
         Rect::from_min_max(pos2(left, y - 2.5), pos2(left + fraction * (right - left), y + 2.5))
     };
     ui.painter().rect_filled(bar(1.0), 2.5, tokens.field_hovered);
     ui.painter()
         .rect_filled(bar(influence.weight.clamp(0.0, 1.0)), 2.5, tokens.accent);
-    let weight = format!("{:.3}", influence.weight);
-    let (right, font) = (rect.right_center(), theme::mono(11.5));
-    ui.painter()
-        .text(right, Align2::RIGHT_CENTER, &weight, font, tokens.text);
     let label = format!("{name}: weight {weight}");
     if tell_row(ui, &response, Role::ListBoxOption, &label, slot, selected) {
         focus_row(ui, response.id, rect);
@@ -144,24 +136,24 @@ fn influence_bar(
     }
     if response.clicked() {
         // The vertex stays selected beside its bone.
-        commands.push(JointCommand::Select(Some(influence.joint)).into());
-        commands.push(JointCommand::SelectVertex(Some(explanation.vertex)).into());
+        cx.push(JointCommand::Select(Some(influence.joint)));
+        cx.push(JointCommand::SelectVertex(Some(explanation.vertex)));
     }
 }
 
 /// The book's formula for one vertex with its present numbers, step by step: `v' = w0·v·F0 + w1·v·F1 + …` with `F = offset · toRoot`,
 /// row vectors. One line for the bind position, two for each influence (or all its matrices), one for the sum.
-fn show_sum(ui: &mut Ui, session: &Session, state: &mut SkeletonState, explanation: &VertexExplanation) {
+fn show_sum(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, explanation: &VertexExplanation) {
     let tokens = Tokens::of(ui);
-    let digits = state.reading.digits;
+    let digits = cx.state.reading.digits;
     show_formula(ui, explanation.influences.len());
     ui.add_space(4.0);
     let label = Formula::new(LABEL_SIZE, tokens.muted).plain("Bind place ").bold("v");
     let bind = explanation.bind_position.to_array();
     show_line(ui, "Bind", label.into_job(), &digits.place(bind));
-    for (slot, influence) in explanation.influences.iter().enumerate() {
+    for slot in 0..explanation.influences.len() {
         ui.add_space(5.0);
-        show_influence(ui, session, state, explanation, (slot, influence));
+        show_influence(ui, cx, explanation, slot);
     }
     rule_over_numbers(ui);
     let label = Formula::new(LABEL_SIZE, tokens.text)
@@ -174,7 +166,7 @@ fn show_sum(ui: &mut Ui, session: &Session, state: &mut SkeletonState, explanati
     let copy = ("Copy as text", "Copy: the sum of the vertex as text");
     if section_with_labelled_action(ui, "All numbers", Some(copy)) {
         ui.ctx()
-            .copy_text(explanation.to_text(|joint| session.joint_name(joint)));
+            .copy_text(explanation.to_text(|joint| cx.session.joint_name(joint)));
     }
 }
 
@@ -198,15 +190,11 @@ fn show_formula(ui: &mut Ui, influences: usize) {
 }
 
 /// One influence: its row, its matrices when unfolded, and its term of the sum.
-fn show_influence(
-    ui: &mut Ui,
-    session: &Session,
-    state: &mut SkeletonState,
-    explanation: &VertexExplanation,
-    (slot, influence): (usize, &ExplainedInfluence),
-) {
+fn show_influence(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, explanation: &VertexExplanation, slot: usize) {
     let tokens = Tokens::of(ui);
+    let Cx { session, state, .. } = cx;
     let digits = state.reading.digits;
+    let influence = &explanation.influences[slot];
     let name = session.joint_label(influence.joint);
     let unfolded = state.unfolded.get(slot).copied().unwrap_or_default();
     let pressed = influence_row(ui, state, &name, unfolded, (slot, influence));
@@ -258,58 +246,45 @@ fn influence_row(
     (slot, influence): (usize, &ExplainedInfluence),
 ) -> bool {
     let tokens = Tokens::of(ui);
-    let (rect, response) = pressed_row(ui, false);
-    let over = response.contains_pointer() && !is_touch(ui);
+    let mut row = Row::pressed(ui, false);
+    let over = row.response.contains_pointer() && !is_touch(ui);
     if over {
         state.hovered = Some(influence.joint);
     }
-    let center = rect.left_center() + vec2(4.0, 0.0);
-    let color = tokens.muted_to_text(over || response.has_focus());
+    let center = row.rect.left_center() + vec2(4.0, 0.0);
+    let color = tokens.muted_to_text(over || row.response.has_focus());
     paint_fold_mark(ui.painter(), center, !unfolded, color);
 
     let weight = format!("{:.3}", influence.weight);
-    let (right, font) = (rect.right_center(), theme::mono(11.0));
-    let drawn = ui
-        .painter()
-        .text(right, Align2::RIGHT_CENTER, &weight, font, tokens.text);
+    row.right_in(theme::mono(11.0), &weight, tokens.text);
     let symbol = Formula::new(LABEL_SIZE, tokens.muted)
         .plain("w")
         .below(slot)
         .plain(" =");
     let galley = ui.painter().layout_job(symbol.into_job());
-    let left = drawn.min.x - 6.0 - galley.size().x;
-    let at = pos2(left, rect.center().y - 0.5 * galley.size().y);
+    row.right = row.right - 6.0 - galley.size().x;
+    let at = pos2(row.right, row.y - 0.5 * galley.size().y);
     ui.painter().galley(at, galley, tokens.muted);
-    let (at, font) = (
-        rect.left_center() + vec2(CHEVRON_WIDTH, 0.0),
-        FontId::proportional(13.0),
-    );
-    paint_name(ui.painter(), at, name, font, tokens.text, left - 8.0 - at.x);
+    row.left += CHEVRON_WIDTH;
+    row.right -= 8.0;
+    row.name(name, tokens.text);
     let verb = if unfolded { "Fold" } else { "Unfold" };
-    response.widget_info(|| {
-        WidgetInfo::selected(
-            Role::Button,
-            true,
-            unfolded,
-            format!("{verb} the matrices of {name}, weight {weight}"),
-        )
-    });
-    response.clicked()
+    let label = format!("{verb} the matrices of {name}, weight {weight}");
+    row.response
+        .widget_info(|| WidgetInfo::selected(Role::Button, true, unfolded, &label));
+    row.response.clicked()
 }
 
 /// The caption of a matrix: its symbol, and in words what it does.
 fn caption(ui: &mut Ui, symbol: Formula, words: &str, sentence: &str) {
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), LINE_HEIGHT + 3.0), Sense::hover());
+    let mut row = Row::new(ui, LINE_HEIGHT + 3.0);
     let galley = ui.painter().layout_job(symbol.into_job());
-    let y = rect.center().y + 1.5;
-    let at = pos2(rect.min.x, y - 0.5 * galley.size().y);
+    row.y += 1.5;
+    let at = pos2(row.left, row.y - 0.5 * galley.size().y);
     ui.painter().galley(at, galley, tokens.text);
-    let font = FontId::proportional(11.0);
-    ui.painter()
-        .text(pos2(rect.max.x, y), Align2::RIGHT_CENTER, words, font, tokens.faint);
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));
-    explained(response, sentence);
+    row.right_in(FontId::proportional(11.0), words, tokens.faint);
+    explained(row.told(Role::Label, words), sentence);
 }
 
 /// `0.6676 ×` and a row of the final matrix: four such lines add up to the product.
@@ -317,11 +292,8 @@ fn product_line(ui: &mut Ui, spoken: &str, factor: &str, numbers: &[String; 3]) 
     let tokens = Tokens::of(ui);
     let line = Rect::from_min_size(ui.cursor().min, vec2(ui.available_width(), LINE_HEIGHT));
     let end = pos2(line.max.x - 3.0 * number_column(line.width()), line.center().y);
-    let times = ui
-        .painter()
-        .text(end, Align2::RIGHT_CENTER, "×", theme::mono(11.0), tokens.faint);
-    let at = pos2(times.min.x - 4.0, end.y);
-    ui.painter()
-        .text(at, Align2::RIGHT_CENTER, factor, theme::mono(11.0), tokens.muted);
+    let (painter, anchor, font) = (ui.painter(), Align2::RIGHT_CENTER, theme::mono(11.0));
+    let times = painter.text(end, anchor, "×", font.clone(), tokens.faint);
+    painter.text(pos2(times.min.x - 4.0, end.y), anchor, factor, font, tokens.muted);
     show_line(ui, spoken, LayoutJob::default(), numbers);
 }

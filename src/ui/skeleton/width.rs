@@ -5,7 +5,7 @@ use egui::{CursorIcon, Rangef, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2};
 
 use super::walk::asks;
 use crate::ui::theme::Tokens;
-use crate::ui::widgets::{arrow_steps, is_touch};
+use crate::ui::widgets::{arrow_steps, is_touch, tell_node};
 
 /// The greatest width of the panel, in points and as a fraction of the window.
 const MOST: f32 = 520.0;
@@ -35,7 +35,7 @@ pub(in crate::ui) fn show_handle(ui: &Ui, panel: Rect, least: f32) -> Option<f32
         ui.painter().vline(panel.max.x + 3.0, y, stroke);
     }
     response.widget_info(|| WidgetInfo::labeled(Role::Splitter, true, "Width of the panel"));
-    ui.ctx().accesskit_node_builder(response.id, |node| {
+    tell_node(&response, |node| {
         node.set_orientation(Orientation::Vertical);
         node.set_numeric_value(panel.width().into());
         node.add_action(Action::Increment);

@@ -9,10 +9,12 @@ use egui::{
 use super::axis::TimeAxis;
 use super::loop_gap::LoopGapReading;
 use super::marks::{MarkShape, mark_radius};
+use super::state::TimelineState;
 use super::time_area::{self, SLIDER_KEYS};
 use crate::actions;
 use crate::model::Clip;
-use crate::session::{Command, PlayCommand, Session};
+use crate::session::{PlayCommand, Session};
+use crate::ui::cx::Cx;
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{SliderNode, focus_ring, focused_keys, is_touch};
 
@@ -30,31 +32,31 @@ enum End {
     Out,
 }
 
-pub(super) fn show(ui: &mut Ui, session: &Session, gap: &LoopGapReading, size: Vec2, commands: &mut Vec<Command>) {
+pub(super) fn show(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>, size: Vec2) {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
     let response = response.on_hover_cursor(CursorIcon::PointingHand);
-    let Some(clip) = session.clip() else { return };
+    let Some(clip) = cx.session.clip() else { return };
     ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field);
     focus_ring(ui, rect, &response);
 
     let axis = TimeAxis::new(rect.x_range(), END_ROOM, [clip.start_secs, clip.end_secs]);
-    paint_range(ui, session, &axis, rect);
+    paint_range(ui, cx.session, &axis, rect);
     let mut shape = MarkShape::new(ui);
     let radius = mark_radius(axis.points_per_sec() / clip.keys_per_sec);
-    shape.add(session.key_times(None), &axis, rect.center().y, radius, tokens.muted);
+    shape.add(cx.session.key_times(None), &axis, rect.center().y, radius, tokens.muted);
     shape.paint(ui.painter());
-    time_area::scrub(&response, &axis, commands);
+    time_area::scrub(&response, &axis, cx.commands);
     if !response.dragged() {
         time_area::paint_pointer(ui, &response, &axis, rect.y_range());
     }
-    time_area::paint_head(ui, session, &axis, rect.y_range());
-    time_area::time_slider(ui, session, clip, "Time", &response, commands);
+    time_area::paint_head(ui, cx.session, &axis, rect.y_range());
+    time_area::time_slider(ui, cx, clip, "Time", &response);
 
     for end in [End::In, End::Out] {
-        grip(ui, session, clip, end, &axis, rect, commands);
+        grip(ui, cx, clip, end, &axis, rect);
     }
-    loop_gap_tick(ui, gap, &axis, rect);
+    loop_gap_tick(ui, &cx.state.loop_gap, &axis, rect);
 }
 
 /// The range that plays, unless it is the whole clip.
@@ -67,8 +69,8 @@ fn paint_range(ui: &Ui, session: &Session, axis: &TimeAxis, rect: Rect) {
 }
 
 /// An end of the range: a bracket that is dragged from frame to frame.
-fn grip(ui: &Ui, session: &Session, clip: &Clip, end: End, axis: &TimeAxis, rect: Rect, commands: &mut Vec<Command>) {
-    let [in_secs, out_secs] = session.playback().played_secs();
+fn grip(ui: &Ui, cx: &mut Cx<'_, TimelineState>, clip: &Clip, end: End, axis: &TimeAxis, rect: Rect) {
+    let [in_secs, out_secs] = cx.session.playback().played_secs();
     // A clip of one frame has no range.
     if clip.last_frame() == 0 {
         return;
@@ -78,7 +80,7 @@ fn grip(ui: &Ui, session: &Session, clip: &Clip, end: End, axis: &TimeAxis, rect
         End::Out => (out_secs, -1.0, "Range out"),
     };
     let x = axis.x_of(secs);
-    let head = axis.x_of(session.playback().time_secs());
+    let head = axis.x_of(cx.session.playback().time_secs());
     let [outside, inside] = match is_touch(ui) {
         true if (head - x).abs() < 2.0 * TOUCH_GRIP[1] => TOUCH_GRIP_BY_HEAD,
         true => TOUCH_GRIP,
@@ -111,15 +113,15 @@ fn grip(ui: &Ui, session: &Session, clip: &Clip, end: End, axis: &TimeAxis, rect
         }
     });
     if let Some(frame) = asked_frame {
-        commands.push(match end {
+        cx.commands.push(match end {
             End::In => PlayCommand::SetRangeStart(Some(clip.time_of_frame(frame.min(*frames.end())))).into(),
             End::Out => PlayCommand::SetRangeEnd(Some(clip.time_of_frame(frame.max(*frames.start())))).into(),
         });
     }
     if response.double_clicked() {
-        commands.push(PlayCommand::ClearRange.into());
+        cx.push(PlayCommand::ClearRange);
     }
-    paint_bracket(ui, session, &response, pos2(x, rect.center().y), sign, rect.height());
+    paint_bracket(ui, cx.session, &response, pos2(x, rect.center().y), sign, rect.height());
     let here = if end == End::In {
         &actions::RANGE_IN
     } else {
@@ -140,20 +142,10 @@ fn grip(ui: &Ui, session: &Session, clip: &Clip, end: End, axis: &TimeAxis, rect
 fn steps_of_keys(ui: &Ui, response: &Response, frame: u32, frames: &RangeInclusive<u32>) -> i32 {
     let keys = focused_keys(ui, response, SLIDER_KEYS).into_iter();
     let steps = keys.map(|(key, shift)| match key {
-        Key::ArrowRight | Key::ArrowUp => {
-            if shift {
-                10
-            } else {
-                1
-            }
-        }
-        Key::ArrowLeft | Key::ArrowDown => {
-            if shift {
-                -10
-            } else {
-                -1
-            }
-        }
+        Key::ArrowRight | Key::ArrowUp if shift => 10,
+        Key::ArrowRight | Key::ArrowUp => 1,
+        Key::ArrowLeft | Key::ArrowDown if shift => -10,
+        Key::ArrowLeft | Key::ArrowDown => -1,
         Key::PageUp => 10,
         Key::PageDown => -10,
         Key::Home => *frames.start() as i32 - frame as i32,
@@ -187,15 +179,13 @@ fn loop_gap_tick(ui: &Ui, gap: &LoopGapReading, axis: &TimeAxis, rect: Rect) {
     let (Some(words), Some(at_secs)) = (gap.words(), gap.seen_at_secs()) else {
         return;
     };
-    let color = Tokens::of(ui).warning;
+    let (painter, color) = (ui.painter(), Tokens::of(ui).warning);
     let x = axis.x_of(at_secs);
     let at = pos2(x, rect.min.y + 1.0);
     let corners = [vec2(-4.0, 0.0), vec2(4.0, 0.0), vec2(0.0, 5.5)].map(|offset| at + offset);
-    ui.painter()
-        .add(Shape::convex_polygon(corners.into(), color, Stroke::NONE));
+    painter.add(Shape::convex_polygon(corners.into(), color, Stroke::NONE));
     let below = Rangef::new(rect.min.y + 4.0, rect.max.y - 1.0);
-    ui.painter()
-        .vline(x, below, Stroke::new(1.0, color.gamma_multiply(0.5)));
+    painter.vline(x, below, Stroke::new(1.0, color.gamma_multiply(0.5)));
     let target = Rect::from_center_size(at + vec2(0.0, 4.0), vec2(14.0, 12.0));
     let response = ui.interact(target, ui.scope_id().with("loop gap"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words));

@@ -4,14 +4,15 @@ use egui::{Align2, FontId, Popup, Rangef, Rect, Response, Role, Sense, Ui, Widge
 
 use super::controls::tell_choice;
 use crate::actions;
-use crate::session::{ClipSummary, Command, DEFAULT_CROSSFADE_SECS, OpenModel, PlayCommand, Session};
+use crate::session::{ClipSummary, Command, DEFAULT_CROSSFADE_SECS, OpenModel, PlayCommand};
+use crate::ui::cx::Cx;
 use crate::ui::icons::Icon;
 use crate::ui::panel::{popover_above, popover_gap, scrolled};
 use crate::ui::state::{Request, UiState};
-use crate::ui::theme::{CONTROL_RADIUS, Tokens};
+use crate::ui::theme::Tokens;
 use crate::ui::widgets::{
-    Slider, TextButton, choices, control_size, focus_ring, is_touch, paint_elided, paint_name, row_icon, section_name,
-    section_with_action, tell_push,
+    Slider, TextButton, choices, control_size, focus_ring, is_touch, paint_elided, paint_list_ground, paint_name,
+    row_icon, section_name, section_with_action, tell_node, tell_push,
 };
 use crate::ui::wording::{counted, trimmed};
 
@@ -22,26 +23,25 @@ const ROWS: f32 = 6.0;
 const LONGEST_CROSSFADE: f32 = 2.0;
 
 /// The button with the clip's name, and the list that it opens.
-pub(super) fn button(ui: &mut Ui, session: &Session, state: &mut UiState, width: Rangef, commands: &mut Vec<Command>) {
-    let Some(open) = session.open_model() else { return };
-    let name = session.clip().map_or("", |clip| clip.name.as_str());
+pub(super) fn button(ui: &mut Ui, cx: &mut Cx<'_, UiState>, width: Rangef) {
+    let Some(open) = cx.session.open_model() else { return };
+    let name = cx.session.clip().map_or("", |clip| clip.name.as_str());
     let response = TextButton::new(name, "Clip").list().width(width).show(ui);
     tell_choice(&response, "Clip", name);
     let response = response.on_hover_text(format!("{name}\nNext clip: {}", actions::NEXT_CLIP.key()));
     popover_above(ui, (&response, "Clip"), WIDTH, |ui| {
         ui.spacing_mut().item_spacing.y = 2.0;
         section_name(ui, &counted(open.model.clips.len(), "clip"));
-        let shown = choices(ui, "Clip", |ui| list(ui, session, open, commands));
+        let shown = choices(ui, "Clip", |ui| list(ui, cx, open));
         ui.add_space(4.0);
         let add = TextButton::new("Add clips…", "Add clips…").icon(Icon::Plus).show(ui);
-        ui.ctx()
-            .accesskit_node_builder(add.id, |node| node.set_author_id("clips"));
+        tell_node(&add, |node| node.set_author_id("clips"));
         if add.clicked() {
-            state.requests.push(Request::PickClips);
+            cx.state.requests.push(Request::PickClips);
         }
         if open.model.clips.len() > 1 {
             popover_gap(ui);
-            mixing(ui, session, open, commands);
+            mixing(ui, cx, open);
         }
         if shown {
             Popup::close_all(ui.ctx());
@@ -50,15 +50,15 @@ pub(super) fn button(ui: &mut Ui, session: &Session, state: &mut UiState, width:
 }
 
 /// A row for each clip. Returns whether one was chosen.
-fn list(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<Command>) -> bool {
+fn list(ui: &mut Ui, cx: &mut Cx<'_, UiState>, open: &OpenModel) -> bool {
     let mut chosen = false;
     let height = row_height(ui);
     let count = open.model.clips.len();
     let list = scrolled("clips", ROWS * (height + 2.0)).auto_shrink([false, true]);
     list.show_rows(ui, height, count, |ui, seen| {
         for (index, summary) in open.clip_list().enumerate().skip(seen.start).take(seen.len()) {
-            if row(ui, session, index, &summary, commands) {
-                commands.push(PlayCommand::SelectClip(index).into());
+            if row(ui, cx, index, &summary) {
+                cx.push(PlayCommand::SelectClip(index));
                 chosen = true;
             }
         }
@@ -71,15 +71,11 @@ fn row_height(ui: &Ui) -> f32 {
 }
 
 /// One clip: its name, below it its facts. Returns whether it was chosen.
-fn row(ui: &mut Ui, session: &Session, index: usize, clip: &ClipSummary<'_>, commands: &mut Vec<Command>) -> bool {
+fn row(ui: &mut Ui, cx: &mut Cx<'_, UiState>, index: usize, clip: &ClipSummary<'_>) -> bool {
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), row_height(ui)), Sense::click());
-    let on = session.clip_index() == Some(index);
-    if on {
-        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.accent_ground);
-    } else if response.contains_pointer() || response.has_focus() {
-        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field_hovered);
-    }
+    let on = cx.session.clip_index() == Some(index);
+    paint_list_ground(ui, rect, on, response.contains_pointer() || response.has_focus());
     focus_ring(ui, rect, &response);
     let facts = format!(
         "{:.2}–{:.2} s · {} · {} a second · {}",
@@ -92,43 +88,21 @@ fn row(ui: &mut Ui, session: &Session, index: usize, clip: &ClipSummary<'_>, com
     let icon_width = if is_touch(ui) { rect.height() } else { 28.0 };
     let room = rect.width() - 14.0 - icon_width;
     let color = if on { tokens.accent } else { tokens.text };
-    let name_at = pos2(rect.min.x + 9.0, rect.center().y - 8.0);
-    paint_name(
-        ui.painter(),
-        name_at,
-        clip.name,
-        FontId::proportional(13.0),
-        color,
-        room,
-    );
-    let facts_at = pos2(rect.min.x + 9.0, rect.center().y + 9.0);
-    paint_elided(
-        ui.painter(),
-        facts_at,
-        &facts,
-        FontId::proportional(11.0),
-        tokens.muted,
-        room,
-    );
+    let at = rect.left_center() + vec2(9.0, -8.0);
+    paint_name(ui.painter(), at, clip.name, FontId::proportional(13.0), color, room);
+    let (at, font) = (rect.left_center() + vec2(9.0, 9.0), FontId::proportional(11.0));
+    paint_elided(ui.painter(), at, &facts, font, tokens.muted, room);
     response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, on, format!("{}, {facts}", clip.name)));
     if !on {
         let place = Rect::from_min_max(pos2(rect.max.x - icon_width, rect.min.y), rect.max);
-        blend_icon(ui, session, index, clip.name, place, &response, commands);
+        blend_icon(ui, cx, index, clip.name, place, &response);
     }
     response.clicked()
 }
 
 /// The icon that blends a clip into the open one, or ends the blend.
-fn blend_icon(
-    ui: &Ui,
-    session: &Session,
-    index: usize,
-    name: &str,
-    place: Rect,
-    row: &Response,
-    commands: &mut Vec<Command>,
-) {
-    let on = session.blend().is_some_and(|blend| blend.clip == index);
+fn blend_icon(ui: &Ui, cx: &mut Cx<'_, UiState>, index: usize, name: &str, place: Rect, row: &Response) {
+    let on = cx.session.blend().is_some_and(|blend| blend.clip == index);
     let label = if on {
         format!("End the blend with {name}")
     } else {
@@ -137,7 +111,7 @@ fn blend_icon(
     let icon = row_icon(ui, place, row, Icon::Blend, &label, on);
     tell_push(&icon);
     if icon.clicked() {
-        commands.push(if on {
+        cx.commands.push(if on {
             PlayCommand::ClearBlend.into()
         } else {
             Command::Play(PlayCommand::SetBlend {
@@ -148,29 +122,29 @@ fn blend_icon(
     }
 }
 
-fn mixing(ui: &mut Ui, session: &Session, open: &OpenModel, commands: &mut Vec<Command>) {
-    let secs = session.crossfade_secs();
+fn mixing(ui: &mut Ui, cx: &mut Cx<'_, UiState>, open: &OpenModel) {
+    let secs = cx.session.crossfade_secs();
     let text = format!("{secs:.2} s");
     let fade = Slider::new("Crossfade", secs, 0.0..=LONGEST_CROSSFADE, &text).reset_to(DEFAULT_CROSSFADE_SECS);
     if let Some(secs) = fade.show(ui) {
-        commands.push(PlayCommand::SetCrossfade(secs).into());
+        cx.push(PlayCommand::SetCrossfade(secs));
     }
-    let Some(blend) = session.blend() else { return };
-    let names = [session.clip_index(), Some(blend.clip)].map(|clip| {
+    let Some(blend) = cx.session.blend() else { return };
+    let names = [cx.session.clip_index(), Some(blend.clip)].map(|clip| {
         let clip = clip.and_then(|clip| open.model.clips.get(clip));
         clip.map_or("", |clip| clip.name.as_str())
     });
     popover_gap(ui);
     if section_with_action(ui, "Blend", Some("End")) {
-        commands.push(PlayCommand::ClearBlend.into());
+        cx.push(PlayCommand::ClearBlend);
     }
     let text = format!("{:.0} %", blend.weight * 100.0);
     let weight = Slider::new("Weight", blend.weight, 0.0..=1.0, &text).reset_to(0.5);
     if let Some(weight) = weight.show(ui) {
-        commands.push(Command::Play(PlayCommand::SetBlend {
+        cx.push(PlayCommand::SetBlend {
             clip: blend.clip,
             weight,
-        }));
+        });
     }
     paint_clip_names(ui, names);
 }
@@ -182,21 +156,9 @@ fn paint_clip_names(ui: &mut Ui, [left, right]: [&str; 2]) {
     let font = FontId::proportional(11.0);
     let ends = Rangef::new(rect.min.x + 90.0, rect.max.x - 56.0);
     let half = ends.span() * 0.5 - 4.0;
+    let [left_at, right_at] = [ends.min, ends.max].map(|x| pos2(x, rect.center().y));
     let painter = ui.painter();
-    paint_name(
-        painter,
-        pos2(ends.min, rect.center().y),
-        left,
-        font.clone(),
-        color,
-        half,
-    );
+    paint_name(painter, left_at, left, font.clone(), color, half);
     let clipped = painter.with_clip_rect(Rect::from_x_y_ranges(ends.center()..=ends.max, rect.y_range()));
-    clipped.text(
-        pos2(ends.max, rect.center().y),
-        Align2::RIGHT_CENTER,
-        right,
-        font,
-        color,
-    );
+    clipped.text(right_at, Align2::RIGHT_CENTER, right, font, color);
 }

@@ -6,30 +6,25 @@ use super::typed::{self, Unit};
 use crate::actions;
 use crate::anim::Direction;
 use crate::model::Clip;
-use crate::session::{Command, PlayCommand, Session};
+use crate::session::{Command, Session};
+use crate::ui::cx::Cx;
 use crate::ui::icons::{self, Icon};
 use crate::ui::theme::{self, Tokens};
-use crate::ui::widgets::{TypedValue, action_button, control_size, hint_of_name, push_action, push_button};
+use crate::ui::widgets::{TypedValue, action_button, control_size, hint_of_name, push_action, push_button, tell_node};
 use crate::ui::wording::trimmed;
 
 /// The round button that plays and pauses.
 pub(super) fn play_button(ui: &mut Ui, session: &Session, diameter: f32, commands: &mut Vec<Command>) {
     let playing = session.playback().is_playing();
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(diameter), Sense::click());
-    let tokens = Tokens::of(ui);
+    let (tokens, painter, center) = (Tokens::of(ui), ui.painter(), rect.center());
     let lift = if response.hovered() { 1.0 } else { 0.92 };
-    ui.painter()
-        .circle_filled(rect.center(), diameter * 0.5, tokens.accent.gamma_multiply(lift));
+    painter.circle_filled(center, diameter * 0.5, tokens.accent.gamma_multiply(lift));
     if response.has_focus() {
-        ui.painter()
-            .circle_stroke(rect.center(), diameter * 0.5 + 2.0, Stroke::new(1.5, tokens.accent));
+        painter.circle_stroke(center, diameter * 0.5 + 2.0, Stroke::new(1.5, tokens.accent));
     }
-    icons::paint(
-        ui.painter(),
-        rect,
-        if playing { Icon::Pause } else { Icon::Play },
-        tokens.on_accent,
-    );
+    let icon = if playing { Icon::Pause } else { Icon::Play };
+    icons::paint(painter, rect, icon, tokens.on_accent);
     let label = if playing {
         actions::PLAY.hint_of("Pause")
     } else {
@@ -133,14 +128,8 @@ impl ReadoutWidths {
 }
 
 /// The time in seconds, of how many if `with_end`.
-pub(super) fn time_readout(
-    ui: &mut Ui,
-    session: &Session,
-    clip: &Clip,
-    (width, with_end): (f32, bool),
-    commands: &mut Vec<Command>,
-) {
-    let typed = format!("{:.3}", session.playback().time_secs());
+pub(super) fn time_readout<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, clip: &Clip, (width, with_end): (f32, bool)) {
+    let typed = format!("{:.3}", cx.session.playback().time_secs());
     let text = if with_end {
         format!("{typed} / {:.3} s", clip.end_secs)
     } else {
@@ -150,12 +139,14 @@ pub(super) fn time_readout(
         .width(width)
         .show(ui, |typed| typed::time(typed, clip, Unit::Secs));
     response.on_hover_text("Time, and where the clip ends\nClick to type seconds, 0.33, or a frame, f20");
-    go_to(time_secs, commands);
+    if let Some(time_secs) = time_secs {
+        cx.pause_at(time_secs);
+    }
 }
 
 /// The frame nearest to the time, of how many.
-pub(super) fn frame_readout(ui: &mut Ui, session: &Session, clip: &Clip, width: f32, commands: &mut Vec<Command>) {
-    let frame = clip.frame_at(session.playback().time_secs());
+pub(super) fn frame_readout<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, clip: &Clip, width: f32) {
+    let frame = clip.frame_at(cx.session.playback().time_secs());
     let text = format!("{frame} / {}", clip.last_frame());
     let muted = Tokens::of(ui).muted;
     let (time_secs, response) = TypedValue::new(ui, "Frame", &text, &frame.to_string())
@@ -166,21 +157,13 @@ pub(super) fn frame_readout(ui: &mut Ui, session: &Session, clip: &Clip, width: 
     response.on_hover_text(format!(
         "Frame at {rate} keys a second\nClick to type a frame, 20, or seconds, 0.33 s"
     ));
-    go_to(time_secs, commands);
-}
-
-/// Pauses at a time that was typed. A clip that played on would leave it at once.
-fn go_to(time_secs: Option<f32>, commands: &mut Vec<Command>) {
     if let Some(time_secs) = time_secs {
-        commands.push(PlayCommand::Pause.into());
-        commands.push(PlayCommand::Seek { time_secs }.into());
+        cx.pause_at(time_secs);
     }
 }
 
 /// Tells screen readers of a button that opens choices, and which one is in force.
 pub(super) fn tell_choice(response: &Response, name: &str, value: &str) {
     response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
-    response
-        .ctx
-        .accesskit_node_builder(response.id, |node| node.set_value(value));
+    tell_node(response, |node| node.set_value(value));
 }

@@ -10,9 +10,10 @@ use super::state::{KeyBox, KeyCursor, TimelineState};
 use super::time_area::{self, GRID_KEYS};
 use super::value_axis::ValueAxis;
 use crate::model::{Clip, JointIndex};
-use crate::session::{Command, OpenModel, PlayCommand, Session};
+use crate::session::Session;
+use crate::ui::cx::Cx;
 use crate::ui::theme::Tokens;
-use crate::ui::widgets::focused_keys;
+use crate::ui::widgets::{focused_keys, tell_node};
 
 /// Tells of the curves as a grid, in which the key that the keyboard is on is the only cell. The legend has the values at the time.
 pub(super) fn tell(response: &Response, session: &Session, curves: &Curves, joint: JointIndex) {
@@ -20,45 +21,34 @@ pub(super) fn tell(response: &Response, session: &Session, curves: &Curves, join
         let (name, part) = (session.joint_label(joint), curves.part_name());
         WidgetInfo::labeled(Role::Grid, true, format!("Curves of {name}, {part}"))
     });
-    response
-        .ctx
-        .accesskit_node_builder(response.id, |node| node.remove_action(Action::Click));
+    tell_node(response, |node| node.remove_action(Action::Click));
 }
 
 /// Keys of the focused curves: left and right from key to key, up and down from line to line, Enter goes to the key.
-pub(super) fn read(
-    ui: &Ui,
-    response: &Response,
-    session: &Session,
-    clip: &Clip,
-    joint: JointIndex,
-    state: &mut TimelineState,
-    commands: &mut Vec<Command>,
-) {
+pub(super) fn read(ui: &Ui, response: &Response, cx: &mut Cx<'_, TimelineState>, clip: &Clip, joint: JointIndex) {
     if !response.has_focus() {
         return;
     }
-    let keys = RowKeys([session.key_times(Some(joint)), &[]]);
-    let here = state.cursor.filter(|cursor| cursor.joint == joint);
+    let keys = RowKeys([cx.session.key_times(Some(joint)), &[]]);
+    let here = cx.state.cursor.filter(|cursor| cursor.joint == joint);
     let mut secs = here.and_then(|cursor| cursor.key_secs);
-    secs = secs.or_else(|| keys.nearest(session.playback().time_secs()));
+    secs = secs.or_else(|| keys.nearest(cx.session.playback().time_secs()));
     let mut chooses = here.is_some_and(|cursor| cursor.chooses);
-    let channels = state.curves.channels().len();
-    state.curves.channel = state.curves.channel.min(channels - 1);
+    let channels = cx.state.curves.channels().len();
+    cx.state.curves.channel = cx.state.curves.channel.min(channels - 1);
     for (key, shift) in focused_keys(ui, response, &GRID_KEYS) {
         let Some(before_secs) = secs else { continue };
         let to_secs = match key {
             Key::ArrowUp => {
-                state.curves.channel = (state.curves.channel + channels - 1) % channels;
+                cx.state.curves.channel = (cx.state.curves.channel + channels - 1) % channels;
                 continue;
             }
             Key::ArrowDown => {
-                state.curves.channel = (state.curves.channel + 1) % channels;
+                cx.state.curves.channel = (cx.state.curves.channel + 1) % channels;
                 continue;
             }
             Key::Enter | Key::Space => {
-                commands.push(PlayCommand::Pause.into());
-                commands.push(PlayCommand::Seek { time_secs: before_secs }.into());
+                cx.pause_at(before_secs);
                 continue;
             }
             Key::ArrowLeft | Key::PageDown => keys.before(before_secs),
@@ -68,48 +58,36 @@ pub(super) fn read(
         };
         let to_secs = to_secs.unwrap_or(before_secs);
         if shift {
-            let key_box = match &mut state.key_box {
+            let key_box = match &mut cx.state.key_box {
                 Some(key_box) if chooses => key_box,
                 key_box => key_box.insert(KeyBox::at((before_secs, 0.5))),
             };
             let joints = [joint];
             key_box.stretch((to_secs, 0.5), |row| (row == 0).then_some(&joints[..]));
         } else {
-            state.key_box = None;
+            cx.state.key_box = None;
         }
         chooses = shift;
         secs = Some(to_secs);
-        time_area::bring_into_view(clip, to_secs, state);
+        time_area::bring_into_view(clip, to_secs, cx.state);
     }
-    state.cursor = Some(KeyCursor {
+    cx.state.cursor = Some(KeyCursor {
         chooses,
         ..KeyCursor::at(joint, secs)
     });
 }
 
-/// The time span of chosen keys, on the ruler.
-pub(super) fn paint_chosen(ui: &Ui, state: &TimelineState, joint: JointIndex, axis: &TimeAxis, ruler: Rect) {
-    let key_box = state.key_box.as_ref();
-    if let Some(key_box) = key_box.filter(|key_box| key_box.joints.contains(&joint)) {
-        let [start, end] = key_box.span_secs.map(|secs| axis.points().clamp(axis.x_of(secs)));
-        let band = Rect::from_x_y_ranges(start..=end, ruler.y_range());
-        ui.painter().rect_filled(band, 0.0, Tokens::of(ui).accent_ground);
-    }
-}
-
 /// Draws a ring round the key that the keyboard is on, and tells of it. Before the keyboard was on one it is the first.
-#[expect(clippy::too_many_arguments, reason = "what is drawn, and where")]
 pub(super) fn show_cursor(
     ui: &mut Ui,
+    Cx { session, state, .. }: &Cx<'_, TimelineState>,
     response: &Response,
-    session: &Session,
-    open: &OpenModel,
-    clip: &Clip,
     joint: JointIndex,
-    state: &TimelineState,
-    axis: &TimeAxis,
-    values: &ValueAxis,
+    (axis, values): (&TimeAxis, &ValueAxis),
 ) {
+    let (Some(open), Some(clip)) = (session.open_model(), session.clip()) else {
+        return;
+    };
     let times = session.key_times(Some(joint));
     let cursor = state.cursor.filter(|cursor| cursor.joint == joint);
     let secs = cursor.and_then(|cursor| cursor.key_secs).or(times.first().copied());
@@ -136,6 +114,5 @@ pub(super) fn show_cursor(
     let child = ui.new_child(row.accessibility_role(Role::Row));
     let key = child.interact(Rect::from_center_size(at, vec2(12.0, 12.0)), id, Sense::hover());
     key.widget_info(|| WidgetInfo::labeled(Role::GridCell, true, &words));
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_active_descendant(id.accesskit_id()));
+    tell_node(response, |node| node.set_active_descendant(id.accesskit_id()));
 }

@@ -13,9 +13,10 @@ use super::time_area::{self, RULER_HEIGHT, segmented_of_width, split_x};
 use super::value_axis::ValueAxis;
 use crate::anim::{CurvePoint, CurveSpace, JointActivity};
 use crate::model::JointIndex;
-use crate::session::{Command, JointCommand, Session};
+use crate::session::{Command, JointCommand};
+use crate::ui::cx::Cx;
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
-use crate::ui::widgets::{TextButton, control_size, focus_ring, is_touch, paint_name};
+use crate::ui::widgets::{Row, TextButton, control_size, focus_ring, is_touch, paint_name, tell_node};
 
 const SAMPLE_SPACING: f32 = 2.0;
 /// The most samples, more than any screen needs.
@@ -45,8 +46,9 @@ pub(super) fn controls(ui: &mut Ui, curves: &mut Curves) {
 }
 
 /// The curves. Fills the rest of the sheet.
-pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands: &mut Vec<Command>) {
-    let (Some(open), Some(clip_index), Some(clip)) = (session.open_model(), session.clip_index(), session.clip())
+pub(super) fn show(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>) {
+    let (Some(open), Some(clip_index), Some(clip)) =
+        (cx.session.open_model(), cx.session.clip_index(), cx.session.clip())
     else {
         return;
     };
@@ -54,55 +56,59 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, co
     let split = split_x(area);
     let plot = Rect::from_min_max(pos2(split, area.min.y), area.max);
     ui.painter().rect_filled(plot, CONTROL_RADIUS, Tokens::of(ui).field);
-    let Some(joint) = session.joints().selected() else {
-        offer_joint(ui, plot, open.activity(clip_index).unwrap_or_default(), commands);
+    let Some(joint) = cx.session.joints().selected() else {
+        offer_joint(ui, plot, open.activity(clip_index).unwrap_or_default(), cx.commands);
         return;
     };
-    let span_secs = state.window.span_secs([clip.start_secs, clip.end_secs]);
+    let span_secs = cx.state.window.span_secs([clip.start_secs, clip.end_secs]);
     let axis = TimeAxis::new(plot.x_range(), END_ROOM, span_secs);
     let count = (axis.points().span() / SAMPLE_SPACING).ceil().max(1.0) as usize + 1;
     let of = SampledOf {
         curve: CurveOf {
-            clips_revision: session.clips_revision(),
+            clips_revision: cx.session.clips_revision(),
             clip: clip_index,
             joint,
-            space: state.curves.space,
+            space: cx.state.curves.space,
         },
         span_secs,
         count: count.min(MOST_SAMPLES),
     };
-    state.curves.sample(session, open, of);
+    cx.state.curves.sample(cx.session, open, of);
 
     let ruler_rect = Rect::from_min_max(plot.min, pos2(plot.max.x, plot.min.y + RULER_HEIGHT));
     time_area::paint_ruler(ui, clip, &axis, ruler_rect, plot.max.y);
     let lines_rect = Rect::from_min_max(pos2(plot.min.x, ruler_rect.max.y), plot.max);
-    let values = paint_lines(ui, &state.curves, &axis, lines_rect, area.min.x);
+    let values = paint_lines(ui, &cx.state.curves, &axis, lines_rect, area.min.x);
     paint_keys(
         ui,
-        &state.curves,
+        &cx.state.curves,
         open.key_times(clip_index, Some(joint)),
         &axis,
         &values,
     );
 
     let response = ui.interact(lines_rect, ui.scope_id().with("curves"), Sense::click_and_drag());
-    curve_keys::tell(&response, session, &state.curves, joint);
+    curve_keys::tell(&response, cx.session, &cx.state.curves, joint);
     focus_ring(ui, lines_rect, &response);
-    curve_keys::read(ui, &response, session, clip, joint, state, commands);
-    curve_keys::paint_chosen(ui, state, joint, &axis, ruler_rect);
-    curve_keys::show_cursor(ui, &response, session, open, clip, joint, state, &axis, &values);
-    time_area::scrub(&response, &axis, commands);
-    let ruler = time_area::ruler(ui, session, &axis, ruler_rect, commands);
+    curve_keys::read(ui, &response, cx, clip, joint);
+    let chosen = cx.state.key_box.as_ref();
+    if let Some(key_box) = chosen.filter(|key_box| key_box.joints.contains(&joint)) {
+        time_area::paint_chosen(ui, key_box, &axis, ruler_rect);
+    }
+    curve_keys::show_cursor(ui, cx, &response, joint, (&axis, &values));
+    time_area::scrub(&response, &axis, cx.commands);
+    let ruler = time_area::ruler(ui, cx, &axis, ruler_rect);
     let read_secs = response
         .hover_pos()
         .filter(|_| !response.dragged())
-        .map_or(session.playback().time_secs(), |at| axis.seen_time_at(at.x));
-    let read = state.curves.point_at(session, open, read_secs);
-    paint_legend(ui, session, &mut state.curves, joint, &read, area, split);
+        .map_or(cx.session.playback().time_secs(), |at| axis.seen_time_at(at.x));
+    let read = cx.state.curves.point_at(cx.session, open, read_secs);
+    let name = cx.session.joint_label(joint);
+    paint_legend(ui, &mut cx.state.curves, &name, &read, area, split);
     time_area::paint_pointer(ui, &response, &axis, lines_rect.y_range());
-    time_area::paint_head_below_ruler(ui, session, &axis, ruler_rect, plot.max.y);
-    time_area::navigate(ui, &response, clip, &axis, state, false);
-    time_area::navigate(ui, &ruler, clip, &axis, state, false);
+    time_area::paint_head_below_ruler(ui, cx.session, &axis, ruler_rect, plot.max.y);
+    time_area::navigate(ui, &response, clip, &axis, cx.state, false);
+    time_area::navigate(ui, &ruler, clip, &axis, cx.state, false);
 }
 
 /// Width of names and values, left of the lines.
@@ -204,24 +210,16 @@ fn paint_keys(ui: &Ui, curves: &Curves, times_secs: &[f32], axis: &TimeAxis, val
 }
 
 /// The joint and its values at a time, left of the lines.
-fn paint_legend(
-    ui: &Ui,
-    session: &Session,
-    curves: &mut Curves,
-    joint: JointIndex,
-    read: &CurvePoint,
-    area: Rect,
-    split: f32,
-) {
+fn paint_legend(ui: &Ui, curves: &mut Curves, joint_name: &str, read: &CurvePoint, area: Rect, split: f32) {
     let tokens = Tokens::of(ui);
     let painter = ui.painter();
     let left = area.min.x + 6.0;
     let middle = area.min.y + 0.5 * RULER_HEIGHT;
-    let (at, name) = (pos2(left, middle), session.joint_label(joint));
+    let at = pos2(left, middle);
     paint_name(
         painter,
         at,
-        &name,
+        joint_name,
         theme::semibold(12.5),
         tokens.text,
         split - 4.0 - left,
@@ -234,9 +232,10 @@ fn paint_legend(
     let time = format!("{:.3} s", read.time_secs);
     let time_row = Rect::from_x_y_ranges(left..=end, y_of(0) - 0.5 * step..=y_of(0) + 0.5 * step);
     let response = ui.interact(time_row, ui.scope_id().with("time"), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("t {time}")));
-    painter.text(pos2(left, y_of(0)), Align2::LEFT_CENTER, "t", font(), tokens.muted);
-    painter.text(pos2(end, y_of(0)), Align2::RIGHT_CENTER, time, font(), tokens.text);
+    let mut row = Row::of(ui, time_row, response);
+    row.left_in(font(), "t", tokens.muted);
+    row.right_in(font(), &time, tokens.text);
+    row.told(Role::Label, format!("t {time}"));
     let part = curves.part_name();
     for (channel, name) in curves.channels().iter().enumerate() {
         let (y, shown) = (y_of(channel + 1), !curves.hidden[channel]);
@@ -255,8 +254,7 @@ fn paint_legend(
         let value = curves.written(read, channel);
         painter.text(pos2(end, y), Align2::RIGHT_CENTER, &value, font(), color);
         response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, shown, format!("{part} {name}")));
-        ui.ctx()
-            .accesskit_node_builder(response.id, |node| node.set_value(value.as_str()));
+        tell_node(&response, |node| node.set_value(value.as_str()));
         let hint = if shown { "Hide this line" } else { "Show this line" };
         if response.on_hover_text(hint).clicked() {
             curves.hidden[channel] = shown;

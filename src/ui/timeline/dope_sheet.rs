@@ -12,7 +12,8 @@ use super::state::{KeyBox, KeyCursor, TimelineState};
 use super::time_area::{self, RULER_HEIGHT, split_x};
 use crate::anim::JointActivity;
 use crate::model::{Clip, JointIndex};
-use crate::session::{Command, JointCommand, OpenModel, PlayCommand, Session};
+use crate::session::{JointCommand, OpenModel, Session};
+use crate::ui::cx::Cx;
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::widgets::{by_finger, is_touch, pressed_row_height};
 use crate::ui::wording::counted;
@@ -37,16 +38,17 @@ pub(super) struct Sheet<'a> {
 }
 
 /// The dope sheet. Fills the rest of the sheet.
-pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands: &mut Vec<Command>) {
-    let (Some(open), Some(clip_index), Some(clip)) = (session.open_model(), session.clip_index(), session.clip())
+pub(super) fn show(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>) {
+    let (Some(open), Some(clip_index), Some(clip)) =
+        (cx.session.open_model(), cx.session.clip_index(), cx.session.clip())
     else {
         return;
     };
     let area = ui.available_rect_before_wrap();
     let split = split_x(area);
-    let span_secs = state.window.span_secs([clip.start_secs, clip.end_secs]);
+    let span_secs = cx.state.window.span_secs([clip.start_secs, clip.end_secs]);
     let sheet = Sheet {
-        session,
+        session: cx.session,
         open,
         clip_index,
         clip,
@@ -55,13 +57,13 @@ pub(super) fn show(ui: &mut Ui, session: &Session, state: &mut TimelineState, co
         area,
         split,
         row_height: pressed_row_height(ui),
-        by_motion: state.rows.by_motion,
+        by_motion: cx.state.rows.by_motion,
     };
-    sheet.show(ui, state, commands);
+    sheet.show(ui, cx);
 }
 
 impl Sheet<'_> {
-    fn show(&self, ui: &mut Ui, state: &mut TimelineState, commands: &mut Vec<Command>) {
+    fn show(&self, ui: &mut Ui, cx: &mut Cx<'_, TimelineState>) {
         let tokens = Tokens::of(ui);
         let area = self.area;
         let ruler_rect = Rect::from_min_max(
@@ -74,13 +76,15 @@ impl Sheet<'_> {
         let at = pos2(area.min.x + 6.0, ruler_rect.center().y);
         ui.painter()
             .text(at, Align2::LEFT_CENTER, count, FontId::proportional(11.0), tokens.faint);
-        self.paint_box_span(ui, state, ruler_rect);
+        if let Some(key_box) = &cx.state.key_box {
+            time_area::paint_chosen(ui, key_box, &self.axis, ruler_rect);
+        }
         time_area::paint_ruler(ui, self.clip, &self.axis, ruler_rect, area.max.y);
-        let response = time_area::ruler(ui, self.session, &self.axis, ruler_rect, commands);
-        time_area::navigate(ui, &response, self.clip, &self.axis, state, false);
+        let response = time_area::ruler(ui, cx, &self.axis, ruler_rect);
+        time_area::navigate(ui, &response, self.clip, &self.axis, cx.state, false);
 
         let body = Rect::from_min_max(pos2(area.min.x, ruler_rect.max.y), area.max);
-        self.show_rows(ui, body, state, commands);
+        self.show_rows(ui, body, cx);
         let over = ui.painter().clip_rect();
         ui.set_clip_rect(over.intersect(time_rect));
         self.paint_range_ends(ui, ruler_rect);
@@ -88,8 +92,8 @@ impl Sheet<'_> {
         ui.set_clip_rect(over);
     }
 
-    fn show_rows(&self, ui: &mut Ui, body: Rect, state: &mut TimelineState, commands: &mut Vec<Command>) {
-        let mut rows = std::mem::take(&mut state.rows);
+    fn show_rows(&self, ui: &mut Ui, body: Rect, cx: &mut Cx<'_, TimelineState>) {
+        let mut rows = std::mem::take(&mut cx.state.rows);
         rows.update(self.session, self.open, self.clip_index);
         let count = rows.all().len();
         let mut ui = ui.new_child(UiBuilder::new().max_rect(body).id_salt("rows"));
@@ -102,12 +106,12 @@ impl Sheet<'_> {
             .auto_shrink(false)
             .max_height(body.height())
             .min_scrolled_height(body.height());
-        if state.keys_open(ui.ctx().cumulative_frame_nr())
+        if cx.state.keys_open(ui.ctx().cumulative_frame_nr())
             && let Some(offset) = self.offset_of_selected(rows.all(), body.height())
         {
             // At once, so that no other rows are seen before.
             area = area.vertical_scroll_offset(offset);
-            state.revealed = self.session.joints().selected();
+            cx.state.revealed = self.session.joints().selected();
         }
         area.show_rows(&mut ui, self.row_height, count, |ui, seen| {
             rows.merge_folded(seen.clone(), self.session, self.open, self.clip_index);
@@ -116,8 +120,8 @@ impl Sheet<'_> {
             let response = ui.interact(keys, ui.scope_id().with("keys"), Sense::click_and_drag());
             self.tell_grid(&response, count);
             let mut shape = MarkShape::new(ui);
-            self.reveal(ui, rows.all(), top, state);
-            self.read_keys(ui, &response, &mut rows, top, state, commands);
+            self.reveal(ui, rows.all(), top, cx.state);
+            self.read_keys(ui, &response, &mut rows, top, cx);
             for (index, row) in seen.clone().zip(rows.seen(seen)) {
                 let size = vec2(self.area.width(), self.row_height);
                 let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
@@ -125,12 +129,12 @@ impl Sheet<'_> {
                 let mut ui = ui.new_child(place.accessibility_parent(response.id).accessibility_role(Role::Row));
                 ui.ctx()
                     .accesskit_node_builder(ui.unique_id(), |node| node.set_row_index(index));
-                let name = self.show_row(&mut ui, row, &response, state, &mut shape, commands);
-                self.show_cursor(&ui, &response, row.row, &name, &rows, state);
+                let name = self.show_row(&mut ui, row, &response, cx, &mut shape);
+                self.show_cursor(&ui, &response, row.row, &name, &rows, cx.state);
             }
             shape.paint(&ui.painter().with_clip_rect(keys.intersect(ui.clip_rect())));
-            self.press_keys(ui, &response, &rows, top, state, commands);
-            time_area::navigate(ui, &response, self.clip, &self.axis, state, true);
+            self.press_keys(ui, &response, &rows, top, cx);
+            time_area::navigate(ui, &response, self.clip, &self.axis, cx.state, true);
             if by_finger(ui) && response.dragged() {
                 ui.scroll_with_delta(vec2(0.0, response.drag_delta().y));
             }
@@ -139,21 +143,11 @@ impl Sheet<'_> {
                 time_area::paint_pointer(ui, &response, &self.axis, keys.y_range());
             }
         });
-        state.rows = rows;
+        cx.state.rows = rows;
     }
 
     pub(super) fn key_times(&self, joint: JointIndex) -> &[f32] {
         self.open.key_times(self.clip_index, Some(joint))
-    }
-
-    /// The time span of the box, on the ruler.
-    fn paint_box_span(&self, ui: &Ui, state: &TimelineState, ruler_rect: Rect) {
-        let Some(key_box) = &state.key_box else { return };
-        let [start, end] = key_box
-            .span_secs
-            .map(|secs| self.axis.points().clamp(self.axis.x_of(secs)));
-        let band = Rect::from_x_y_ranges(start..=end, ruler_rect.y_range());
-        ui.painter().rect_filled(band, 0.0, Tokens::of(ui).accent_ground);
     }
 
     /// Lines where the range begins and ends.
@@ -174,15 +168,7 @@ impl Sheet<'_> {
 
 impl Sheet<'_> {
     /// A click goes to a key; a drag draws a box.
-    fn press_keys(
-        &self,
-        ui: &Ui,
-        response: &Response,
-        rows: &Rows,
-        top: f32,
-        state: &mut TimelineState,
-        commands: &mut Vec<Command>,
-    ) {
+    fn press_keys(&self, ui: &Ui, response: &Response, rows: &Rows, top: f32, cx: &mut Cx<'_, TimelineState>) {
         let row_at = |at: Pos2| (at.y - top) / self.row_height;
         let corner = |at: Pos2| (self.axis.seen_time_at(at.x), row_at(at));
         let pointer = response.interact_pointer_pos();
@@ -191,10 +177,10 @@ impl Sheet<'_> {
             && boxes
             && let Some(origin) = ui.input(|input| input.pointer.press_origin())
         {
-            state.key_box = Some(KeyBox::at(corner(origin)));
+            cx.state.key_box = Some(KeyBox::at(corner(origin)));
         }
         if response.dragged_by(PointerButton::Primary)
-            && let (true, Some(pointer), Some(key_box)) = (boxes, pointer, &mut state.key_box)
+            && let (true, Some(pointer), Some(key_box)) = (boxes, pointer, &mut cx.state.key_box)
         {
             let pointer = pointer.clamp(response.rect.min, response.rect.max);
             key_box.stretch(corner(pointer), |row| rows.joints_of(self.session, row));
@@ -215,16 +201,14 @@ impl Sheet<'_> {
         if let Some((joint, time_secs)) = key {
             ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
             if clicked {
-                state.revealed = Some(joint);
-                state.cursor = Some(KeyCursor::at(joint, Some(time_secs)));
-                commands.push(JointCommand::Select(Some(joint)).into());
-                // Playing on would leave the key at once.
-                commands.push(PlayCommand::Pause.into());
-                commands.push(PlayCommand::Seek { time_secs }.into());
+                cx.state.revealed = Some(joint);
+                cx.state.cursor = Some(KeyCursor::at(joint, Some(time_secs)));
+                cx.push(JointCommand::Select(Some(joint)));
+                cx.pause_at(time_secs);
             }
         }
         if clicked {
-            state.key_box = None;
+            cx.state.key_box = None;
         }
     }
 

@@ -1,9 +1,7 @@
 //! One row of the dope sheet: a joint's name and its keys.
 
 use egui::accesskit::Action;
-use egui::{
-    Align2, FontId, Rangef, Rect, RectAlign, Response, Role, Sense, Tooltip, Ui, UiBuilder, WidgetInfo, pos2, vec2,
-};
+use egui::{FontId, Rangef, Rect, RectAlign, Response, Role, Sense, Tooltip, Ui, UiBuilder, WidgetInfo, vec2};
 
 use super::axis::END_ROOM;
 use super::dope_sheet::Sheet;
@@ -13,8 +11,9 @@ use super::state::TimelineState;
 use crate::anim::JointActivity;
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand};
-use crate::ui::theme::{CONTROL_RADIUS, Tokens};
-use crate::ui::widgets::{is_touch, paint_fold_mark, paint_name};
+use crate::ui::cx::Cx;
+use crate::ui::theme::Tokens;
+use crate::ui::widgets::{self, is_touch, paint_fold_mark, paint_list_ground};
 use crate::ui::wording::{counted, measured};
 
 /// Indent of each level of the tree.
@@ -112,9 +111,8 @@ impl Sheet<'_> {
         ui: &mut Ui,
         SeenRow { row, folded }: SeenRow<'_>,
         keys: &Response,
-        state: &mut TimelineState,
+        cx: &mut Cx<'_, TimelineState>,
         shape: &mut MarkShape,
-        commands: &mut Vec<Command>,
     ) -> Response {
         let (tokens, rect) = (Tokens::of(ui), ui.max_rect());
         let name_rect = Rect::from_x_y_ranges(rect.min.x..=self.split - 4.0, rect.y_range());
@@ -128,16 +126,16 @@ impl Sheet<'_> {
         }
         let pointed = keys.hover_pos().is_some_and(|at| rect.y_range().contains(at.y));
         if pointed {
-            state.hovered = Some(row.joint);
+            cx.state.hovered = Some(row.joint);
         }
         if self.session.joints().hovered() == Some(row.joint) {
             ui.painter().rect_filled(time_rect, 0.0, tokens.field);
         }
-        let name = self.name_cell(ui, row, folded, name_rect, state, commands);
+        let name = self.name_cell(ui, row, folded, name_rect, cx);
         if let Some(branch) = folded {
-            self.add_folded_marks(row.joint, branch, rect.center().y, state, &tokens, shape);
+            self.add_folded_marks(row.joint, branch, rect.center().y, cx.state, &tokens, shape);
         }
-        self.add_marks(row.joint, activity, rect.center().y, state, &tokens, shape);
+        self.add_marks(row.joint, activity, rect.center().y, cx.state, &tokens, shape);
         name
     }
 
@@ -148,8 +146,7 @@ impl Sheet<'_> {
         row: &Row,
         folded: Option<&FoldedBranch>,
         rect: Rect,
-        state: &mut TimelineState,
-        commands: &mut Vec<Command>,
+        cx: &mut Cx<'_, TimelineState>,
     ) -> Response {
         let tokens = Tokens::of(ui);
         let id = ui.scope_id().with(("row", row.joint.0));
@@ -158,13 +155,9 @@ impl Sheet<'_> {
         let joints = self.session.joints();
         let selected = joints.selected() == Some(row.joint);
         if response.contains_pointer() && !is_touch(ui) {
-            state.hovered = Some(row.joint);
+            cx.state.hovered = Some(row.joint);
         }
-        if selected {
-            ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.accent_ground);
-        } else if joints.hovered() == Some(row.joint) {
-            ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field_hovered);
-        }
+        paint_list_ground(ui, rect, selected, joints.hovered() == Some(row.joint));
         let name = self.session.joint_label(row.joint);
         response.widget_info(|| {
             let mut label = format!("{name}, {}", counted(self.key_times(row.joint).len(), "key"));
@@ -189,12 +182,12 @@ impl Sheet<'_> {
         let (joint, folded_now) = (row.joint, row.folded);
         if row.below > 0 && asks_for(if folded_now { Action::Expand } else { Action::Collapse }) {
             let folded = !folded_now;
-            commands.push(JointCommand::SetFolded { joint, folded }.into());
+            cx.push(JointCommand::SetFolded { joint, folded });
         }
         if response.clicked() {
             let joint = (!selected).then_some(row.joint);
-            state.revealed = joint;
-            commands.push(JointCommand::Select(joint).into());
+            cx.state.revealed = joint;
+            cx.push(JointCommand::Select(joint));
         }
 
         // Deep joints of a slim column keep room for their names.
@@ -202,21 +195,21 @@ impl Sheet<'_> {
         let (indent, deepest) = if slim { (0.5 * INDENT, 0.2) } else { (INDENT, 0.4) };
         let left = rect.min.x + 4.0 + (row.depth as f32 * indent).min(deepest * rect.width());
         let chevron_width = if self.by_motion { 4.0 } else { 16.0 };
-        let mut right = rect.max.x - 6.0;
+        let mut words = widgets::Row::of(ui, rect, response);
+        words.right -= 6.0;
         let amount = self.by_motion.then(|| percent(self.activity_of(row.joint).fraction));
         if let Some(count) = amount.or_else(|| row.folded.then(|| format!("+{}", row.below))) {
-            let at = pos2(right, rect.center().y);
-            let font = FontId::proportional(11.0);
-            let drawn = ui.painter().text(at, Align2::RIGHT_CENTER, count, font, tokens.faint);
-            right = drawn.min.x - 4.0;
+            words.right_in(FontId::proportional(11.0), &count, tokens.faint);
+            words.right -= 4.0;
         }
         let color = if selected { tokens.accent } else { tokens.text };
-        let at = pos2(left + chevron_width, rect.center().y);
-        paint_name(ui.painter(), at, &name, FontId::proportional(12.5), color, right - at.x);
+        words.left = left + chevron_width;
+        words.name_in(FontId::proportional(12.5), &name, color);
+        let response = words.response;
         if row.below > 0 {
             let place = Rect::from_x_y_ranges(left..=left + 16.0, rect.y_range());
             let inside = UiBuilder::new().id_salt("fold").accessibility_parent(id);
-            self.fold(&ui.new_child(inside), row, &name, place, commands);
+            self.fold(&ui.new_child(inside), row, &name, place, cx.commands);
         }
         self.tooltip(&response, &self.motion_words(row, folded));
         response

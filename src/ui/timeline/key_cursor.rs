@@ -7,9 +7,10 @@ use super::dope_sheet::Sheet;
 use super::rows::{Row, RowKeys, Rows};
 use super::state::{KeyBox, KeyCursor, TimelineState};
 use super::time_area::{self, GRID_KEYS};
-use crate::session::{Command, JointCommand, PlayCommand};
+use crate::session::JointCommand;
+use crate::ui::cx::Cx;
 use crate::ui::theme::{CONTROL_RADIUS, Tokens};
-use crate::ui::widgets::focused_keys;
+use crate::ui::widgets::{focused_keys, tell_node};
 use crate::ui::wording::counted;
 
 /// Rows that the page keys go by.
@@ -19,7 +20,7 @@ impl Sheet<'_> {
     /// Tells of the sheet as a grid of so many rows.
     pub(super) fn tell_grid(&self, response: &Response, rows: usize) {
         response.widget_info(|| WidgetInfo::labeled(Role::Grid, true, "Keys of all bones"));
-        response.ctx.accesskit_node_builder(response.id, |node| {
+        tell_node(response, |node| {
             node.set_row_count(rows);
             node.remove_action(Action::Click);
         });
@@ -32,16 +33,14 @@ impl Sheet<'_> {
         response: &Response,
         rows: &mut Rows,
         top: f32,
-        state: &mut TimelineState,
-        commands: &mut Vec<Command>,
+        cx: &mut Cx<'_, TimelineState>,
     ) {
         if !response.has_focus() || rows.all().is_empty() {
             return;
         }
         let row_of = |rows: &Rows, joint| rows.all().iter().position(|row| row.joint == joint);
-        let place = state
-            .cursor
-            .and_then(|cursor| Some((cursor, row_of(rows, cursor.joint)?)));
+        let before = cx.state.cursor;
+        let place = before.and_then(|cursor| Some((cursor, row_of(rows, cursor.joint)?)));
         let (mut cursor, mut index) = place.unwrap_or_else(|| {
             let selected = self.session.joints().selected();
             let index = selected.and_then(|joint| row_of(rows, joint)).unwrap_or(0);
@@ -50,7 +49,7 @@ impl Sheet<'_> {
             let key_secs = RowKeys([self.key_times(joint), &[]]).nearest(now_secs);
             (KeyCursor::at(joint, key_secs), index)
         });
-        let came = state.cursor.is_none() || response.gained_focus();
+        let came = before.is_none() || response.gained_focus();
         let keys = focused_keys(ui, response, &GRID_KEYS);
         let moved = came || !keys.is_empty();
         for (key, shift) in keys {
@@ -58,7 +57,7 @@ impl Sheet<'_> {
             let last = rows.all().len() - 1;
             match key {
                 Key::Enter | Key::Space => {
-                    self.press_cell(&cursor, state, commands);
+                    self.press_cell(&cursor, cx);
                     continue;
                 }
                 Key::ArrowUp => index = index.saturating_sub(1),
@@ -77,7 +76,7 @@ impl Sheet<'_> {
                     Key::ArrowLeft | Key::ArrowRight if name && row.below > 0 && !shift => {
                         let folded = key == Key::ArrowLeft;
                         if row.folded != folded {
-                            commands.push(JointCommand::SetFolded { joint, folded }.into());
+                            cx.push(JointCommand::SetFolded { joint, folded });
                             continue;
                         }
                         if key == Key::ArrowRight {
@@ -98,12 +97,12 @@ impl Sheet<'_> {
                 cursor.joint = row.joint;
                 cursor.key_secs = cursor.wanted_secs.and_then(|secs| keys.nearest(secs));
             }
-            self.choose(shift, before, (&mut cursor, index), rows, state);
+            self.choose(shift, before, (&mut cursor, index), rows, cx.state);
         }
         if moved {
-            self.bring_into_view(ui, &cursor, index, top, state);
+            self.bring_into_view(ui, &cursor, index, top, cx.state);
         }
-        state.cursor = Some(cursor);
+        cx.state.cursor = Some(cursor);
     }
 
     fn keys_of<'a>(&'a self, rows: &'a Rows, row: &Row) -> RowKeys<'a> {
@@ -112,18 +111,17 @@ impl Sheet<'_> {
     }
 
     /// Enter on a key goes there; on a name it selects the bone.
-    fn press_cell(&self, cursor: &KeyCursor, state: &mut TimelineState, commands: &mut Vec<Command>) {
+    fn press_cell(&self, cursor: &KeyCursor, cx: &mut Cx<'_, TimelineState>) {
         let joint = Some(cursor.joint);
-        state.revealed = joint;
+        cx.state.revealed = joint;
         match cursor.key_secs {
             Some(time_secs) => {
-                commands.push(JointCommand::Select(joint).into());
-                commands.push(PlayCommand::Pause.into());
-                commands.push(PlayCommand::Seek { time_secs }.into());
+                cx.push(JointCommand::Select(joint));
+                cx.pause_at(time_secs);
             }
             None => {
                 let selected = self.session.joints().selected() == joint;
-                commands.push(JointCommand::Select(joint.filter(|_| !selected)).into());
+                cx.push(JointCommand::Select(joint.filter(|_| !selected)));
             }
         }
     }
@@ -196,8 +194,7 @@ impl Sheet<'_> {
         let stroke = Stroke::new(1.5, Tokens::of(ui).accent);
         ui.painter()
             .rect_stroke(cell.rect, CONTROL_RADIUS, stroke, StrokeKind::Inside);
-        ui.ctx()
-            .accesskit_node_builder(grid.id, |node| node.set_active_descendant(cell.id.accesskit_id()));
+        tell_node(grid, |node| node.set_active_descendant(cell.id.accesskit_id()));
     }
 
     fn cell_words(&self, rows: &Rows, row: &Row, secs: f32) -> String {

@@ -1,6 +1,6 @@
 //! How a clip plays: speed, what happens at the end, the range, and the loop gap.
 
-use egui::{Align2, FontId, Rect, RectAlign, RichText, Role, Sense, Tooltip, Ui, WidgetInfo, pos2, vec2};
+use egui::{FontId, Rect, RectAlign, RichText, Role, Sense, Tooltip, Ui, WidgetInfo, vec2};
 
 use super::controls;
 use super::loop_gap::{LoopGapReading, angle, scale};
@@ -11,10 +11,12 @@ use crate::actions::speed_label;
 use crate::anim::{LoopMode, WrapMode};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, PlayCommand, SPEEDS, Session};
+use crate::ui::cx::Cx;
 use crate::ui::panel::{popover_gap, scrolled};
-use crate::ui::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
+use crate::ui::theme::{self, MARGIN, Tokens};
 use crate::ui::widgets::{
-    TypedValue, focus_ring, is_touch, paint_name, pressed_row_height, section_name, section_with_action, segmented,
+    Row, TypedValue, focus_ring, is_touch, paint_list_ground, pressed_row_height, section_name, section_with_action,
+    segmented,
 };
 use crate::ui::wording::trimmed;
 
@@ -32,27 +34,21 @@ const IN_A_ROW: usize = 5;
 const FIELD_WIDTH: f32 = 78.0;
 
 /// The popover's contents. `with_steps`: with the buttons that step, if the strip has no room for them.
-pub(super) fn show(
-    ui: &mut Ui,
-    session: &Session,
-    state: &mut TimelineState,
-    with_steps: bool,
-    commands: &mut Vec<Command>,
-) {
+pub(super) fn show(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>, with_steps: bool) {
     ui.spacing_mut().item_spacing.y = 4.0;
     if with_steps {
-        controls::all_steps(ui, session, commands);
+        controls::all_steps(ui, cx.session, cx.commands);
         popover_gap(ui);
     }
-    speed(ui, session, commands);
+    speed(ui, cx.session, cx.commands);
     popover_gap(ui);
-    at_the_end(ui, session, commands);
+    at_the_end(ui, cx.session, cx.commands);
     popover_gap(ui);
-    range(ui, session, commands);
-    if state.loop_gap.could_loop() {
+    range(ui, cx.session, cx.commands);
+    if cx.state.loop_gap.could_loop() {
         popover_gap(ui);
-        let loops = state.loop_gap.loops();
-        ui.add_enabled_ui(loops, |ui| loop_gap_list(ui, session, state, commands));
+        let loops = cx.state.loop_gap.loops();
+        ui.add_enabled_ui(loops, |ui| loop_gap_list(ui, cx));
     }
 }
 
@@ -154,9 +150,9 @@ fn range(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 }
 
 /// The loop gap in words, and the jump of each joint.
-fn loop_gap_list(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands: &mut Vec<Command>) {
-    let reading = std::mem::take(&mut state.loop_gap);
-    let of_range = session.playback().range_secs().is_some();
+fn loop_gap_list(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>) {
+    let reading = std::mem::take(&mut cx.state.loop_gap);
+    let of_range = cx.session.playback().range_secs().is_some();
     section_name(
         ui,
         if of_range {
@@ -174,18 +170,12 @@ fn loop_gap_list(ui: &mut Ui, session: &Session, state: &mut TimelineState, comm
     ui.label(RichText::new(words).size(11.5).color(color));
     if reading.any_jumps() {
         ui.add_space(4.0);
-        joint_list(ui, session, &reading, state, commands);
+        joint_list(ui, cx, &reading);
     }
-    state.loop_gap = reading;
+    cx.state.loop_gap = reading;
 }
 
-fn joint_list(
-    ui: &mut Ui,
-    session: &Session,
-    reading: &LoopGapReading,
-    state: &mut TimelineState,
-    commands: &mut Vec<Command>,
-) {
+fn joint_list(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>, reading: &LoopGapReading) {
     captions(ui);
     let height = pressed_row_height(ui);
     let rows = if is_touch(ui) { TOUCH_ROWS } else { ROWS };
@@ -194,7 +184,7 @@ fn joint_list(
         .auto_shrink([false, true])
         .show_rows(ui, height, reading.order().len(), |ui, seen| {
             for &joint in &reading.order()[seen] {
-                joint_row(ui, session, reading, joint, state, commands);
+                joint_row(ui, cx, reading, joint);
             }
         });
 }
@@ -206,45 +196,34 @@ fn columns(rect: Rect) -> [f32; 2] {
 }
 
 fn captions(ui: &mut Ui) {
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 17.0), Sense::hover());
+    let mut row = Row::new(ui, 17.0);
     let (font, color) = (FontId::proportional(11.0), Tokens::of(ui).faint);
-    let y = rect.center().y;
-    let at = pos2(rect.min.x + INSIDE, y);
-    ui.painter().text(at, Align2::LEFT_CENTER, "Bone", font.clone(), color);
-    for (x, caption) in columns(rect).into_iter().zip(["In the model", "To its parent"]) {
-        ui.painter()
-            .text(pos2(x, y), Align2::RIGHT_CENTER, caption, font.clone(), color);
+    row.left += INSIDE;
+    row.left_in(font.clone(), "Bone", color);
+    for (x, caption) in columns(row.rect).into_iter().zip(["In the model", "To its parent"]) {
+        row.right = x;
+        row.right_in(font.clone(), caption, color);
     }
-    response.on_hover_text(
+    row.response.on_hover_text(
         "How far the bone moves in the model, in its units; by what angle it turns relative to its parent",
     );
 }
 
-fn joint_row(
-    ui: &mut Ui,
-    session: &Session,
-    reading: &LoopGapReading,
-    joint: JointIndex,
-    state: &mut TimelineState,
-    commands: &mut Vec<Command>,
-) {
+fn joint_row(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>, reading: &LoopGapReading, joint: JointIndex) {
     let tokens = Tokens::of(ui);
     let size = vec2(ui.available_width(), pressed_row_height(ui));
     let (_, rect) = ui.allocate_space(size);
     let response = ui.interact(rect, ui.scope_id().with(("loop gap of", joint.0)), Sense::click());
-    let joints = session.joints();
+    let joints = cx.session.joints();
     let selected = joints.selected() == Some(joint);
     if response.contains_pointer() && !is_touch(ui) {
-        state.hovered = Some(joint);
+        cx.state.hovered = Some(joint);
     }
-    if selected {
-        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.accent_ground);
-    } else if joints.hovered() == Some(joint) {
-        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field_hovered);
-    }
+    paint_list_ground(ui, rect, selected, joints.hovered() == Some(joint));
     focus_ring(ui, rect, &response);
 
     let jump = Jump::new(reading, joint);
+    let mut row = Row::of(ui, rect, response);
     let [distance_x, angle_x] = columns(rect);
     let numbers = [
         (distance_x, &jump.distance, jump.travel_is_seen),
@@ -256,29 +235,28 @@ fn joint_row(
             (Some(_), true) => tokens.warning,
             (Some(_), false) => tokens.muted,
         };
-        let (at, number) = (pos2(x, rect.center().y), number.as_deref().unwrap_or("0"));
-        ui.painter()
-            .text(at, Align2::RIGHT_CENTER, number, theme::mono(11.5), color);
+        row.right = x;
+        row.right_in(theme::mono(11.5), number.as_deref().unwrap_or("0"), color);
     }
-    let name = session.joint_label(joint);
+    let name = cx.session.joint_label(joint);
     let color = match (selected, jump.is_something()) {
         (true, _) => tokens.accent,
         (false, true) => tokens.text,
         (false, false) => tokens.faint,
     };
-    let at = pos2(rect.min.x + INSIDE, rect.center().y);
-    let room = distance_x - DISTANCE_WIDTH - at.x;
+    (row.left, row.right) = (rect.min.x + INSIDE, distance_x - DISTANCE_WIDTH);
     let words = [Some(name.as_str()), jump.scaled.as_deref()];
     let words = words.into_iter().flatten().collect::<Vec<_>>().join(" ");
-    paint_name(ui.painter(), at, &words, FontId::proportional(12.5), color, room);
+    row.name_in(FontId::proportional(12.5), &words, color);
 
+    let response = row.response;
     response.widget_info(|| {
         let label = format!("Loop gap of {name}: {}", jump.words());
         WidgetInfo::selected(Role::ListItem, ui.is_enabled(), selected, label)
     });
     if response.clicked() {
         let joint = (!selected).then_some(joint);
-        commands.push(JointCommand::Select(joint).into());
+        cx.push(JointCommand::Select(joint));
     }
     // Beside the list, so that it covers no row.
     let mut tooltip = Tooltip::for_enabled(&response);

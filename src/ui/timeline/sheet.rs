@@ -5,11 +5,12 @@ use egui::{CursorIcon, FontId, PointerButton, Rect, Role, Sense, Ui, UiBuilder, 
 use super::state::{SheetTab, TimelineState};
 use super::time_area::segmented_of_width;
 use super::{controls, curve_plot, dope_sheet};
-use crate::session::{Command, JointCommand, PlayCommand, Session};
+use crate::session::{JointCommand, PlayCommand};
+use crate::ui::cx::Cx;
 use crate::ui::icons::Icon;
 use crate::ui::state::UiState;
 use crate::ui::theme::Tokens;
-use crate::ui::widgets::{TextButton, arrow_steps, control_size, icon_button, push_button, tell_push};
+use crate::ui::widgets::{TextButton, arrow_steps, control_size, icon_button, push_button, tell_node, tell_push};
 use crate::ui::wording::counted;
 
 /// Gap between the controls and the sheet.
@@ -18,76 +19,70 @@ const GAP: f32 = 6.0;
 const WITH_TRANSPORT: f32 = 260.0;
 
 /// The sheet of a wide window, with a height.
-pub(super) fn show(
-    ui: &mut Ui,
-    session: &Session,
-    state: &mut TimelineState,
-    height: f32,
-    commands: &mut Vec<Command>,
-) {
+pub(super) fn show(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>, height: f32) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
     let mut child = ui.new_child(UiBuilder::new().max_rect(rect).id_salt("sheet"));
-    contents(&mut child, session, state, commands);
+    contents(&mut child, cx);
 }
 
 /// The sheet as a page of a narrow window, as high as what is available.
-pub(in crate::ui) fn page(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
+pub(in crate::ui) fn page(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     let (rect, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     let mut child = ui.new_child(UiBuilder::new().max_rect(rect).id_salt("sheet"));
     if rect.height() >= WITH_TRANSPORT {
-        controls::all_steps(&mut child, session, commands);
+        controls::all_steps(&mut child, cx.session, cx.commands);
         child.add_space(GAP);
     }
-    contents(&mut child, session, &mut state.timeline, commands);
+    contents(&mut child, &mut cx.part(|state| &mut state.timeline));
 }
 
-fn contents(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands: &mut Vec<Command>) {
+fn contents(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(GAP, 4.0);
         let tabs = [(SheetTab::Keys, "Dope sheet"), (SheetTab::Curves, "Curves")];
-        if let Some(tab) = segmented_of_width(ui, 172.0, "Sheet", &tabs, state.tab) {
-            state.tab = tab;
+        if let Some(tab) = segmented_of_width(ui, 172.0, "Sheet", &tabs, cx.state.tab) {
+            cx.state.tab = tab;
         }
-        match state.tab {
-            SheetTab::Keys => keys_controls(ui, session, state, commands),
-            SheetTab::Curves => curve_plot::controls(ui, &mut state.curves),
+        match cx.state.tab {
+            SheetTab::Keys => keys_controls(ui, cx),
+            SheetTab::Curves => curve_plot::controls(ui, &mut cx.state.curves),
         }
-        chosen_keys(ui, session, state, commands);
-        if state.window.is_part() && push_button(ui, Icon::Frame, "All of the time").clicked() {
-            state.window.show_all();
+        chosen_keys(ui, cx);
+        if cx.state.window.is_part() && push_button(ui, Icon::Frame, "All of the time").clicked() {
+            cx.state.window.show_all();
         }
     });
     ui.add_space(GAP);
-    match state.tab {
-        SheetTab::Keys => dope_sheet::show(ui, session, state, commands),
-        SheetTab::Curves => curve_plot::show(ui, session, state, commands),
+    match cx.state.tab {
+        SheetTab::Keys => dope_sheet::show(ui, cx),
+        SheetTab::Curves => curve_plot::show(ui, cx),
     }
 }
 
-fn keys_controls(ui: &mut Ui, session: &Session, state: &mut TimelineState, commands: &mut Vec<Command>) {
-    let by_motion = state.rows.by_motion;
+fn keys_controls(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>) {
+    let by_motion = cx.state.rows.by_motion;
     if icon_button(ui, Icon::Sort, "Sort by motion", by_motion).clicked() {
-        state.rows.by_motion = !by_motion;
+        cx.state.rows.by_motion = !by_motion;
     }
     if !by_motion {
-        let joints = session.joints();
+        let joints = cx.session.joints();
         let any_folded = joints.tree().order().iter().any(|&joint| joints.is_folded(joint));
         let label = if any_folded { "Unfold all" } else { "Fold all" };
         let fold = icon_button(ui, Icon::Fold, label, any_folded);
         tell_push(&fold);
         if fold.clicked() {
-            commands.push(JointCommand::SetAllFolded(!any_folded).into());
+            cx.push(JointCommand::SetAllFolded(!any_folded));
         }
     }
 }
 
 /// How many keys are chosen, and what can be done with them.
-fn chosen_keys(ui: &mut Ui, session: &Session, state: &TimelineState, commands: &mut Vec<Command>) {
-    let Some(key_box) = &state.key_box else { return };
+fn chosen_keys(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>) {
+    let Some(key_box) = &cx.state.key_box else { return };
     let [start_secs, end_secs] = key_box.span_secs;
     let words = format!(
         "{} · {start_secs:.2}–{end_secs:.2} s",
-        counted(key_box.count(session), "key")
+        counted(key_box.count(cx.session), "key")
     );
     let color = Tokens::of(ui).muted;
     let galley = ui
@@ -98,9 +93,9 @@ fn chosen_keys(ui: &mut Ui, session: &Session, state: &TimelineState, commands: 
     ui.painter().galley(at, galley, color);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &words));
     if start_secs < end_secs && TextButton::new("As range", "As range").show(ui).clicked() {
-        commands.push(PlayCommand::ClearRange.into());
-        commands.push(PlayCommand::SetRangeStart(Some(start_secs)).into());
-        commands.push(PlayCommand::SetRangeEnd(Some(end_secs)).into());
+        cx.push(PlayCommand::ClearRange);
+        cx.push(PlayCommand::SetRangeStart(Some(start_secs)));
+        cx.push(PlayCommand::SetRangeEnd(Some(end_secs)));
     }
 }
 
@@ -151,6 +146,5 @@ pub(super) fn show_edge(ui: &Ui, state: &mut TimelineState) {
     let grip = Rect::from_center_size(edge.center() - vec2(0.0, 1.0), vec2(38.0, 3.0));
     ui.painter().rect_filled(grip, 1.5, color);
     response.widget_info(|| WidgetInfo::labeled(Role::Splitter, true, "Height of the dope sheet"));
-    ui.ctx()
-        .accesskit_node_builder(response.id, |node| node.set_expanded(state.open));
+    tell_node(&response, |node| node.set_expanded(state.open));
 }

@@ -3,10 +3,11 @@
 use egui::{Align2, FontId, Key, PointerButton, Rangef, Rect, Response, Sense, Stroke, Ui, UiBuilder, pos2, vec2};
 
 use super::axis::TimeAxis;
-use super::state::TimelineState;
+use super::state::{KeyBox, TimelineState};
 use crate::anim::Direction;
 use crate::model::Clip;
 use crate::session::{Command, PlayCommand, Session};
+use crate::ui::cx::Cx;
 use crate::ui::theme::Tokens;
 use crate::ui::widgets::{SliderNode, by_finger, control_size, focus_ring, focused_keys, is_touch, segmented};
 
@@ -62,27 +63,27 @@ pub(super) fn paint_head_below_ruler(ui: &Ui, session: &Session, axis: &TimeAxis
     }
 }
 
+/// The time span of chosen keys, on the ruler.
+pub(super) fn paint_chosen(ui: &Ui, key_box: &KeyBox, axis: &TimeAxis, ruler: Rect) {
+    let [start, end] = key_box.span_secs.map(|secs| axis.points().clamp(axis.x_of(secs)));
+    let band = Rect::from_x_y_ranges(start..=end, ruler.y_range());
+    ui.painter().rect_filled(band, 0.0, Tokens::of(ui).accent_ground);
+}
+
 /// The ruler as a control: a press or drag moves the time.
-pub(super) fn ruler(ui: &Ui, session: &Session, axis: &TimeAxis, rect: Rect, commands: &mut Vec<Command>) -> Response {
+pub(super) fn ruler(ui: &Ui, cx: &mut Cx<'_, TimelineState>, axis: &TimeAxis, rect: Rect) -> Response {
     let response = ui.interact(rect, ui.scope_id().with("ruler"), Sense::click_and_drag());
-    scrub(&response, axis, commands);
-    if let Some(clip) = session.clip() {
-        time_slider(ui, session, clip, "Ruler", &response, commands);
+    scrub(&response, axis, cx.commands);
+    if let Some(clip) = cx.session.clip() {
+        time_slider(ui, cx, clip, "Ruler", &response);
     }
     focus_ring(ui, rect, &response);
     response
 }
 
 /// The time as a slider for keyboards and screen readers: arrows go by a frame, with Shift by ten; Page Up and Page Down from key to key.
-pub(super) fn time_slider(
-    ui: &Ui,
-    session: &Session,
-    clip: &Clip,
-    name: &str,
-    response: &Response,
-    commands: &mut Vec<Command>,
-) {
-    let time_secs = session.playback().time_secs();
+pub(super) fn time_slider(ui: &Ui, cx: &mut Cx<'_, TimelineState>, clip: &Clip, name: &str, response: &Response) {
+    let time_secs = cx.session.playback().time_secs();
     let node = SliderNode {
         name,
         value: f64::from(time_secs),
@@ -92,17 +93,16 @@ pub(super) fn time_slider(
     };
     let (steps, value) = node.tell(ui, response);
     if steps != 0 {
-        commands.push(PlayCommand::StepFrames(steps).into());
+        cx.push(PlayCommand::StepFrames(steps));
     }
     if let Some(secs) = value {
-        commands.push(PlayCommand::Pause.into());
-        commands.push(PlayCommand::Seek { time_secs: secs as f32 }.into());
+        cx.pause_at(secs as f32);
     }
     for (key, shift) in focused_keys(ui, response, SLIDER_KEYS) {
         let frames = if shift { 10 } else { 1 };
-        let joint = session.joints().selected();
+        let joint = cx.session.joints().selected();
         let step_key = |direction| PlayCommand::StepKey { direction, joint };
-        commands.push(Command::Play(match key {
+        cx.commands.push(Command::Play(match key {
             Key::ArrowRight | Key::ArrowUp => PlayCommand::StepFrames(frames),
             Key::ArrowLeft | Key::ArrowDown => PlayCommand::StepFrames(-frames),
             Key::PageUp => step_key(Direction::Forward),

@@ -9,6 +9,7 @@ use crate::actions;
 use crate::anim::{Direction, LoopMode};
 use crate::model::Clip;
 use crate::session::{Command, Session};
+use crate::ui::cx::Cx;
 use crate::ui::icons::Icon;
 use crate::ui::panel::{mark_transport, popover_above};
 use crate::ui::state::{SheetPage, UiState};
@@ -31,65 +32,59 @@ const SPACING: f32 = 6.0;
 const KEY_BUTTONS_WIDTH: f32 = 1060.0;
 
 /// The panel's contents in a wide window.
-pub(in crate::ui) fn wide(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    sheet::show_edge(ui, &mut state.timeline);
-    if let Some(height) = state.timeline.sheet_height(ui.available_height()) {
-        sheet::show(ui, session, &mut state.timeline, height, commands);
+pub(in crate::ui) fn wide(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
+    sheet::show_edge(ui, &mut cx.state.timeline);
+    if let Some(height) = cx.state.timeline.sheet_height(ui.available_height()) {
+        sheet::show(ui, &mut cx.part(|state| &mut state.timeline), height);
         ui.add_space(SHEET_GAP);
     }
-    strip(ui, session, state, commands);
+    strip(ui, cx);
 }
 
 /// The strip in one row, for wide windows.
-fn strip(ui: &mut Ui, session: &Session, state: &mut UiState, commands: &mut Vec<Command>) {
-    let Some(clip) = session.clip() else { return };
+fn strip(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
+    let Some(clip) = cx.session.clip() else { return };
     let row = vec2(ui.available_width(), control_size(ui).max(PLAY_SIZE));
     let row = ui.allocate_ui_with_layout(row, egui::Layout::left_to_right(egui::Align::Center), |ui| {
         let with_keys = ui.available_width() >= KEY_BUTTONS_WIDTH;
         ui.spacing_mut().item_spacing.x = 2.0;
-        controls::end_button(ui, session, Direction::Backward, commands);
+        controls::end_button(ui, cx.session, Direction::Backward, cx.commands);
         if with_keys {
-            controls::key_button(ui, session, Direction::Backward, commands);
+            controls::key_button(ui, cx.session, Direction::Backward, cx.commands);
         }
-        controls::frame_button(ui, session, Direction::Backward, commands);
-        controls::backward_button(ui, session, commands);
+        controls::frame_button(ui, cx.session, Direction::Backward, cx.commands);
+        controls::backward_button(ui, cx.session, cx.commands);
         ui.add_space(3.0);
-        controls::play_button(ui, session, PLAY_SIZE, commands);
+        controls::play_button(ui, cx.session, PLAY_SIZE, cx.commands);
         ui.add_space(3.0);
-        controls::frame_button(ui, session, Direction::Forward, commands);
+        controls::frame_button(ui, cx.session, Direction::Forward, cx.commands);
         if with_keys {
-            controls::key_button(ui, session, Direction::Forward, commands);
+            controls::key_button(ui, cx.session, Direction::Forward, cx.commands);
         }
-        controls::end_button(ui, session, Direction::Forward, commands);
+        controls::end_button(ui, cx.session, Direction::Forward, cx.commands);
         ui.spacing_mut().item_spacing.x = SPACING;
         ui.add_space(4.0);
-        clips::button(ui, session, state, Rangef::new(92.0, 200.0), commands);
+        clips::button(ui, cx, Rangef::new(92.0, 200.0));
 
         // The read-outs have fixed widths, so that nothing moves while values change.
         let widths = ReadoutWidths::of(ui, clip);
         let right_width = widths.time_of_end + widths.frame + 48.0 + 2.0 * control_size(ui) + 5.0 * SPACING;
         let bar_width = (ui.available_width() - right_width).max(60.0);
-        bar::show(ui, session, &state.timeline.loop_gap, vec2(bar_width, 30.0), commands);
-        controls::time_readout(ui, session, clip, (widths.time_of_end, true), commands);
-        controls::frame_readout(ui, session, clip, widths.frame, commands);
-        speed_button(ui, session, &mut state.timeline, 48.0, !with_keys, commands);
-        loop_button(ui, session, commands);
-        if sheet_button(ui, state.timeline.open) {
-            state.timeline.open = !state.timeline.open;
+        bar::show(ui, &mut cx.part(|state| &mut state.timeline), vec2(bar_width, 30.0));
+        controls::time_readout(ui, cx, clip, (widths.time_of_end, true));
+        controls::frame_readout(ui, cx, clip, widths.frame);
+        speed_button(ui, &mut cx.part(|state| &mut state.timeline), 48.0, !with_keys);
+        loop_button(ui, cx.session, cx.commands);
+        if sheet_button(ui, cx.state.timeline.open) {
+            cx.state.timeline.open = !cx.state.timeline.open;
         }
     });
     mark_transport(ui, row.response.rect);
 }
 
 /// The strip for phones, with large targets: in two rows with the bar above, or in one row in a `low` window.
-pub(in crate::ui) fn narrow(
-    ui: &mut Ui,
-    session: &Session,
-    state: &mut UiState,
-    low: bool,
-    commands: &mut Vec<Command>,
-) {
-    let Some(clip) = session.clip() else { return };
+pub(in crate::ui) fn narrow(ui: &mut Ui, cx: &mut Cx<'_, UiState>, low: bool) {
+    let Some(clip) = cx.session.clip() else { return };
     let end = EndOfStrip::of(ui, clip, low);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 10.0;
@@ -98,25 +93,25 @@ pub(in crate::ui) fn narrow(
         let others = 44.0 + CLIP_WIDTH_NARROW + end.width + 4.0 * button;
         let with_frames = low && ui.available_width() - others >= LEAST_BAR_WITH_FRAMES;
         if with_frames {
-            controls::frame_button(ui, session, Direction::Backward, commands);
+            controls::frame_button(ui, cx.session, Direction::Backward, cx.commands);
         }
-        controls::play_button(ui, session, 44.0, commands);
+        controls::play_button(ui, cx.session, 44.0, cx.commands);
         if with_frames {
-            controls::frame_button(ui, session, Direction::Forward, commands);
+            controls::frame_button(ui, cx.session, Direction::Forward, cx.commands);
         }
         let mut bar_width = ui.available_width() - button;
         if low {
             let before = ui.available_width();
-            clips::button(ui, session, state, Rangef::new(CLIP_WIDTH_NARROW, 140.0), commands);
+            clips::button(ui, cx, Rangef::new(CLIP_WIDTH_NARROW, 140.0));
             bar_width -= before - ui.available_width() + end.width + 10.0;
         }
-        bar::show(ui, session, &state.timeline.loop_gap, vec2(bar_width, 44.0), commands);
+        bar::show(ui, &mut cx.part(|state| &mut state.timeline), vec2(bar_width, 44.0));
         if low {
-            ui.scope(|ui| end.show(ui, session, clip, &mut state.timeline, commands));
+            ui.scope(|ui| end.show(ui, &mut cx.part(|state| &mut state.timeline), clip));
         }
-        let open = state.sheet == Some(SheetPage::Timeline);
+        let open = cx.state.sheet == Some(SheetPage::Timeline);
         if sheet_button(ui, open) {
-            state.sheet = (!open).then_some(SheetPage::Timeline);
+            cx.state.sheet = (!open).then_some(SheetPage::Timeline);
         }
     });
     if low {
@@ -125,15 +120,9 @@ pub(in crate::ui) fn narrow(
     ui.add_space(8.0);
     ui.horizontal(|ui| {
         let most = (ui.available_width() - end.width - SPACING).max(0.0);
-        clips::button(
-            ui,
-            session,
-            state,
-            Rangef::new(CLIP_WIDTH_NARROW.min(most), most),
-            commands,
-        );
+        clips::button(ui, cx, Rangef::new(CLIP_WIDTH_NARROW.min(most), most));
         ui.add_space((ui.available_width() - end.width).max(0.0));
-        end.show(ui, session, clip, &mut state.timeline, commands);
+        end.show(ui, &mut cx.part(|state| &mut state.timeline), clip);
     });
 }
 
@@ -177,34 +166,20 @@ impl EndOfStrip {
         }
     }
 
-    fn show(
-        &self,
-        ui: &mut Ui,
-        session: &Session,
-        clip: &Clip,
-        state: &mut TimelineState,
-        commands: &mut Vec<Command>,
-    ) {
+    fn show(&self, ui: &mut Ui, cx: &mut Cx<'_, TimelineState>, clip: &Clip) {
         ui.spacing_mut().item_spacing.x = SPACING;
-        controls::time_readout(ui, session, clip, (self.time, self.shows_end), commands);
+        controls::time_readout(ui, cx, clip, (self.time, self.shows_end));
         if self.shows_frame {
-            controls::frame_readout(ui, session, clip, self.frame, commands);
+            controls::frame_readout(ui, cx, clip, self.frame);
         }
-        speed_button(ui, session, state, SPEED_WIDTH_NARROW, self.with_steps, commands);
-        loop_button(ui, session, commands);
+        speed_button(ui, cx, SPEED_WIDTH_NARROW, self.with_steps);
+        loop_button(ui, cx.session, cx.commands);
     }
 }
 
 /// The button with the speed. It opens all options of playing. `with_steps`: with the buttons that step.
-fn speed_button(
-    ui: &mut Ui,
-    session: &Session,
-    state: &mut TimelineState,
-    width: f32,
-    with_steps: bool,
-    commands: &mut Vec<Command>,
-) {
-    let speed = session.playback().speed();
+fn speed_button(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>, width: f32, with_steps: bool) {
+    let speed = cx.session.playback().speed();
     let tokens = Tokens::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(width, control_size(ui)), Sense::click());
     if response.hovered() || response.has_focus() {
@@ -229,7 +204,7 @@ fn speed_button(
     );
     let response = response.on_hover_text(hint);
     popover_above(ui, (&response, "Speed, range and loop gap"), options::WIDTH, |ui| {
-        options::show(ui, session, state, with_steps, commands);
+        options::show(ui, cx, with_steps);
     });
 }
 

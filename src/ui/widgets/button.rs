@@ -7,8 +7,9 @@ use egui::{
 
 use super::control::{
     MOUSE_CONTROL, TOUCH_CONTROL, arrow_steps, control_size, explained, focus_ring, hint_of_name, is_touch, key_hint,
-    note_in_force, paint_ground, paint_name, paint_row_ground, tell_push,
+    note_in_force, paint_ground, paint_row_ground, tell_push,
 };
+use super::row::Row;
 use crate::actions::Action;
 use crate::session::{Command, Session};
 use crate::ui::icons::{self, Icon};
@@ -319,20 +320,17 @@ pub(crate) fn noted_switch_row(
     let height = control_size(ui).max(MOUSE_CONTROL);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
     paint_row_ground(ui, rect, &response, false, response.contains_pointer());
-    let font = FontId::proportional(13.0);
-    let track = Rect::from_center_size(
-        pos2(rect.max.x - TRACK_WIDTH * 0.5, rect.center().y),
-        vec2(TRACK_WIDTH, TRACK_HEIGHT),
-    );
+    let middle = pos2(rect.max.x - TRACK_WIDTH * 0.5, rect.center().y);
+    let track = Rect::from_center_size(middle, vec2(TRACK_WIDTH, TRACK_HEIGHT));
     paint_track(ui, track, &response, on);
-    let note_at = pos2(track.min.x - 10.0, rect.center().y);
-    let note = ui
-        .painter()
-        .text(note_at, Align2::RIGHT_CENTER, note, note_font, note_color);
-    let room = note.min.x - 6.0 - rect.min.x;
-    paint_name(ui.painter(), rect.left_center(), label, font, tokens.text, room);
-    response.widget_info(|| WidgetInfo::selected(Role::Switch, true, on, label));
-    response
+    let mut row = Row::of(ui, rect, response);
+    row.right = track.min.x - 10.0;
+    row.right_in(note_font, note, note_color);
+    row.right -= 6.0;
+    row.name(label, tokens.text);
+    row.response
+        .widget_info(|| WidgetInfo::selected(Role::Switch, true, on, label));
+    row.response
 }
 
 /// The row of an action of the session that is on or off.

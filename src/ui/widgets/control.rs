@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-use egui::accesskit::{Action, ActionData, HasPopup};
+use egui::accesskit::{Action, ActionData, HasPopup, Node};
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{
     Align2, Color32, CornerRadius, Event, EventFilter, FocusDirection, FontId, Galley, Id, Key, Modifiers, Painter,
@@ -118,6 +118,16 @@ pub(crate) fn paint_row_ground(ui: &Ui, rect: Rect, response: &Response, selecte
     focus_ring(ui, around, response);
 }
 
+/// Draws the ground of a row of a list that is no wider than its contents.
+pub(crate) fn paint_list_ground(ui: &Ui, rect: Rect, selected: bool, over: bool) {
+    let tokens = Tokens::of(ui);
+    if selected {
+        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.accent_ground);
+    } else if over {
+        ui.painter().rect_filled(rect, CONTROL_RADIUS, tokens.field_hovered);
+    }
+}
+
 /// Draws words from a point at their left centre. Words wider than `most` end in an ellipsis.
 pub(crate) fn paint_elided(painter: &Painter, at: Pos2, text: &str, font: FontId, color: Color32, most: f32) {
     let mut job = LayoutJob::simple_singleline(text.to_owned(), font, color);
@@ -175,9 +185,14 @@ pub(crate) fn hint_of_name(response: Response, name: &str) -> Response {
     })
 }
 
+/// Tells screen readers more about a widget than its role and its name.
+pub(crate) fn tell_node<R>(response: &Response, tell: impl FnOnce(&mut Node) -> R) -> Option<R> {
+    response.ctx.accesskit_node_builder(response.id, tell)
+}
+
 /// Tells screen readers that a button shows and hides something, and whether that is shown.
 pub(crate) fn tell_open(response: &Response, is_open: bool) {
-    response.ctx.accesskit_node_builder(response.id, |node| {
+    tell_node(response, |node| {
         node.clear_toggled();
         node.set_expanded(is_open);
     });
@@ -185,22 +200,7 @@ pub(crate) fn tell_open(response: &Response, is_open: bool) {
 
 /// Tells screen readers that a button is no switch, though it may be drawn as one that is on.
 pub(crate) fn tell_push(response: &Response) {
-    response
-        .ctx
-        .accesskit_node_builder(response.id, |node| node.clear_toggled());
-}
-
-/// Draws words at both ends of a row, each in its colour.
-pub(crate) fn paint_ends(
-    ui: &Ui,
-    row: Rect,
-    (left, left_color): (&str, Color32),
-    (right, right_color): (&str, Color32),
-) {
-    let font = FontId::proportional(13.0);
-    let painter = ui.painter();
-    painter.text(row.left_center(), Align2::LEFT_CENTER, left, font.clone(), left_color);
-    painter.text(row.right_center(), Align2::RIGHT_CENTER, right, font, right_color);
+    tell_node(response, |node| node.clear_toggled());
 }
 
 /// A tooltip at the side of a row of a panel, so that it covers no other row. `row` is the row that the widget is in, if it is not one
@@ -222,9 +222,7 @@ pub(crate) fn hint_beside(response: Response, row: Option<Rect>, words: &str) ->
 
 /// A sentence about what a widget shows: on hover, and for screen readers.
 pub(crate) fn explained(response: Response, sentence: &str) -> Response {
-    response
-        .ctx
-        .accesskit_node_builder(response.id, |node| node.set_description(sentence));
+    tell_node(&response, |node| node.set_description(sentence));
     response.on_hover_text(sentence)
 }
 
@@ -338,7 +336,7 @@ impl SliderNode<'_> {
     /// Tells of it. Returns how many steps up they ask for, and which value.
     pub(crate) fn tell(&self, ui: &Ui, response: &Response) -> (i32, Option<f64>) {
         response.widget_info(|| WidgetInfo::slider(true, self.value, self.name));
-        ui.ctx().accesskit_node_builder(response.id, |node| {
+        tell_node(response, |node| {
             node.set_min_numeric_value(*self.range.start());
             node.set_max_numeric_value(*self.range.end());
             node.set_numeric_value_step(self.step);
@@ -400,7 +398,7 @@ pub(crate) fn tell_popup(ui: &Ui, button: &Response, kind: HasPopup) -> String {
     }
     let open = Popup::is_id_open(ui.ctx(), id);
     tell_open(button, open);
-    let name = ui.ctx().accesskit_node_builder(button.id, |node| {
+    let name = tell_node(button, |node| {
         node.set_has_popup(kind);
         node.add_action(if open { Action::Collapse } else { Action::Expand });
         node.label().map(str::to_owned)

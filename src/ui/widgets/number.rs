@@ -10,8 +10,9 @@ use egui::{
 };
 
 use super::control::{
-    MOUSE_CONTROL, SliderNode, arrow_steps, control_size, focus_ring, hint_of_name, paint_ends, slider_keys,
+    MOUSE_CONTROL, SliderNode, arrow_steps, control_size, focus_ring, hint_of_name, slider_keys, tell_node,
 };
+use super::row::Row;
 use crate::ui::input::press_field;
 use crate::ui::theme::{self, CONTROL_RADIUS, Tokens};
 use crate::ui::wording::trimmed;
@@ -56,12 +57,10 @@ impl<'a> Slider<'a> {
     pub(crate) fn show(self, ui: &mut Ui) -> Option<f32> {
         let tokens = Tokens::of(ui);
         let height = control_size(ui).max(MOUSE_CONTROL);
-        let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
-        let painter = ui.painter();
-        let (font, left) = (FontId::proportional(13.0), row.left_center());
-        painter.text(left, Align2::LEFT_CENTER, self.label, font, tokens.muted);
-        let font = theme::mono(12.0);
-        painter.text(row.right_center(), Align2::RIGHT_CENTER, self.text, font, tokens.text);
+        let mut row = Row::new(ui, height);
+        row.left(self.label, tokens.muted);
+        row.right_in(theme::mono(12.0), self.text, tokens.text);
+        let row = row.rect;
 
         let ends = row.min.x + LABEL_WIDTH + KNOB_RADIUS..=row.max.x - NUMBER_WIDTH - KNOB_RADIUS;
         let target = Rect::from_x_y_ranges(*ends.start() - KNOB_RADIUS..=*ends.end() + KNOB_RADIUS, row.y_range());
@@ -99,24 +98,22 @@ impl<'a> Slider<'a> {
     }
 
     fn paint(&self, ui: &Ui, left: f32, right: f32, y: f32, response: &Response) {
-        let tokens = Tokens::of(ui);
+        let (tokens, painter) = (Tokens::of(ui), ui.painter());
         let (start, end) = (*self.range.start(), *self.range.end());
         let x_of = |value: f32| left + ((value - start) / (end - start)).clamp(0.0, 1.0) * (right - left);
         let (origin, knob) = (x_of(self.reset_to), x_of(self.value));
         let band = |from: f32, to: f32| Rect::from_min_max(pos2(from.min(to), y - 1.5), pos2(from.max(to), y + 1.5));
-        ui.painter()
-            .rect_filled(band(left - 2.0, right + 2.0), 1.5, tokens.track());
-        ui.painter().rect_filled(band(origin, knob), 1.5, tokens.accent);
+        painter.rect_filled(band(left - 2.0, right + 2.0), 1.5, tokens.track());
+        painter.rect_filled(band(origin, knob), 1.5, tokens.accent);
         let active = response.hovered() || response.is_pointer_button_down_on();
         let center = pos2(knob, y);
         if response.has_focus() || response.is_pointer_button_down_on() {
-            ui.painter()
-                .circle_filled(center, KNOB_RADIUS + 4.0, tokens.accent_ground);
+            painter.circle_filled(center, KNOB_RADIUS + 4.0, tokens.accent_ground);
         }
         let ground = tokens.panel.to_opaque();
         let color = if active { tokens.accent } else { tokens.muted };
         let radius = KNOB_RADIUS - 0.75;
-        ui.painter().circle(center, radius, ground, Stroke::new(1.5, color));
+        painter.circle(center, radius, ground, Stroke::new(1.5, color));
     }
 }
 
@@ -277,7 +274,7 @@ impl<'a> TypedValue<'a> {
             },
             None => WidgetInfo::labeled(Role::Button, true, format!("{} {}", self.name, self.text)),
         });
-        ui.ctx().accesskit_node_builder(response.id, |node| {
+        tell_node(&response, |node| {
             node.add_action(Action::SetValue);
             if let Some((_, range)) = self.number {
                 node.set_min_numeric_value((*range.start()).into());
@@ -326,8 +323,9 @@ impl<'a> TypedValue<'a> {
     ) -> Option<T> {
         let tokens = Tokens::of(ui);
         let width = ui.available_width() - self.size.x - behind - ui.spacing().item_spacing.x;
-        let (rect, _) = ui.allocate_exact_size(vec2(width, self.size.y), Sense::hover());
-        paint_ends(ui, rect, (self.name, tokens.muted), (beside, tokens.faint));
+        let mut row = Row::sized(ui, vec2(width, self.size.y));
+        row.left(self.name, tokens.muted);
+        row.right(beside, tokens.faint);
         let (read, response) = self.show(ui, read);
         response.on_hover_text(hint);
         read
@@ -424,7 +422,7 @@ impl<'a> TypedValue<'a> {
             }
         }
         if let Some(why) = &typing.refused {
-            ui.ctx().accesskit_node_builder(response.id, |node| {
+            tell_node(response, |node| {
                 node.set_invalid(Invalid::True);
                 node.set_description(why.clone());
             });

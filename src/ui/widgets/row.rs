@@ -1,29 +1,15 @@
-//! Rows of panels: headings, facts, choices, hairlines.
+//! Rows of panels: facts, choices, lists, hairlines.
 
-use egui::{Align2, Color32, FontId, Id, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{
+    Align2, Color32, FontId, Id, Painter, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
+};
 
-use super::button::push_button;
-use super::color::paint_swatch;
 use super::control::{
-    MOUSE_CONTROL, control_size, explained, focus_ring, hint_beside, is_touch, key_hint, paint_ends, paint_ground,
-    paint_name, paint_row_ground, pressed_row_height, walked,
+    control_size, focus_ring, hint_beside, paint_ground, paint_name, paint_row_ground, pressed_row_height, tell_node,
+    walked,
 };
 use crate::ui::icons::{self, Icon};
-use crate::ui::theme::{self, CONTROL_RADIUS, ROW_HEIGHT, Tokens};
-
-/// Height of the heading of a selection.
-const SELECTED_HEIGHT: f32 = 22.0;
-/// Height of the name of a section.
-const SECTION_HEIGHT: f32 = 21.0;
-
-/// A row that can be pressed, over the whole width. Its ground shows whether it is hovered or `selected`.
-pub(crate) fn pressed_row(ui: &mut Ui, selected: bool) -> (Rect, Response) {
-    let size = vec2(ui.available_width(), pressed_row_height(ui));
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    let over = response.contains_pointer();
-    paint_row_ground(ui, rect, &response, selected, over);
-    (rect, response)
-}
+use crate::ui::theme::{CONTROL_RADIUS, ROW_HEIGHT, Tokens};
 
 /// A small icon in a row. `on` marks a switch that is on.
 pub(crate) fn row_icon(ui: &Ui, place: Rect, row: &Response, icon: Icon, label: &str, on: bool) -> Response {
@@ -73,9 +59,7 @@ impl RowList {
             response.scroll_to_me(None);
         }
         self.rows.push(response.id);
-        response
-            .ctx
-            .accesskit_node_builder(response.id, |node| node.set_selected(selected));
+        tell_node(response, |node| node.set_selected(selected));
     }
 
     fn walk(self, ui: &Ui) {
@@ -88,153 +72,108 @@ impl RowList {
     }
 }
 
+/// A row of a panel. Words are laid out from its ends inwards, in 13 points unless told, and then screen readers are told of it.
+pub(crate) struct Row {
+    pub(crate) rect: Rect,
+    pub(crate) response: Response,
+    painter: Painter,
+    /// What is still free of it.
+    pub(crate) left: f32,
+    pub(crate) right: f32,
+    /// The middle of its words.
+    pub(crate) y: f32,
+}
+
+impl Row {
+    /// A row over the whole width.
+    pub(crate) fn new(ui: &mut Ui, height: f32) -> Self {
+        Self::sized(ui, vec2(ui.available_width(), height))
+    }
+
+    pub(crate) fn sized(ui: &mut Ui, size: Vec2) -> Self {
+        let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+        Self::of(ui, rect, response)
+    }
+
+    /// A row that can be pressed, over the whole width. Its ground shows whether it is hovered or `selected`.
+    pub(crate) fn pressed(ui: &mut Ui, selected: bool) -> Self {
+        let size = vec2(ui.available_width(), pressed_row_height(ui));
+        let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+        paint_row_ground(ui, rect, &response, selected, response.contains_pointer());
+        Self::of(ui, rect, response)
+    }
+
+    /// The row of a widget that is there already.
+    pub(crate) fn of(ui: &Ui, rect: Rect, response: Response) -> Self {
+        Self {
+            rect,
+            response,
+            painter: ui.painter().clone(),
+            left: rect.min.x,
+            right: rect.max.x,
+            y: rect.center().y,
+        }
+    }
+
+    /// Words at the left.
+    pub(crate) fn left(&mut self, text: &str, color: Color32) {
+        self.left_in(FontId::proportional(13.0), text, color);
+    }
+
+    pub(crate) fn left_in(&mut self, font: FontId, text: &str, color: Color32) {
+        let at = pos2(self.left, self.y);
+        self.left = self.painter.text(at, Align2::LEFT_CENTER, text, font, color).max.x;
+    }
+
+    /// Words at the right.
+    pub(crate) fn right(&mut self, text: &str, color: Color32) {
+        self.right_in(FontId::proportional(13.0), text, color);
+    }
+
+    pub(crate) fn right_in(&mut self, font: FontId, text: &str, color: Color32) {
+        let at = pos2(self.right, self.y);
+        self.right = self.painter.text(at, Align2::RIGHT_CENTER, text, font, color).min.x;
+    }
+
+    /// A name in what is free, as [`elided_name`](super::control::elided_name) has it.
+    pub(crate) fn name(&self, name: &str, color: Color32) {
+        self.name_in(FontId::proportional(13.0), name, color);
+    }
+
+    pub(crate) fn name_in(&self, font: FontId, name: &str, color: Color32) {
+        let at = pos2(self.left, self.y);
+        paint_name(&self.painter, at, name, font, color, self.right - self.left);
+    }
+
+    /// Tells screen readers of it.
+    pub(crate) fn told(self, role: Role, label: impl Into<String>) -> Response {
+        let label = label.into();
+        self.response.widget_info(|| WidgetInfo::labeled(role, true, &label));
+        self.response
+    }
+}
+
 /// A row of a panel: a quiet label and a value at the right edge.
 pub(crate) fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW_HEIGHT), Sense::hover());
-    paint_ends(ui, rect, (label, tokens.muted), (value, tokens.text));
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{label} {value}")));
-    response
+    let mut row = Row::new(ui, ROW_HEIGHT);
+    row.left(label, tokens.muted);
+    row.right(value, tokens.text);
+    row.told(Role::Label, format!("{label} {value}"))
 }
 
 /// A row of a panel whose value opens a menu.
 pub(crate) fn choice_row(ui: &mut Ui, label: &str, value: &str, how: &str) -> Response {
     let tokens = Tokens::of(ui);
-    let (rect, response) = pressed_row(ui, false);
-    let font = FontId::proportional(13.0);
-    ui.painter().text(
-        rect.left_center(),
-        Align2::LEFT_CENTER,
-        label,
-        font.clone(),
-        tokens.muted,
-    );
-    let chevron = Rect::from_center_size(pos2(rect.max.x - 5.0, rect.center().y), Vec2::splat(16.0));
+    let mut row = Row::pressed(ui, false);
+    row.left(label, tokens.muted);
+    let chevron = Rect::from_center_size(pos2(row.right - 5.0, row.y), Vec2::splat(16.0));
     icons::paint(ui.painter(), chevron, Icon::ChevronDown, tokens.muted);
-    let mut right = rect.max.x - 15.0;
-    for (text, color) in [(how, tokens.muted), (value, tokens.text)] {
-        let drawn = ui.painter().text(
-            pos2(right, rect.center().y),
-            Align2::RIGHT_CENTER,
-            text,
-            font.clone(),
-            color,
-        );
-        right = drawn.min.x - 4.0;
-    }
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{label}: {value} {how}")));
-    response
-}
-
-/// The title of a panel with a button that closes it. Returns whether it was clicked.
-pub(crate) fn closable_heading(ui: &mut Ui, title: &str) -> bool {
-    heading_with_close(ui, title).clicked()
-}
-
-/// The same. Returns the button.
-pub(crate) fn heading_with_close(ui: &mut Ui, title: &str) -> Response {
-    ui.horizontal(|ui| {
-        let width = ui.available_width() - control_size(ui) - 6.0;
-        let (heading, response) = ui.allocate_exact_size(vec2(width, MOUSE_CONTROL), Sense::hover());
-        let (at, color) = (heading.left_center(), Tokens::of(ui).text);
-        ui.painter()
-            .text(at, Align2::LEFT_CENTER, title, theme::semibold(13.0), color);
-        response.widget_info(|| WidgetInfo::labeled(Role::Heading, true, title));
-        push_button(ui, Icon::Close, "Close")
-    })
-    .inner
-}
-
-/// The name of the selection, after a swatch in its colour (linear) if any, and a button that clears it. Returns whether it was
-/// clicked.
-pub(crate) fn selected_heading(ui: &mut Ui, name: &str, color: Color32, swatch: Option<[f32; 3]>) -> bool {
-    let size = vec2(ui.available_width(), SELECTED_HEIGHT);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    let mut at = rect.left_center();
-    if let Some(swatch) = swatch {
-        paint_swatch(ui, at + vec2(5.0, 0.0), swatch, 1.0);
-        at.x += 18.0;
-    }
-    let side = control_size(ui);
-    paint_name(
-        ui.painter(),
-        at,
-        name,
-        theme::semibold(13.0),
-        color,
-        rect.max.x - side - at.x,
-    );
-    response.widget_info(|| WidgetInfo::labeled(Role::Heading, true, format!("Selected: {name}")));
-    // The cross aligns with the right edge of the rows below.
-    let place = Rect::from_center_size(rect.right_center() - vec2(8.0, 0.0), Vec2::splat(side));
-    // In a child of its own, so that it does not widen the rows.
-    let mut corner = ui.new_child(egui::UiBuilder::new().max_rect(place));
-    push_button(&mut corner, Icon::Close, "Clear the selection (Esc)").clicked()
-}
-
-/// The name of a section: 11 points, capitals.
-pub(crate) fn section_name(ui: &mut Ui, name: &str) -> Response {
-    keyed_section_name(ui, name, "")
-}
-
-/// The name of a section with the key that changes it.
-pub(crate) fn keyed_section_name(ui: &mut Ui, name: &str, key: &str) -> Response {
-    let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), SECTION_HEIGHT), Sense::hover());
-    // The words are a little above the middle.
-    let y = rect.center().y - 1.0;
-    let font = theme::semibold(11.0);
-    ui.painter().text(
-        pos2(rect.min.x, y),
-        Align2::LEFT_CENTER,
-        name.to_uppercase(),
-        font,
-        tokens.muted,
-    );
-    let (font, key) = (theme::mono(11.0), key_hint(ui, key));
-    ui.painter()
-        .text(pos2(rect.max.x, y), Align2::RIGHT_CENTER, key, font, tokens.faint);
-    response.widget_info(|| WidgetInfo::labeled(Role::Heading, true, name));
-    response
-}
-
-/// The name of a section, and an action at its right end. Returns whether the action was clicked.
-pub(crate) fn section_with_action(ui: &mut Ui, name: &str, action: Option<&str>) -> bool {
-    section_with_labelled_action(ui, name, action.map(|action| (action, action)))
-}
-
-/// The same with a longer label of the action, for screen readers.
-pub(crate) fn section_with_labelled_action(ui: &mut Ui, name: &str, action: Option<(&str, &str)>) -> bool {
-    explained_section(ui, name, "", action)
-}
-
-/// The same with a sentence about the section, or none.
-pub(crate) fn explained_section(ui: &mut Ui, name: &str, sentence: &str, action: Option<(&str, &str)>) -> bool {
-    let top = ui.cursor().min;
-    let heading = section_name(ui, name);
-    if !sentence.is_empty() {
-        explained(heading, sentence);
-    }
-    let Some((action, label)) = action else { return false };
-    let tokens = Tokens::of(ui);
-    let galley = ui
-        .painter()
-        .layout_no_wrap(action.to_owned(), FontId::proportional(11.5), tokens.accent);
-    let middle = top.y + 0.5 * SECTION_HEIGHT - 1.0;
-    let height = if is_touch(ui) { control_size(ui) } else { SECTION_HEIGHT };
-    let size = vec2(galley.size().x + 12.0, height);
-    let right = top.x + ui.available_width() + 6.0;
-    let place = Rect::from_center_size(pos2(right - 0.5 * size.x, middle), size);
-    let response = ui.interact(place, ui.scope_id().with(("action", name)), Sense::click());
-    let ground = Rect::from_center_size(place.center(), vec2(size.x, 19.0));
-    if response.hovered() || response.has_focus() {
-        ui.painter().rect_filled(ground, CONTROL_RADIUS, tokens.accent_ground);
-    }
-    let at = place.center() - galley.size() * 0.5;
-    ui.painter().galley(at, galley, tokens.accent);
-    focus_ring(ui, ground, &response);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label));
-    response.clicked()
+    row.right -= 15.0;
+    row.right(how, tokens.muted);
+    row.right -= 4.0;
+    row.right(value, tokens.text);
+    row.told(Role::Button, format!("{label}: {value} {how}"))
 }
 
 /// How much of a work is done, as a bar and as `5 of 12`.
@@ -250,7 +189,7 @@ pub(crate) fn progress_bar(ui: &mut Ui, name: &str, size: Vec2, [done, count]: [
     ui.painter()
         .text(rect.center(), Align2::CENTER_CENTER, &words, font, tokens.text);
     response.widget_info(|| WidgetInfo::labeled(Role::ProgressIndicator, true, name));
-    ui.ctx().accesskit_node_builder(response.id, |node| {
+    tell_node(&response, |node| {
         node.set_min_numeric_value(0.0);
         node.set_max_numeric_value(count as f64);
         node.set_numeric_value(done as f64);
