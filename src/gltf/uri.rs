@@ -67,7 +67,9 @@ fn data(text: &str) -> Result<Uri<'_>, UriError> {
         return Err(UriError::NoData);
     }
     let bytes = if parts.any(|part| part.eq_ignore_ascii_case("base64")) {
-        BASE64.decode(body).map_err(|_| UriError::NotBase64)?
+        let has_too_little_padding = body.ends_with('=') && !body.len().is_multiple_of(4);
+        let decoded = BASE64.decode(body).ok().filter(|_| !has_too_little_padding);
+        decoded.ok_or(UriError::NotBase64)?
     } else {
         percent_decoded(body).ok_or(UriError::NotPercentEncoded)?.into_owned()
     };
