@@ -1,8 +1,8 @@
 //! The one place where things change.
 
-use super::actor::{PlaybackSettings, PoseInputs};
-use super::quality::QualityNow;
-use super::view::View;
+use super::look::quality::QualityNow;
+use super::look::view::View;
+use super::play::actor::{PlaybackSettings, PoseInputs};
 use super::{Changes, Command, Event, Session};
 use crate::model::{Handedness, UpAxis};
 

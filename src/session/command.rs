@@ -1,17 +1,17 @@
 //! All that a person or a program can ask for, in groups that follow the parts of the session.
 
-use super::camera::CameraCommand;
-use super::crowd::CrowdCommand;
-use super::export::ExportCommand;
+use super::choose::naming::NameCommand;
+use super::choose::selecting::{JointCommand, SubmeshCommand};
 use super::history::HistoryCommand;
 use super::look::LookCommand;
-use super::materials::MaterialCommand;
-use super::naming::NameCommand;
-use super::opening::FileCommand;
-use super::playing::PlayCommand;
-use super::quality::QualityCommand;
-use super::selecting::{JointCommand, SubmeshCommand};
-use super::view_state::ViewState;
+use super::look::camera::CameraCommand;
+use super::look::materials::MaterialCommand;
+use super::look::quality::QualityCommand;
+use super::open::opening::FileCommand;
+use super::play::crowd::CrowdCommand;
+use super::play::playing::PlayCommand;
+use super::told::view_state::ViewState;
+use super::write::export::ExportCommand;
 use crate::model::{Handedness, UpAxis};
 use crate::scene::Theme;
 

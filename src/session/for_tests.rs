@@ -1,7 +1,7 @@
 //! Parts that tests look at one by one.
 
-pub use super::archive::unpack_within;
-pub use super::instances::{JITTER, fraction, noise, place};
-pub use super::overlays::{GHOST_ALPHA, ghost_color};
-pub use super::pacing::{Pacer, Step};
-pub use super::picking::{Alpha, first_met};
+pub use super::choose::picking::{Alpha, first_met};
+pub use super::look::overlays::{GHOST_ALPHA, ghost_color};
+pub use super::look::pacing::{Pacer, Step};
+pub use super::open::archive::unpack_within;
+pub use super::play::instances::{JITTER, fraction, noise, place};

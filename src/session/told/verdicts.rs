@@ -1,0 +1,73 @@
+//! What the books' programs make of the open file.
+
+use std::sync::OnceLock;
+
+use crate::check::book::{self, Book, Known, Limit, MOST_MATERIALS, Verdict};
+use crate::diagnostic::codes;
+use crate::edit::too_large_for_book;
+use crate::format;
+use crate::model::Model;
+use crate::session::open::maps::Maps;
+use crate::session::open::open_model::OpenModel;
+
+/// The verdict of each book. [`LoadJob`](crate::session::LoadJob) works them out in a step of its own, since each program reads the file anew.
+#[derive(Clone, Debug, Default)]
+pub(in crate::session) struct Verdicts {
+    of_books: OnceLock<Vec<Verdict>>,
+    converted: OnceLock<Vec<Limit>>,
+}
+
+impl Verdicts {
+    /// Those of the open model with its maps, in the order of [`Book::ALL`]; none for other formats than the books'. They are worked out
+    /// at the first call.
+    pub(in crate::session) fn of(&self, open: &OpenModel, maps: &Maps) -> &[Verdict] {
+        self.of_books.get_or_init(|| {
+            if open.format.is_gltf() {
+                return Vec::new();
+            }
+            let bytes = &open.file.bytes;
+            let parsed = if open.document.is_some() {
+                None
+            } else {
+                format::parse(bytes).ok()
+            };
+            let known = Known {
+                document: open
+                    .document
+                    .as_ref()
+                    .or(parsed.as_ref().map(|parsed| &parsed.document)),
+                handedness: Some(open.model.handedness),
+                // Without any picture nobody meant to bring maps.
+                missing_maps: (!maps.pictures().is_empty()).then_some(&maps.checklist().missing),
+            };
+            Book::ALL.map(|book| book::verdict(book, bytes, &known)).into()
+        })
+    }
+
+    /// What the open model exceeds even converted for the books; `None` for their own format.
+    pub(in crate::session) fn converted(&self, open: &OpenModel) -> Option<&[Limit]> {
+        let limits = || limits_once_converted(&open.model, &Book::ALL);
+        open.format.is_gltf().then(|| &**self.converted.get_or_init(limits))
+    }
+
+    pub(in crate::session) fn forget(&mut self) {
+        *self = Self::default();
+    }
+}
+
+/// What a model of another format exceeds in the demos of these books even when it is converted for them: what the export for the book
+/// refuses, and more materials than the demo has room for. Each submesh becomes a material there.
+pub fn limits_once_converted(model: &Model, books: &[Book]) -> Vec<Limit> {
+    let count = model.mesh.submeshes.len();
+    let message = format!(
+        "It has {count} materials, counting each for each part that it is on; the demo reaches the maps of {MOST_MATERIALS}."
+    );
+    let is_many = books.contains(&Book::D3d12) && count > MOST_MATERIALS;
+    let of_materials = is_many.then_some((&codes::BOOK_MANY_MATERIALS, message));
+    let all = too_large_for_book(model).into_iter().chain(of_materials);
+    all.map(|(code, message)| Limit {
+        code: code.name,
+        message,
+    })
+    .collect()
+}

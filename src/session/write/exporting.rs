@@ -1,0 +1,198 @@
+//! Writing what is open as a file of another format: what would be otherwise, and the work, which somebody does in steps.
+
+use super::export::{Export, ExportCommand, ExportOptions, ExportRange, Exporting, Made, Stamp};
+use super::export_job::{ExportJob, ExportStep, ExportedFile, ToExport};
+use crate::edit::{Change, Edits};
+use crate::model::Front;
+use crate::session::Session;
+use crate::session::open::load::Progress;
+
+impl Session {
+    pub(in crate::session) fn apply_to_export(&mut self, command: ExportCommand) {
+        match command {
+            ExportCommand::Plan(options) => {
+                let options = options.map(|options| *options);
+                if self.exporting.options != options {
+                    self.exporting = Exporting {
+                        options,
+                        ..Exporting::default()
+                    };
+                }
+            }
+            ExportCommand::Save => self.exporting.saves = self.exporting.options.is_some(),
+            ExportCommand::Cancel => {
+                let exporting = &mut self.exporting;
+                if std::mem::take(&mut exporting.saves) {
+                    (exporting.made, exporting.of) = (Made::Nothing, None);
+                }
+            }
+        }
+    }
+
+    /// What is planned or written; `None` when nobody asked for it, and without a model.
+    pub fn export(&self) -> Option<Export<'_>> {
+        let Exporting {
+            options, made, saves, ..
+        } = &self.exporting;
+        self.open_model()?;
+        let options = options.as_ref()?;
+        let (plan, refusal, progress) = match made {
+            Made::Nothing => (None, None, Progress { done: 0, total: 1 }),
+            Made::Job(job) => (job.plan(), None, job.progress()),
+            Made::Refused(refusal) => (None, Some(refusal.as_str()), Progress { done: 0, total: 1 }),
+        };
+        Some(Export {
+            options,
+            plan,
+            refusal,
+            saving: saves.then_some(progress),
+        })
+    }
+
+    /// The name of the file that is planned.
+    pub fn export_name(&self) -> Option<String> {
+        match &self.exporting.made {
+            Made::Job(job) => Some(job.file_name()),
+            _ => None,
+        }
+    }
+
+    /// Does one step of what is planned or written, for what is open now. Whether there was one to do.
+    pub fn step_export(&mut self) -> bool {
+        let Some(options) = self.exporting.options.clone() else {
+            return false;
+        };
+        let stamp = self.stamp(&options);
+        let exporting = &mut self.exporting;
+        let is_known = exporting.of == stamp;
+        // What is being written was taken when that began, but it ends with its model.
+        let model = |stamp: &Option<Stamp>| stamp.as_ref().map(|stamp| stamp.revisions[0]);
+        let is_saved_from_it = exporting.saves && model(&exporting.of) == model(&stamp);
+        if !is_known && !is_saved_from_it {
+            (exporting.made, exporting.saves) = (Made::Nothing, false);
+        }
+        let job = match std::mem::take(&mut exporting.made) {
+            Made::Nothing => {
+                self.exporting.of = stamp;
+                self.export_job(&options).map(Box::new)
+            }
+            Made::Job(job) if exporting.saves || job.plan().is_none() => Some(job),
+            idle => {
+                (exporting.made, exporting.saves) = (idle, false);
+                None
+            }
+        };
+        let Some(job) = job else { return false };
+        let exporting = &mut self.exporting;
+        match job.step() {
+            ExportStep::Working(job) => exporting.made = Made::Job(job),
+            ExportStep::Ended(Ok(file)) => {
+                // A job ends with its file. What the next one would be is planned anew.
+                (exporting.written, exporting.saves) = (Some(*file), false);
+            }
+            ExportStep::Ended(Err(refusal)) => {
+                (exporting.made, exporting.saves) = (Made::Refused(refusal.to_string()), false);
+            }
+        }
+        true
+    }
+
+    /// The file that was written since the last call.
+    pub fn take_exported(&mut self) -> Option<ExportedFile> {
+        self.exporting.written.take()
+    }
+
+    /// A job that writes what is open as one sees it: with the materials that were edited, the names that were given, and the handedness,
+    /// up axis and green of normal maps that were chosen. `None` without a model.
+    pub fn export_job(&self, options: &ExportOptions) -> Option<ExportJob> {
+        let open = self.open_model()?;
+        let mut model = open.model.clone();
+        let edited = (0..model.materials.len())
+            .filter(|&material| self.is_edited(material))
+            .count();
+        model.materials = self.materials().to_vec();
+        if self.handedness() != model.handedness {
+            // Space is mirrored, and the fronts stay where they were.
+            model.mesh.turn_triangles();
+        }
+        (model.handedness, model.up_axis) = (self.handedness(), self.up_axis());
+        let words = ["material is written as it was", "materials are written as they were"];
+        let edited = Change::counted("materials-edited", edited, words, "edited here.");
+        let materials = model.materials.iter();
+        let is_mapped: Vec<bool> = materials.map(|material| material.normal_map.is_some()).collect();
+        let green_flipped = self.look().normal_green_flipped && is_mapped.contains(&true);
+        if green_flipped {
+            model.turn_bitangents(|material| is_mapped[material]);
+        }
+        let flipped = green_flipped.then(|| Change {
+            code: "normal-green-flipped",
+            message: "Green of normal maps is taken as it was chosen here.".to_owned(),
+        });
+        let (name, clips) = (open.file.base_name(), options.clips.as_deref());
+        let what = ToExport {
+            turns_green: green_flipped || model.front == Front::Positive,
+            model,
+            names: self.joint_names(),
+            changes: open.mended(clips).chain(edited).chain(flipped).collect(),
+            losses: open.left_out(clips).collect(),
+            edits: self.edits(options),
+            maps: self.maps(),
+            format: options.format,
+            writes_maps: true,
+        };
+        Some(ExportJob::new(
+            name.rsplit_once('.').map_or(name, |(stem, _)| stem),
+            what,
+        ))
+    }
+
+    /// What is edited before it is written.
+    fn edits(&self, options: &ExportOptions) -> Edits {
+        let is_of_book = options.format.dialect().is_some();
+        let edits = Edits {
+            clips: options.clips.clone(),
+            range_secs: match options.range {
+                ExportRange::Timeline => self.timeline_range(options.clips.as_deref()),
+                ExportRange::Whole => None,
+                ExportRange::Secs(range_secs) => Some(range_secs),
+            },
+            close_loop_secs: options.close_loop_secs,
+            reduce: options.reduce,
+            for_book: options.for_book && is_of_book,
+            ..Edits::default()
+        };
+        match self.open_model() {
+            Some(open) if is_of_book => edits.in_space_of_the_books(&open.model),
+            _ => edits,
+        }
+    }
+
+    /// The timeline's range, where its clip is the only one of these.
+    pub fn timeline_range(&self, clips: Option<&[String]>) -> Option<[f32; 2]> {
+        let shown = self.clip()?;
+        let is_only = match clips {
+            Some(names) => names == [shown.name.as_str()],
+            None => self.content.clip_count() == 1,
+        };
+        self.playback().range_secs().filter(|_| is_only)
+    }
+
+    fn stamp(&self, options: &ExportOptions) -> Option<Stamp> {
+        self.open_model()?;
+        let revisions = &self.revisions;
+        Some(Stamp {
+            format: options.format,
+            edits: self.edits(options),
+            space: (self.handedness(), self.up_axis()),
+            green_flipped: self.look().normal_green_flipped,
+            revisions: [
+                revisions.model,
+                revisions.clips,
+                revisions.materials,
+                revisions.maps,
+                revisions.names,
+            ],
+            clip_count: self.content.clip_count(),
+        })
+    }
+}
