@@ -34,7 +34,7 @@
 //! (sums of weights, order of keys, subsets against triangles) is for [`import`](crate::import); only indices are held against
 //! their counts here, since only here the column is known.
 //!
-//! The codes of errors and diagnostics are [`codes::OF_PARSER`](crate::diagnostic::codes::OF_PARSER).
+//! The codes of errors and diagnostics are [`codes::OF_PARSER`].
 
 mod cursor;
 mod document;
