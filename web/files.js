@@ -1,6 +1,6 @@
 // Which file is what, by its name.
 
-/** The extensions of each kind, as the program has them in src/session/files.rs. "unread" are pictures that the viewer names and cannot read. */
+/** The extensions of each kind, as the program has them in src/session/open/files.rs. "unread" are pictures that the viewer names and cannot read. */
 const KINDS = {
   model: ["m3d", "glb", "gltf"],
   archive: ["zip"],

@@ -9,7 +9,7 @@ use std::num::NonZeroUsize;
 
 use egui::{Context, Event, Id, Key, RawInput, Ui};
 
-use super::mirror::{self, MirrorAction};
+use crate::ui::rim::mirror::{self, MirrorAction};
 
 /// The most passes of one frame. Events that are left wait for the next frame.
 pub(super) const MOST_PASSES: NonZeroUsize = NonZeroUsize::new(32).unwrap();

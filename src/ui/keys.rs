@@ -3,14 +3,14 @@
 use egui::{Event, Key, Modifiers, Ui};
 
 use super::cx::Cx;
-use super::export;
-use super::findings;
 use super::input::is_arrow;
-use super::layout;
 use super::state::{Request, UiState};
-use super::viewport::{self, FLIGHT_KEYS};
 use crate::actions::{self, Action, Ask};
 use crate::session::{Command, FileCommand, JointCommand, Session, SubmeshCommand};
+use crate::ui::frame::layout;
+use crate::ui::frame::viewport::{self, FLIGHT_KEYS};
+use crate::ui::panels::export;
+use crate::ui::panels::findings;
 
 /// Reads the keys of a pass in which nobody types into a field. `popover_open`: Esc closes the popover and nothing else.
 pub(super) fn read(ui: &Ui, cx: &mut Cx<'_, UiState>, popover_open: bool) {

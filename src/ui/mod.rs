@@ -1,60 +1,38 @@
 //! The interface. It reads a [`Session`] and answers with [`Command`]s; what is open and shut is its own [`UiState`].
 
-mod announce;
-mod chips;
-mod cost;
-mod crowd;
 mod cx;
-mod error_card;
-mod export;
-mod findings;
-mod focus;
 #[doc(hidden)]
 pub mod for_tests;
-mod help;
-mod icons;
+mod frame;
 mod input;
-mod inspector;
 mod keys;
-mod layout;
-mod light;
-mod message;
-mod mirror;
-mod model_panel;
-mod overlays;
-mod panel;
-mod picture;
-mod sheet;
-mod skeleton;
-mod split;
+mod kit;
+mod panels;
+mod rim;
 mod state;
-mod textures;
-pub mod theme;
-mod thumbnails;
 mod timeline;
-mod toolbar;
-mod viewport;
-mod widgets;
-mod wording;
 
 use egui::{Popup, Rect, Ui};
 
-pub use announce::{Announcement, view_in_words};
+pub use frame::message::Messages;
 pub use keys::owns_key;
-pub use message::Messages;
-pub use mirror::{Mirror, MirrorAction, MirrorChanges, MirrorId, MirrorInput, MirrorNode};
-pub use picture::{picture_name, report_name, sheet_name};
+pub use kit::theme;
+pub use kit::theme::Contrast;
+pub use panels::picture::{picture_name, report_name, sheet_name};
+pub use rim::announce::{Announcement, view_in_words};
+pub use rim::mirror::{Mirror, MirrorAction, MirrorChanges, MirrorId, MirrorInput, MirrorNode};
 pub use state::{MAX_PICTURE_SIDE, Request, SheetPage, SheetRequest, UiState};
-pub use theme::Contrast;
 
 use crate::scene::{Insets, Theme};
 use crate::session::{CameraCommand, Command, FileCommand, HistoryCommand, News, Session, SubmeshCommand};
 use cx::Cx;
+use frame::message::Offer;
+use frame::{chips, layout, message, split, viewport};
 use input::{Grip, InputOrder, MOST_PASSES};
-use message::Offer;
+use kit::theme::MARGIN;
+use kit::wording::{counted, shortened};
+use panels::{export, skeleton};
 use state::Framed;
-use theme::MARGIN;
-use wording::{counted, shortened};
 
 /// The camera frames the model in no less of the window's height. Chips lie over it where they leave less.
 const LEAST_BELOW_CHIPS: f32 = 0.1;
@@ -80,7 +58,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
             Theme::Light => egui::Theme::Light,
         });
     }
-    widgets::size_for_touch(ui.ctx(), touch);
+    kit::size_for_touch(ui.ctx(), touch);
     state.focus.begin(ui.ctx());
     tell(session.take_news(), &mut state.messages);
     if state.shown_model != session.model_revision() {

@@ -2,21 +2,21 @@
 
 use egui::{Rect, Ui};
 
-use super::announce::{Announcement, Announcer};
-use super::cost::SteadyCost;
-use super::findings::state::FindingsState;
-use super::focus::Focus;
 use super::input::{Grip, Keyboard};
-use super::message::Messages;
-use super::sheet::SheetHeight;
-use super::skeleton::state::{SidePage, SkeletonState};
-use super::theme::Contrast;
-use super::thumbnails::Thumbnails;
 use super::timeline::state::TimelineState;
-use super::viewport::ViewHold;
 use crate::model::{JointIndex, Mesh, Submesh};
 use crate::scene::{Insets, Theme};
 use crate::session::{ExportOptions, Session};
+use crate::ui::frame::focus::Focus;
+use crate::ui::frame::message::Messages;
+use crate::ui::frame::sheet::SheetHeight;
+use crate::ui::frame::viewport::ViewHold;
+use crate::ui::kit::theme::Contrast;
+use crate::ui::panels::cost::SteadyCost;
+use crate::ui::panels::findings::state::FindingsState;
+use crate::ui::panels::skeleton::state::{SidePage, SkeletonState};
+use crate::ui::panels::thumbnails::Thumbnails;
+use crate::ui::rim::announce::{Announcement, Announcer};
 
 /// The longest side of a picture, in pixels.
 pub const MAX_PICTURE_SIDE: u32 = 8192;

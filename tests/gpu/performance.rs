@@ -12,7 +12,7 @@ use bindpose::shaders::{self, JOINTS_PER_ROW, Program};
 /// Parts of the picture that the model covers, and in which the ground is seen beside it.
 const MODEL: f64 = 0.25;
 const GROUND: f64 = 0.375;
-/// The least fraction of the picture's sides while it moves on a slow device, and then with few samples; see `session/pacing.rs`. The
+/// The least fraction of the picture's sides while it moves on a slow device, and then with few samples; see `session/look/pacing.rs`. The
 /// last step leaves ambient occlusion out, too.
 const LEAST_SCALE: f64 = 0.5;
 

@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use super::axis::TimeWindow;
 use super::curves::Curves;
 use super::loop_gap::LoopGapReading;
-use super::rows::Rows;
 use crate::model::{Clip, JointIndex};
 use crate::session::Session;
+use crate::ui::timeline::sheet::rows::Rows;
 
 /// Height of the sheet until its edge is dragged …
 const FIRST_HEIGHT: f32 = 264.0;

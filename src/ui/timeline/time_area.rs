@@ -8,8 +8,8 @@ use crate::anim::Direction;
 use crate::model::Clip;
 use crate::session::{Command, PlayCommand, Session};
 use crate::ui::cx::Cx;
-use crate::ui::theme::Tokens;
-use crate::ui::widgets::{SliderNode, by_finger, control_size, focus_ring, focused_keys, is_touch, segmented};
+use crate::ui::kit::theme::Tokens;
+use crate::ui::kit::{SliderNode, by_finger, control_size, focus_ring, focused_keys, is_touch, segmented};
 
 pub(super) const RULER_HEIGHT: f32 = 24.0;
 /// Width of a label with the gap to the next one.

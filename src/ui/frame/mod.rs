@@ -1,0 +1,11 @@
+//! How the window is shared: panels, sheet, toolbar, chips and messages over the view, and where the focus goes.
+
+pub(super) mod chips;
+pub(super) mod focus;
+pub(super) mod layout;
+pub(super) mod message;
+pub(super) mod panel;
+pub(super) mod sheet;
+pub(super) mod split;
+pub(super) mod toolbar;
+pub(super) mod viewport;

@@ -1,0 +1,32 @@
+//! The few controls that panels are made of.
+
+mod button;
+pub(super) mod color;
+mod control;
+mod heading;
+pub(super) mod icons;
+mod number;
+mod row;
+mod search;
+pub mod theme;
+pub(super) mod wording;
+
+pub(super) use button::{
+    ICON_SIZE, MenuLine, TextButton, action_button, action_switch, choices, explained_segmented, icon_button,
+    keyed_menu_item, menu_item, noted_switch_row, push_action, push_button, segmented, switch_row, untold_icon_button,
+    valued_choice, valued_menu_item,
+};
+pub(super) use color::{color_button, color_picker, gradient_shape, paint_swatch};
+pub(super) use control::{
+    SliderNode, arrow_steps, by_finger, chip, chip_size, control_size, elided_name, explained, focus_ring,
+    focused_keys, hint_beside, hint_of_name, in_force, is_touch, paint_chip, paint_elided, paint_focus_ring,
+    paint_fold_mark, paint_list_ground, paint_name, paint_row_ground, pressed_chip, pressed_row_height,
+    retain_plain_keys, size_for_touch, slider_keys, tell_node, tell_open, tell_popup, tell_push, walked,
+};
+pub(super) use heading::{
+    closable_heading, explained_section, heading_with_close, keyed_section_name, section_name, section_with_action,
+    section_with_labelled_action, selected_heading,
+};
+pub(super) use number::{Slider, TypedValue, leading_number, number_field, number_within};
+pub(super) use row::{Row, RowList, choice_row, progress_bar, row_icon, rule, sheet_handle, value_row};
+pub(super) use search::search_field;

@@ -1,0 +1,241 @@
+//! The light, the background, the passes that cost time, and how fine a moving picture is.
+
+use egui::{FontId, Pos2, Response, RichText, Role, Ui, vec2};
+
+use super::cost::SteadyCost;
+use crate::actions;
+use crate::scene::{Background, Detail, Light, Pass, TimedPass};
+use crate::session::{
+    Command, FileCommand, LookCommand, Lowered, MAX_EXPOSURE_STOPS, PassChoice, PassState, QualityCommand, QualityMode,
+    Session,
+};
+use crate::ui::frame::panel::popover_gap;
+use crate::ui::kit::icons::Icon;
+use crate::ui::kit::theme::Tokens;
+use crate::ui::kit::wording::{milliseconds, shortened};
+use crate::ui::kit::{
+    MenuLine, Row, Slider, color_picker, control_size, keyed_section_name, menu_item, noted_switch_row, push_button,
+    section_name, segmented, switch_row, tell_node, value_row,
+};
+
+/// The first colour of a plain background: the middle of the backdrop.
+const FIRST_COLOR_DARK: [u8; 3] = [0x33, 0x38, 0x42];
+const FIRST_COLOR_LIGHT: [u8; 3] = [0xF4, 0xF5, 0xF7];
+
+/// The button's label: the light that is on. With a sky the studio's light is the sky's.
+pub(in crate::ui) fn label(session: &Session) -> &'static str {
+    match (session.look().split, session.look().light) {
+        (Some(_), _) => "Split",
+        (None, Light::Studio) if session.sky().is_some() => "Sky",
+        (None, light) => light.label(),
+    }
+}
+
+/// Puts a dot at the button's icon while the device is too slow for all the detail, and says so below the tooltip's words.
+pub(in crate::ui) fn mark_button(ui: &Ui, session: &Session, button: Response, icon: Pos2, words: &str) -> Response {
+    let quality = session.quality();
+    let lowered = quality.lowered().filter(|_| quality.mode() == QualityMode::Auto);
+    let Some(lowered) = lowered else {
+        return button.on_hover_text(words);
+    };
+    let note = format!("While it moves: {}", lowered_words(&lowered));
+    ui.painter()
+        .circle_filled(icon + vec2(7.0, -7.0), 3.0, Tokens::of(ui).warning);
+    // The note changes while one listens.
+    tell_node(&button, |node| node.set_description(words));
+    button.on_hover_text(format!("{words}\n{note}"))
+}
+
+pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands: &mut Vec<Command>) {
+    let look = session.look();
+    keyed_section_name(ui, "Light", actions::OTHER_LIGHT.key());
+    let lights = Light::ALL.map(|light| (light, light.label()));
+    let in_force = look.split.is_none().then_some(look.light);
+    if let Some(light) = segmented(ui, "Light", &lights, in_force) {
+        commands.push(LookCommand::SetSplit(None).into());
+        commands.push(LookCommand::SetLight(light).into());
+    }
+    ui.add_space(4.0);
+    let split = look.split.is_some();
+    let response = switch_row(ui, "Split: both side by side", "", split);
+    if response.clicked() {
+        let middle = (!split).then_some(0.5);
+        commands.push(LookCommand::SetSplit(middle).into());
+    }
+    if split || look.light == Light::Studio {
+        exposure(ui, look.exposure_stops, commands);
+    }
+    environment_turn(ui, look.environment_turn_radians, commands);
+    popover_gap(ui);
+    background(ui, session, commands);
+    popover_gap(ui);
+    section_name(ui, "Green of normal maps");
+    let directions = [(false, "DirectX ↓"), (true, "OpenGL ↑")];
+    if let Some(flipped) = segmented(ui, "Normal maps", &directions, Some(look.normal_green_flipped)) {
+        commands.push(LookCommand::SetNormalGreenFlipped(flipped).into());
+    }
+    popover_gap(ui);
+    passes(ui, session, commands);
+    popover_gap(ui);
+    quality(ui, session, commands);
+    pass_times(ui, session, cost);
+}
+
+fn exposure(ui: &mut Ui, stops: f32, commands: &mut Vec<Command>) {
+    // A true minus sign, as wide as the plus.
+    let text = format!("{}{:.1} EV", if stops < -0.04 { '−' } else { '+' }, stops.abs());
+    let slider = Slider::new("Exposure", stops, -MAX_EXPOSURE_STOPS..=MAX_EXPOSURE_STOPS, &text);
+    if let Some(stops) = slider.reset_to(0.0).show(ui) {
+        commands.push(LookCommand::SetExposure(stops).into());
+    }
+}
+
+fn environment_turn(ui: &mut Ui, radians: f32, commands: &mut Vec<Command>) {
+    let degrees = radians.to_degrees();
+    let text = format!("{degrees:.0}°");
+    if let Some(degrees) = Slider::new("Environment", degrees, 0.0..=360.0, &text).show(ui) {
+        // 360° would come back as 0°, and the knob would jump to the other end.
+        commands.push(LookCommand::SetEnvironmentTurn(degrees.min(359.9).to_radians()).into());
+    }
+}
+
+fn background(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let in_force = session.look().background;
+    section_name(ui, "Background");
+    let first_color = if ui.visuals().dark_mode {
+        FIRST_COLOR_DARK
+    } else {
+        FIRST_COLOR_LIGHT
+    };
+    let color = match in_force {
+        Background::Color(color) => color,
+        _ => first_color,
+    };
+    let choices = [
+        (Background::Backdrop, "Backdrop"),
+        (Background::Sky, "Sky"),
+        (Background::Color(color), "Colour"),
+        (Background::None, "None"),
+    ];
+    if let Some(background) = segmented(ui, "Background", &choices, Some(in_force)) {
+        commands.push(LookCommand::SetBackground(background).into());
+    }
+    if let Some(file) = session.sky_file() {
+        sky_row(ui, file.base_name(), commands);
+    }
+    for file in session.skies() {
+        let words = format!("Use {} as sky", shortened(file.base_name(), 30));
+        if session.sky_file() != Some(file) && menu_item(ui, &words, MenuLine::Action).clicked() {
+            commands.push(FileCommand::UseSky(file.path.clone()).into());
+        }
+    }
+    if let Background::Color(color) = in_force {
+        ui.add_space(8.0);
+        if let Some(color) = color_picker(ui, "Background colour", color) {
+            commands.push(LookCommand::SetBackground(Background::Color(color)).into());
+        }
+    }
+}
+
+/// The name of the sky that was dropped, and a button that takes it away.
+fn sky_row(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
+    ui.add_space(4.0);
+    ui.horizontal(|ui| {
+        let tokens = Tokens::of(ui);
+        let height = control_size(ui);
+        let width = ui.available_width() - height - 6.0;
+        let mut row = Row::sized(ui, vec2(width, height));
+        row.left("Sky", tokens.muted);
+        row.left += 10.0;
+        row.name(name, tokens.text);
+        row.told(Role::Label, format!("Sky {name}"));
+        if push_button(ui, Icon::Close, "Remove the sky").clicked() {
+            commands.push(FileCommand::ClearSky.into());
+        }
+    });
+}
+
+/// The passes: which are on, and for which the device is too slow.
+fn passes(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    section_name(ui, "Passes");
+    let quality = session.quality();
+    for pass in Pass::ALL {
+        let state = quality.state(pass);
+        let (choice, hint) = match state {
+            PassState::Drawn => (PassChoice::Off, "Leave it out"),
+            PassState::Off => (PassChoice::Auto, "Draw it"),
+            PassState::TooSlow => (
+                PassChoice::On,
+                "Too slow here while the picture moves, so it is drawn at rest. Draw it always, however long frames take",
+            ),
+        };
+        let too_slow = state == PassState::TooSlow;
+        let note = if too_slow { "only at rest" } else { "" };
+        let note_style = (note, FontId::proportional(12.0), Tokens::of(ui).warning);
+        let row = noted_switch_row(ui, pass.label(), note_style, state != PassState::Off);
+        if too_slow {
+            tell_node(&row, |node| node.set_description("Drawn only at rest"));
+        }
+        if row.on_hover_text(hint).clicked() {
+            commands.push(QualityCommand::SetPass(pass, choice).into());
+        }
+    }
+}
+
+/// How finely the picture is drawn while it moves: what was chosen, and what is lowered.
+fn quality(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    section_name(ui, "While it moves");
+    let quality = session.quality();
+    let choices = QualityMode::ALL.map(|mode| (mode, mode.label()));
+    if let Some(mode) = segmented(ui, "Quality while it moves", &choices, Some(quality.mode())) {
+        commands.push(QualityCommand::SetMode(mode).into());
+    }
+    if let Some(lowered) = quality.lowered() {
+        ui.add_space(4.0);
+        let small = RichText::new(lowered_words(&lowered)).font(FontId::proportional(12.0));
+        let color = if quality.mode() == QualityMode::Auto {
+            Tokens::of(ui).warning
+        } else {
+            Tokens::of(ui).muted
+        };
+        ui.label(small.color(color));
+    }
+}
+
+/// `50 % of the pixels each way, coarser ambient occlusion: frames took 83 ms`.
+fn lowered_words(lowered: &Lowered) -> String {
+    let mut parts = Vec::new();
+    if lowered.scale < 1.0 {
+        parts.push(format!("{:.0} % of the pixels each way", lowered.scale * 100.0));
+    }
+    if lowered.without_smooth_edges {
+        parts.push("no smooth edges".to_owned());
+    }
+    if lowered.without_occlusion {
+        parts.push("no ambient occlusion".to_owned());
+    } else if lowered.occlusion == Detail::Low {
+        parts.push("coarser ambient occlusion".to_owned());
+    }
+    if lowered.shadow == Detail::Low {
+        parts.push("coarser shadows".to_owned());
+    }
+    let parts = parts.join(", ");
+    if lowered.frame_secs > 0.0 {
+        format!("{parts}: frames took {:.0} ms", lowered.frame_secs * 1e3)
+    } else {
+        parts
+    }
+}
+
+/// What the GPU spent on each pass of a frame, where it tells that.
+fn pass_times(ui: &mut Ui, session: &Session, cost: &mut SteadyCost) {
+    let Some(gpu_secs) = cost.read(ui, session).gpu_secs else {
+        return;
+    };
+    popover_gap(ui);
+    section_name(ui, "GPU time of a frame");
+    for (pass, secs) in TimedPass::ALL.into_iter().zip(gpu_secs) {
+        value_row(ui, pass.label(), &milliseconds(secs));
+    }
+    value_row(ui, "Together", &milliseconds(gpu_secs.iter().sum()));
+}
