@@ -9,10 +9,8 @@ use bindpose::diagnostic::{codes, of_export};
 /// The sources that make changes and losses.
 fn sources() -> String {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut folders = vec![root.join("edit"), root.join("export")];
-    let mut files: Vec<PathBuf> = ["exporting", "export_job", "export_maps"]
-        .map(|name| root.join(format!("session/{name}.rs")))
-        .into();
+    let mut folders = ["edit", "export", "session/write"].map(|name| root.join(name)).to_vec();
+    let mut files: Vec<PathBuf> = Vec::new();
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).expect("a folder of sources") {
             let path = entry.expect("can be listed").path();
