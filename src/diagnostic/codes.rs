@@ -17,7 +17,8 @@ pub fn named(name: &str) -> Option<&'static Code> {
     all().find(|code| code.name == name)
 }
 
-/// A constant for each row, and a list for each group.
+/// A constant for each row, and a list for each group. A row has: name, severity, sentence; what it means; what is done about it here; what the
+/// author of the file does about it; and how the program mends it, where it does.
 macro_rules! table {
     (@mended) => { Mended::No };
     (@mended $mended:ident) => { Mended::$mended };

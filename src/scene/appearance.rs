@@ -82,6 +82,24 @@ modes! {
 }
 
 impl ViewMode {
+    /// Whether it shows what a pass finds out. Other passes are not drawn for it.
+    pub fn shows(self, pass: Pass) -> bool {
+        match self {
+            Self::Lit => true,
+            Self::AmbientOcclusion => pass == Pass::AmbientOcclusion,
+            Self::Shadow => pass == Pass::Shadow,
+            Self::BaseColor
+            | Self::NormalMap
+            | Self::ShadingNormal
+            | Self::Tangent
+            | Self::TexCoords
+            | Self::Roughness
+            | Self::Metallic
+            | Self::Material
+            | Self::Depth => false,
+        }
+    }
+
     /// The mode some places further in the menu; after the last comes the first.
     pub fn cycled(self, places: i32) -> Self {
         let here = Self::ALL.iter().position(|&mode| mode == self).unwrap_or(0) as i64;

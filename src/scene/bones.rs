@@ -87,7 +87,7 @@ impl Bones {
         &self.parents
     }
 
-    /// The scene's radius as given to `update`, above 0.
+    /// The scene's radius as given to [`place`](Self::place), above 0.
     pub fn scene_radius(&self) -> f32 {
         self.scene_radius
     }

@@ -48,16 +48,10 @@ impl FrameOptions {
         self.draws_under(pass, self.light) || beside.is_some_and(|light| self.draws_under(pass, light))
     }
 
-    /// Whether a pass is drawn where this light is: it is on, and the view mode shows its result.
+    /// Whether a pass is drawn in the part of the picture that has this light: it is on, and the view mode shows its result.
     pub fn draws_under(&self, pass: Pass, light: Light) -> bool {
-        let lit = self.view_mode == ViewMode::Lit;
-        self.passes.has(pass)
-            && match pass {
-                Pass::Shadow => lit || self.view_mode == ViewMode::Shadow,
-                Pass::AmbientOcclusion => lit || self.view_mode == ViewMode::AmbientOcclusion,
-                Pass::ContactShadow => lit && light == Light::Studio,
-                Pass::Environment => lit,
-            }
+        let has_light = pass != Pass::ContactShadow || light == Light::Studio;
+        self.passes.has(pass) && self.view_mode.shows(pass) && has_light
     }
 }
 
@@ -90,7 +84,8 @@ pub struct RenderFrame<'a> {
 }
 
 impl RenderFrame<'_> {
-    /// Whether a pass is drawn where this light is: [`FrameOptions::draws_under`], and the colours of an instance show its result.
+    /// Whether a pass is drawn in the part of the picture that has this light: [`FrameOptions::draws_under`], and not only colours of
+    /// vertices are shown, which do not use it.
     pub fn draws_under(&self, pass: Pass, light: Light) -> bool {
         let colored_alone = self.vertex_colors.is_some() && self.crowd.in_sight.min(self.crowd.instances.len()) == 0;
         let is_read = pass != Pass::AmbientOcclusion || !colored_alone;

@@ -194,7 +194,7 @@ on_both_backends! {
                 scene.options.light = light;
                 easel.draw(&scene)
             });
-            let by_light = matches!(mode, ViewMode::Lit | ViewMode::AmbientOcclusion | ViewMode::Shadow);
+            let by_light = bindpose::scene::Pass::ALL.into_iter().any(|pass| mode.shows(pass));
             assert_eq!(studio.share_that_differs(&book, 0) > 0.0, by_light, "{mode:?}");
         }
     }

@@ -22,9 +22,10 @@ const REACH_BETWEEN_KEYS: f32 = 0.05;
 pub enum JointCommand {
     /// Selects one, clears the selected vertex and unfolds the branches above it, or selects none.
     Select(Option<JointIndex>),
-    /// Selects what is at a point of the picture: x right, y up, −1…1. That is the nearest bone within a few pixels, else the
-    /// strongest bone of the skin there. While the skin is coloured it is a bone that is drawn there, else the nearest vertex.
-    /// Beside the model it clears the selection, but for the bone whose weights are shown. Another instance there is selected first.
+    /// Selects what is at a point of the picture: x right, y up, −1…1. Another instance there is selected first.
+    /// - Plain skin: the nearest bone within a few pixels, else the strongest bone of the skin there.
+    /// - Coloured skin: a bone that is drawn there, else the nearest vertex.
+    /// - Beside the model: nothing; on a coloured skin the bone whose weights are shown stays selected.
     SelectAt(Vec2),
     /// Selects the parent of the selected one, if it has one.
     SelectParent,

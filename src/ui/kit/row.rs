@@ -72,7 +72,8 @@ impl RowList {
     }
 }
 
-/// A row of a panel. Words are laid out from its ends inwards, in 13 points unless told, and then screen readers are told of it.
+/// A row of a panel. Text goes in from both ends, in 13 points where no size is given. Call `told` last: it
+/// names the row for screen readers.
 pub(crate) struct Row {
     pub(crate) rect: Rect,
     pub(crate) response: Response,

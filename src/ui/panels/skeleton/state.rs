@@ -77,8 +77,8 @@ impl SkeletonState {
         }
     }
 
-    /// Whether a click in the view is about bones and vertices: on a coloured skin, and else as the page of the side panel says. While that
-    /// is not seen, where bones are drawn.
+    /// Whether a click in the view is about bones and vertices. Always on a coloured skin. Else the side panel decides: while it is seen, by
+    /// its page; while it is not, by whether bones are drawn.
     pub(in crate::ui) fn picks_bones(&self, session: &Session, page_seen: bool) -> bool {
         let by_page = match page_seen {
             true => self.page == SidePage::Skeleton,
