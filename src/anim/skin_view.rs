@@ -1,4 +1,6 @@
 //! What can be seen of a skin: one number a vertex.
+//!
+//! Made on the CPU and drawn from one more vertex buffer, so that tests and panels read the numbers that are seen.
 
 use std::collections::{HashMap, HashSet};
 

@@ -1,4 +1,4 @@
-//! Words in pixels, with the interface's font and the rasteriser that draws its words.
+//! Words in pixels, with the interface's font and the rasteriser that draws its words: another one would make the program larger.
 
 use skrifa::instance::{LocationRef, Size};
 use skrifa::metrics::GlyphMetrics;

@@ -14,6 +14,9 @@
 //! let (above, below) = (studio.irradiance().towards(Vec3::Y), studio.irradiance().towards(Vec3::NEG_Y));
 //! assert!(above.min_element() > 2.0 * below.max_element());
 //! ```
+//!
+//! Specular light is the split sum (Karis 2013) with the energy of many bounces kept (Fdez-Agüera 2019). Filtering is done on the CPU,
+//! since WebGL2 promises no float targets.
 
 mod brdf_table;
 mod cube;

@@ -1,4 +1,8 @@
 //! In which order submeshes are blended over what is behind them: the farthest first.
+//!
+//! What is blended is drawn after the background and writes no depth, so two panes of one submesh both show. Its parts with alpha 1 are
+//! drawn among the opaque ones, with depth, so hair and leaves hide what is behind them in any order. Of what is double-sided the backs
+//! come first.
 
 use std::ops::Range;
 

@@ -1,5 +1,8 @@
 //! The environment in GPU memory: the studio or a dropped sky, blurred for every roughness, and the cube that is seen and
 //! mirrored.
+//!
+//! Tables that the CPU makes (studio, daylight, reflectance) are made once for all renderers. Devices and pipelines are not shared:
+//! WebGL2's belong to a canvas, and WebGPU tells of errors and of a loss once for each device.
 
 use std::borrow::Cow;
 use std::sync::LazyLock;

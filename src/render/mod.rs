@@ -136,7 +136,8 @@ impl Shape {
 /// pixels of one at rest, which may have twice the room that it needs.
 const MOST_TIMES: u64 = 8;
 
-/// A range of columns of the picture, pixels, under one light.
+/// A range of columns of the picture, pixels, under one light. Two lights are two draws of one frame, each inside its columns: no blending,
+/// no second target, and each shows what it alone would show.
 type Columns = (Light, std::ops::Range<u32>);
 
 impl Renderer {

@@ -1,4 +1,7 @@
 //! A model in GPU memory, and how its parts are drawn.
+//!
+//! Positions are a vertex stream of their own, so that shadow map, contact map and edges fetch 12 bytes of a vertex and its influences.
+//! Normals, tangents and texture coordinates are another stream.
 
 use std::cell::{Cell, OnceCell};
 use std::collections::BTreeSet;

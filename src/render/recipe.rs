@@ -13,7 +13,7 @@ pub(super) enum Shading {
     Inspect,
 }
 
-/// What of a material its program reads.
+/// What of a material its program reads. Each has programs of its own, so that neither pays for the other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) enum Maps {
     /// The diffuse and the normal map, both sampled as the books do: all that a .m3d file has.

@@ -1,4 +1,7 @@
 //! What a command or a step of time changed, and counters of these changes for caches.
+//!
+//! A counter for each kind serves any number of readers; flags would have to be taken and cleared by each of them. A test plays random
+//! commands and looks for a frame that differs without being told.
 
 use std::ops::BitOrAssign;
 

@@ -1,4 +1,7 @@
 //! What is open and how it is looked at. Commands change it, time moves it, a [`RenderFrame`](crate::scene::RenderFrame) comes out.
+//!
+//! The parts know nothing of the session: each takes what it needs of the others as arguments, so it can be read and tested on its own.
+//! What needs several parts is a method of `Session`, in a file named by what it is about.
 
 mod apply;
 mod changes;

@@ -4,6 +4,8 @@
 //! listeners and frames; several may run on one page. It knows no id of the page and adds listeners only to its canvas. eframe
 //! adds some to document and window, for drags, the clipboard and the colour scheme, and acts on those that are meant for its canvas or its hidden
 //! input. After a lost GPU the page gives the viewer a fresh canvas, which shows what was open.
+//!
+//! Keys go to the viewer that has the focus. Drops go to the element under the pointer, or to the only viewer anywhere on its page.
 
 mod arguments;
 mod backend;

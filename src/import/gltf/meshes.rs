@@ -1,6 +1,8 @@
 //! From primitives to one mesh: the vertices of all meshes of the scene in the file's order, and a submesh for each primitive.
 //!
 //! Primitives of one mesh that share their attributes share their vertices. A mesh on several nodes is read once and copied.
+//!
+//! Vertices stay in the file's order, so normals that are absent come out smooth, where glTF asks for flat ones.
 
 use std::collections::HashMap;
 

@@ -3,6 +3,8 @@
 //! The scene that the file shows first becomes one model: right-handed, y up, facing +z, one skeleton of all nodes that move
 //! something, one mesh of all primitives. What was mended comes back as diagnostics; what names something that is not there, or
 //! reaches beyond its data, ends the reading.
+//!
+//! The file's names of nodes are the names of the joints until a person gives others.
 
 mod binding;
 mod clips;

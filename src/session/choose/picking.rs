@@ -1,4 +1,6 @@
 //! The first triangle that a ray meets in the pose of now, without what is hidden or cut away, and without backs that are not drawn.
+//!
+//! It is done on the CPU, since that is exact on the pose and has no read-back to wait for.
 
 use std::collections::BTreeMap;
 

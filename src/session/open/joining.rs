@@ -1,4 +1,6 @@
 //! Clips of other files with the same bones join those of the open model.
+//!
+//! Clips take the places of those that a file of the same name brought before: a file that is exported again and again does not pile up.
 
 use std::sync::Arc;
 

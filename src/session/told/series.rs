@@ -1,4 +1,6 @@
 //! A series of pictures: what a session shows, at other times and from other sides.
+//!
+//! For each picture the copy is sought and turned, so it shows what its time alone gives, to the byte.
 
 use crate::scene::{Camera, Insets, RenderFrame, Shot};
 use crate::session::play::playing::PlayCommand;

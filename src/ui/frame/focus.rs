@@ -1,7 +1,8 @@
 //! The keyboard focus: the order of Tab, what opens and gives it back, what is scrolled into view, and the ring.
 //!
 //! egui goes through widgets in the order in which panels are shown, and that is the order of their layout. A person reads them in
-//! another. So Tab is handled here, before the widgets of a pass.
+//! another. So Tab is handled here, before the widgets of a pass. Where a page mirrors the controls as elements, Tab is the browser's among
+//! them and does not come here; what opens and closes moves the focus all the same, and the elements follow.
 
 use std::cmp::Reverse;
 

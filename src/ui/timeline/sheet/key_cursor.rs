@@ -1,4 +1,6 @@
 //! The dope sheet by keyboard: a cell that arrows move from key to key and from row to row, and the keys that Shift chooses.
+//!
+//! The sheet is one stop of Tab: the cell is the active descendant of the focused grid. Rows are no stops, since there may be thousands.
 
 use egui::accesskit::Action;
 use egui::{Key, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
