@@ -22,8 +22,8 @@ use crate::format::LineMap;
 use crate::model::Model;
 
 /// Checks a model that is sound: its mesh, its maps' coordinates, its bones, and all clips in motion. `compiled` are the model's clips,
-/// in its order. `lines` has the lines of the file; it may be empty. The cost is that of sorting the triangles, and linear in vertices, bones and keys,
-/// whatever the file holds.
+/// in its order. `lines` has the lines of the file; it may be empty. The cost is that of sorting the triangles, and linear in vertices,
+/// bones and keys, whatever the file holds.
 pub fn model(model: &Model, compiled: &[CompiledClip], lines: &LineMap) -> Vec<Diagnostic> {
     let mut diagnostics = Diagnostics::default();
     mesh::note_useless(&model.mesh, lines, &mut diagnostics);

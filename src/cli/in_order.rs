@@ -47,6 +47,7 @@ pub fn in_order<T: Sync, R: Send, E>(
         };
         let taken = take_all();
         drop(begin);
+        // After an error, what was asked for and not begun is dropped.
         while next().is_ok() {}
         taken
     })
