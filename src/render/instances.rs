@@ -178,19 +178,21 @@ fn crowd_palettes<'a>(frame: &RenderFrame<'a>) -> ChunksExact<'a, Affine3A> {
     palettes.chunks_exact(joints.max(1))
 }
 
-/// The instances of a frame, as a vertex stream with an entry for each: the frame's own instance and the crowd, those in sight before
-/// the others, so that one draw has all of them; the own instance again in the colour of the highlight; the ghosts.
+/// The instances of a frame, as a vertex stream: the frame's own instance twice, the crowd, those in sight before the others, so that
+/// one draw has all of them; the own instance again in the colour of the highlight; the ghosts. A line at a vertex reads both of the
+/// first, one for each end, since there the mesh's vertices are the instances.
 pub(super) struct Instances {
     buffer: wgpu::Buffer,
     /// As they were uploaded last.
-    entries: Vec<Entry>,
+    stream: Vec<Instance>,
     /// Those of the upload before, as a buffer for the next.
-    entries_before: Vec<Entry>,
-    standing: Standing,
+    stream_before: Vec<Instance>,
+    roster: Roster,
 }
 
+/// Which instances a frame has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Standing {
+pub(super) struct Roster {
     /// How many the camera may see, with the frame's own.
     in_sight: u32,
     /// How many there are, with the frame's own.
@@ -200,7 +202,7 @@ pub(super) struct Standing {
     hash: u64,
 }
 
-impl Standing {
+impl Roster {
     /// Whether both have the same instances in any order, in sight or not.
     pub(super) fn has_all_of(&self, other: &Self) -> bool {
         (self.count, self.hash) == (other.count, other.hash)
@@ -214,17 +216,13 @@ pub(super) struct InstanceRange<'a> {
     pub(super) count: u32,
 }
 
-/// Each instance is there twice. A draw of triangles steps over both at each instance. A draw of a line at each vertex reads one
-/// for each end of the line, since there the mesh's vertices are the instances.
-type Entry = [Instance; 2];
-
 impl Instances {
     pub(super) fn new(device: &wgpu::Device) -> Self {
         Self {
-            buffer: stream(device, 2),
-            entries: Vec::new(),
-            entries_before: Vec::new(),
-            standing: Standing::default(),
+            buffer: buffer_for(device, 2),
+            stream: Vec::new(),
+            stream_before: Vec::new(),
+            roster: Roster::default(),
         }
     }
 
@@ -262,18 +260,18 @@ impl Instances {
             ..own
         };
         let ghosts = (poses..palettes).zip(frame.ghosts.colors_srgb).map(ghost);
-        let all = std::iter::once(own).chain(crowd).chain([highlight]).chain(ghosts);
-        std::mem::swap(&mut self.entries, &mut self.entries_before);
-        self.entries.clear();
-        self.entries.extend(all.map(|one| [one; 2]));
+        let all = [own, own].into_iter().chain(crowd).chain([highlight]).chain(ghosts);
+        std::mem::swap(&mut self.stream, &mut self.stream_before);
+        self.stream.clear();
+        self.stream.extend(all);
 
         let (in_sight, count) = (frame.crowd.in_sight, frame.crowd.instances.len());
         let (in_sight, count) = (in_sight.min(count) as u32 + 1, count as u32 + 1);
-        let differs = self.entries != self.entries_before;
-        if differs || (self.standing.in_sight, self.standing.count) != (in_sight, count) {
-            let (seen, others) = self.entries[..count as usize].split_at(in_sight as usize);
+        let differs = self.stream != self.stream_before;
+        if differs || (self.roster.in_sight, self.roster.count) != (in_sight, count) {
+            let (seen, others) = self.stream[1..=count as usize].split_at(in_sight as usize);
             let hash_in_sight = hash_of(seen);
-            self.standing = Standing {
+            self.roster = Roster {
                 in_sight,
                 count,
                 hash_in_sight,
@@ -281,15 +279,15 @@ impl Instances {
             };
         }
         if differs {
-            if self.entries.len() > self.buffer.size() as usize / size_of::<Entry>() {
-                self.buffer = stream(device, self.entries.len().next_power_of_two());
+            if self.stream.len() > self.buffer.size() as usize / size_of::<Instance>() {
+                self.buffer = buffer_for(device, self.stream.len().next_power_of_two());
             }
-            queue.write_buffer(&self.buffer, 0, bytemuck::cast_slice(&self.entries));
+            queue.write_buffer(&self.buffer, 0, bytemuck::cast_slice(&self.stream));
         }
     }
 
-    pub(super) fn standing(&self) -> Standing {
-        self.standing
+    pub(super) fn roster(&self) -> Roster {
+        self.roster
     }
 
     pub(super) fn own(&self) -> InstanceRange<'_> {
@@ -298,27 +296,27 @@ impl Instances {
 
     /// The crowd, as far as it is in sight.
     pub(super) fn crowd_in_sight(&self) -> InstanceRange<'_> {
-        self.range(1..self.standing.in_sight)
+        self.range(2..self.roster.in_sight + 1)
     }
 
     /// The frame's own instance and the crowd, as far as it is in sight.
     pub(super) fn in_sight(&self) -> InstanceRange<'_> {
-        self.range(0..self.standing.in_sight)
+        self.range(1..self.roster.in_sight + 1)
     }
 
     /// The frame's own instance and the whole crowd.
     pub(super) fn all(&self) -> InstanceRange<'_> {
-        self.range(0..self.standing.count)
+        self.range(1..self.roster.count + 1)
     }
 
     /// The frame's own instance in the colour of the highlight.
     pub(super) fn highlight(&self) -> InstanceRange<'_> {
-        self.range(self.standing.count..self.standing.count + 1)
+        self.range(self.roster.count + 1..self.roster.count + 2)
     }
 
     /// The frame's own instance in other poses, each by itself.
     pub(super) fn ghosts(&self) -> impl Iterator<Item = InstanceRange<'_>> {
-        (self.standing.count + 1..self.entries.len() as u32).map(|ghost| self.range(ghost..ghost + 1))
+        (self.roster.count + 2..self.stream.len() as u32).map(|ghost| self.range(ghost..ghost + 1))
     }
 
     fn range(&self, range: Range<u32>) -> InstanceRange<'_> {
@@ -331,27 +329,27 @@ impl Instances {
 }
 
 /// The same for the same instances in any order.
-fn hash_of(entries: &[Entry]) -> u64 {
-    let hash = |[instance, _]: &Entry| {
+fn hash_of(instances: &[Instance]) -> u64 {
+    let hash = |instance: &Instance| {
         let mut hasher = DefaultHasher::new();
         hasher.write(bytemuck::bytes_of(instance));
         hasher.finish()
     };
-    entries.iter().map(hash).fold(0, u64::wrapping_add)
+    instances.iter().map(hash).fold(0, u64::wrapping_add)
 }
 
 impl<'a> InstanceRange<'a> {
     /// The stream from the range's instance with this index on. WebGL2 has no first instance, so the buffer starts there.
     pub(super) fn from(self, index: u32) -> wgpu::BufferSlice<'a> {
         self.buffer
-            .slice(u64::from(self.first + index) * size_of::<Entry>() as u64..)
+            .slice(u64::from(self.first + index) * size_of::<Instance>() as u64..)
     }
 }
 
-fn stream(device: &wgpu::Device, count: usize) -> wgpu::Buffer {
+fn buffer_for(device: &wgpu::Device, count: usize) -> wgpu::Buffer {
     device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("instances"),
-        size: (count * size_of::<Entry>()) as u64,
+        size: (count * size_of::<Instance>()) as u64,
         usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
     })

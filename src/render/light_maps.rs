@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::buffers::bind_group;
 use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
-use super::recipe::{Cut, Draw, ModelDraw};
+use super::recipe::{Draw, ModelDraw, Purpose};
 use super::target::{DEPTH_FORMAT, FRACTION_FORMAT, GEOMETRY_FORMAT, PassTargets, begin_pass, flat_texture, pixels};
 use super::timing::FrameEncoder;
 use crate::scene::{Light, TimedPass};
@@ -158,7 +158,7 @@ impl GeometryMap {
         let mut pass = begin_pass(encoder, TimedPass::Geometry, targets);
         pass.set_bind_group(0, frame_group, &[]);
         pass.set_bind_group(2, nothing, &[]);
-        model.draw(&mut pass, posed, [Cut::Hard; 2], ModelDraw::Geometry);
+        model.draw(&mut pass, posed, Purpose::Geometry);
     }
 }
 
@@ -174,7 +174,7 @@ struct OcclusionSource {
 }
 
 /// Ambient occlusion at half the picture's resolution, from the normals and the depth of what is in view.
-pub(super) struct AmbientOcclusion {
+pub(super) struct OcclusionMap {
     occlusion: wgpu::TextureView,
     half_blurred: wgpu::TextureView,
     /// Reads the geometry and `occlusion`.
@@ -184,7 +184,7 @@ pub(super) struct AmbientOcclusion {
     drawn_from: DrawnFrom<OcclusionSource>,
 }
 
-impl AmbientOcclusion {
+impl OcclusionMap {
     pub(super) fn new(device: &wgpu::Device, pipelines: &Pipelines, map: &GeometryMap) -> Self {
         let texture = |label| flat_texture(device, label, map.capacity(), FRACTION_FORMAT, DRAWN_AND_READ);
         let (occlusion, half_blurred) = (texture("occlusion"), texture("occlusion, half blurred"));

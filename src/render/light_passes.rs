@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::buffers::{Queue, bind_group, uniform_buffer};
 use super::environment::Environments;
-use super::light_maps::{AmbientOcclusion, ContactMap, GeometryMap, ShadowMap};
+use super::light_maps::{ContactMap, GeometryMap, OcclusionMap, ShadowMap};
 use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
 use super::timing::FrameEncoder;
@@ -64,7 +64,7 @@ pub(super) struct LightPasses {
     written: (shaders::Camera, shaders::Light, shaders::Ground),
     frame_group: wgpu::BindGroup,
     shadow: ShadowMap,
-    occlusion: Option<AmbientOcclusion>,
+    occlusion: Option<OcclusionMap>,
     contact: Option<ContactMap>,
     /// The bind group, and the textures that it is made of.
     lighting: Option<(LightingViews<wgpu::TextureView>, wgpu::BindGroup)>,
@@ -110,7 +110,7 @@ impl LightPasses {
     }
 
     pub(super) fn view_textures(&self) -> impl Iterator<Item = &wgpu::Texture> {
-        self.occlusion.iter().flat_map(AmbientOcclusion::textures)
+        self.occlusion.iter().flat_map(OcclusionMap::textures)
     }
 
     /// Writes the uniforms for a picture of this size, pixels.
@@ -163,7 +163,7 @@ impl LightPasses {
         let mut contact = &common.black;
         if let Some(model) = model {
             if let (true, Some(geometry)) = (draws(Pass::AmbientOcclusion), geometry) {
-                let fresh = || AmbientOcclusion::new(device, pipelines, geometry);
+                let fresh = || OcclusionMap::new(device, pipelines, geometry);
                 let map = self.occlusion.get_or_insert_with(fresh);
                 map.draw(encoder, pipelines, (group, light), (self.light, columns), geometry);
                 occlusion = map.view();

@@ -46,14 +46,14 @@ use crate::model::{Handedness, Material, Model};
 use crate::scene::{FrameCost, Light, Pass, RenderFrame, ViewMode};
 use buffers::bind_group;
 use environment::Environments;
-use instances::{InstanceRange, Instances, Standing, pose_count, poses};
+use instances::{InstanceRange, Instances, Roster, pose_count, poses};
 use light_maps::GeometryMap;
 use light_passes::{Common, LightPasses, Samplers};
 use maps::{MapTextures, one_texel};
 use model::{GpuModel, Posed};
 use overlays::Overlays;
 use pipelines::Pipelines;
-use recipe::{Cut, Draw, Faces, Maps, ModelDraw, Shading};
+use recipe::{Cut, Draw, Faces, Maps, ModelDraw, Purpose, Shading};
 use timing::{FrameEncoder, FrameTimer};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,7 +100,7 @@ pub struct Renderer {
 struct Shape {
     hidden: Vec<bool>,
     skinned: bool,
-    standing: Standing,
+    roster: Roster,
     revision: u64,
     /// Counts these, and changes of which instances are in sight.
     revision_in_sight: u64,
@@ -114,21 +114,21 @@ impl Shape {
     }
 
     /// Follows the frame's instances. `posed_anew` when one of their palettes is another one.
-    fn update(&mut self, frame: &RenderFrame<'_>, standing: Standing, posed_anew: bool) {
+    fn update(&mut self, frame: &RenderFrame<'_>, roster: Roster, posed_anew: bool) {
         let skinned = !frame.palette.0.is_empty();
         if posed_anew
             || self.skinned != skinned
             || self.hidden != frame.hidden_submeshes
-            || !self.standing.has_all_of(&standing)
+            || !self.roster.has_all_of(&roster)
         {
             self.hidden.clear();
             self.hidden.extend_from_slice(frame.hidden_submeshes);
             self.skinned = skinned;
             self.replace();
-        } else if self.standing != standing {
+        } else if self.roster != roster {
             self.revision_in_sight += 1;
         }
-        self.standing = standing;
+        self.roster = roster;
     }
 }
 
@@ -334,7 +334,7 @@ impl Renderer {
                 .write(device, queue, frame, model.bones.as_ref(), front_sign);
         }
         self.overlays.write(device, queue, frame);
-        self.shape.update(frame, self.instances.standing(), posed_anew);
+        self.shape.update(frame, self.instances.roster(), posed_anew);
         let parts = parts(frame, target.size());
         for (light, _) in &parts {
             if self.lights.iter().all(|passes| passes.light() != *light) {
@@ -457,8 +457,6 @@ impl Renderer {
                 && begin_part(&mut pass, part)
             {
                 let shading = if is_lit { Shading::Lit(part.0) } else { Shading::Inspect };
-                // A property that is seen through another could not be read off: blended surfaces show theirs alone.
-                let of_blended = if is_lit { Cut::OpaquePart } else { Cut::Smooth };
                 let instances = if colored {
                     self.instances.crowd_in_sight()
                 } else {
@@ -466,13 +464,11 @@ impl Renderer {
                 };
                 if instances.count > 0 {
                     let (_, posed) = with((model, own), instances);
-                    model.draw(&mut pass, posed, [Cut::Smooth, of_blended], |cut, maps| {
-                        ModelDraw::Mesh(shading, cut, maps)
-                    });
+                    model.draw(&mut pass, posed, Purpose::Picture(shading));
                 }
                 if colored {
                     pass.set_bind_group(2, nothing, &[]);
-                    model.draw(&mut pass, own, [Cut::Hard; 2], ModelDraw::SkinView);
+                    model.draw(&mut pass, own, Purpose::SkinView);
                 }
             }
         }

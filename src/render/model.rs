@@ -17,7 +17,7 @@ use super::materials::GpuMaterials;
 use super::pipelines::{
     COLOR_SLOT, INFLUENCE_SLOT, INSTANCE_SLOT, Layouts, MORE_MAPS_SLOT, POSITION_SLOT, Pipelines, SURFACE_SLOT,
 };
-use super::recipe::{Alpha, Cut, Draw, Faces, Kind, Maps, ModelDraw};
+use super::recipe::{Alpha, Cut, Draw, Faces, Kind, Maps, ModelDraw, Purpose};
 use super::triangles::{DrawRange, Drawn, Edges, draw_ranges, wound_one_way};
 use crate::model::{Handedness, Material, Mesh, Model};
 use crate::scene::{RenderFrame, VertexColors};
@@ -181,28 +181,16 @@ impl GpuModel {
         self.colors = Some((colors.revision, buffer));
     }
 
-    /// Draws every visible submesh with its material. The cuts are of those with holes, and of blended ones; `draw` says what to draw
-    /// for a cut. The caller sets group 0, and group 2 where it is read.
-    pub(super) fn draw(
-        &self,
-        pass: &mut wgpu::RenderPass<'_>,
-        posed: Posed<'_>,
-        [cut, of_blended]: [Cut; 2],
-        draw: impl Fn(Cut, Maps) -> ModelDraw,
-    ) {
+    /// Draws every visible submesh with its material. The caller sets group 0, and group 2 where it is read.
+    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, purpose: Purpose) {
         let mut drawn = Drawn::default();
         for kind in self.kinds() {
-            let cut = match kind.alpha {
-                Alpha::Whole => Cut::Whole,
-                Alpha::Cut => cut,
-                Alpha::Blended => of_blended,
-            };
             let mut ranges = self
                 .in_view(posed.hidden)
                 .filter(|range| self.materials.kind(range.material) == kind)
                 .peekable();
             if ranges.peek().is_some() {
-                self.bind(pass, posed, draw(cut, kind.maps), kind.faces(self.front));
+                self.bind(pass, posed, purpose.draw(kind), kind.faces(self.front));
             }
             for range in ranges {
                 // All cut triangles are drawn: one may be seen through the holes of another.
@@ -293,7 +281,7 @@ impl GpuModel {
     pub(super) fn draw_caster(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>) {
         let is_holed = |range: &DrawRange| self.materials.kind(range.material).alpha != Alpha::Whole;
         if self.ranges.iter().any(is_holed) {
-            self.draw(pass, posed, [Cut::Hard; 2], ModelDraw::Caster);
+            self.draw(pass, posed, Purpose::Caster);
         } else {
             self.draw_shape(pass, posed, ModelDraw::Caster(Cut::Whole, Maps::Two));
         }
@@ -329,7 +317,7 @@ impl GpuModel {
         }
     }
 
-    /// Draws a line at each visible vertex. The caller sets groups 0 and 3.
+    /// Draws a line at each visible vertex of the frame's own instance. The caller sets groups 0 and 3.
     pub(super) fn draw_vertex_lines(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, draw: ModelDraw) {
         self.bind(pass, posed, draw, Faces::All);
         for range in self.in_view(posed.hidden) {
@@ -343,12 +331,9 @@ impl GpuModel {
                 let influences = influences.slice(start(size_of::<shaders::InfluenceVertex>())..);
                 pass.set_vertex_buffer(INFLUENCE_SLOT, influences);
             }
-            for instance in 0..posed.instances.count {
-                pass.set_vertex_buffer(INSTANCE_SLOT, posed.instances.from(instance));
-                let lines = range.vertices.len() as u32;
-                pass.draw(0..2, 0..lines);
-                self.count(2 * u64::from(lines));
-            }
+            let lines = range.vertices.len() as u32;
+            pass.draw(0..2, 0..lines);
+            self.count(2 * u64::from(lines));
         }
     }
 

@@ -222,11 +222,12 @@ impl Pipelines {
                 attributes,
             })
         };
-        let (one, step) = (size_of::<Instance>(), recipe.step_mode);
-        let instances = match step {
-            wgpu::VertexStepMode::Vertex => buffer(2 * one, wgpu::VertexStepMode::Instance, &INSTANCE[..]),
-            wgpu::VertexStepMode::Instance => buffer(one, wgpu::VertexStepMode::Vertex, &INSTANCE[..]),
+        let step = recipe.step_mode;
+        let step_of_instances = match step {
+            wgpu::VertexStepMode::Vertex => wgpu::VertexStepMode::Instance,
+            wgpu::VertexStepMode::Instance => wgpu::VertexStepMode::Vertex,
         };
+        let instances = buffer(size_of::<Instance>(), step_of_instances, &INSTANCE[..]);
         let positions = buffer(size_of::<PositionVertex>(), step, &POSITION);
         let surface = buffer(size_of::<SurfaceVertex>(), step, &SURFACE);
         let influences = buffer(size_of::<InfluenceVertex>(), step, &INFLUENCES);

@@ -80,6 +80,34 @@ pub(super) enum Cut {
     Blended,
 }
 
+/// For what the model's triangles are drawn with their materials.
+#[derive(Clone, Copy)]
+pub(super) enum Purpose {
+    Picture(Shading),
+    SkinView,
+    Caster,
+    Geometry,
+}
+
+impl Purpose {
+    /// How materials of a kind are drawn for it: of blended ones what is drawn before anything is blended.
+    pub(super) fn draw(self, kind: Kind) -> ModelDraw {
+        let cut = match (kind.alpha, self) {
+            (Alpha::Whole, _) => Cut::Whole,
+            (Alpha::Blended, Self::Picture(Shading::Lit(_))) => Cut::OpaquePart,
+            // A property that is seen through another could not be read off: blended surfaces show theirs alone.
+            (Alpha::Cut | Alpha::Blended, Self::Picture(_)) => Cut::Smooth,
+            (Alpha::Cut | Alpha::Blended, Self::SkinView | Self::Caster | Self::Geometry) => Cut::Hard,
+        };
+        match self {
+            Self::Picture(shading) => ModelDraw::Mesh(shading, cut, kind.maps),
+            Self::SkinView => ModelDraw::SkinView(cut, kind.maps),
+            Self::Caster => ModelDraw::Caster(cut, kind.maps),
+            Self::Geometry => ModelDraw::Geometry(cut, kind.maps),
+        }
+    }
+}
+
 /// What is drawn of the model's triangles or vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum ModelDraw {
@@ -156,29 +184,26 @@ impl Draw {
         }
     }
 
-    /// What one key or the pointer may ask for while a model is open, the likeliest first: what the pointer marks, the other light, view modes, wires, bones, weights, normals. `kinds` are those of the model's materials, and
-    /// `front` the fronts of its triangles.
+    /// What one key or the pointer may ask for while a model is open, the likeliest first: what the pointer
+    /// marks, the other light, view modes, wires, bones, weights, normals. `kinds` are those of the model's materials, and `front` the
+    /// fronts of its triangles.
     pub(super) fn within_reach(skinned: bool, kinds: &BTreeSet<Kind>, front: Faces) -> Vec<Self> {
         let of_faces = |draw, faces| Self::Model { draw, skinned, faces };
         let of_model = |draw| of_faces(draw, Faces::All);
-        let of_kinds = |draw: &dyn Fn(Kind) -> ModelDraw| -> Vec<Self> {
-            let draws = kinds.iter().map(|&kind| of_faces(draw(kind), kind.faces(front)));
-            draws.collect()
+        let for_purpose = |purpose: Purpose| {
+            kinds
+                .iter()
+                .map(move |&kind| of_faces(purpose.draw(kind), kind.faces(front)))
         };
-        let cut_as = |kind: Kind, cut| if kind.alpha == Alpha::Whole { Cut::Whole } else { cut };
         let mut draws = vec![of_model(ModelDraw::Highlight)];
         for light in Light::ALL {
-            for kind in kinds {
-                let faces = kind.faces(front);
-                // Of what is blended, backs have a draw of their own.
+            let shading = Shading::Lit(light);
+            draws.extend(for_purpose(Purpose::Picture(shading)));
+            for kind in kinds.iter().filter(|kind| kind.alpha == Alpha::Blended) {
+                // Backs have a draw of their own.
                 let back = if kind.double_sided { front.turned() } else { front };
-                let drawn: &[(Cut, Faces)] = match kind.alpha {
-                    Alpha::Whole => &[(Cut::Whole, faces)],
-                    Alpha::Cut => &[(Cut::Smooth, faces)],
-                    Alpha::Blended => &[(Cut::OpaquePart, faces), (Cut::Blended, back), (Cut::Blended, front)],
-                };
-                let lit = |&(cut, faces)| of_faces(ModelDraw::Mesh(Shading::Lit(light), cut, kind.maps), faces);
-                draws.extend(drawn.iter().map(lit));
+                let blended = ModelDraw::Mesh(shading, Cut::Blended, kind.maps);
+                draws.extend([back, front].map(|faces| of_faces(blended, faces)));
             }
             draws.push(Self::Occlusion(light));
         }
@@ -186,14 +211,10 @@ impl Draw {
         let below = kinds.iter().map(|kind| kind.faces(front).turned());
         draws.extend(below.map(|faces| of_faces(ModelDraw::Contact, faces)));
         draws.extend([Self::ContactBlurRows, Self::ContactBlurColumns]);
-        draws.extend(of_kinds(&|kind| {
-            ModelDraw::Mesh(Shading::Inspect, cut_as(kind, Cut::Smooth), kind.maps)
-        }));
+        draws.extend(for_purpose(Purpose::Picture(Shading::Inspect)));
         draws.push(of_model(ModelDraw::Edges));
         draws.extend([WorldShape::Triangles, WorldShape::Lines].map(|shape| Self::World { shape, through: true }));
-        draws.extend(of_kinds(&|kind| {
-            ModelDraw::SkinView(cut_as(kind, Cut::Hard), kind.maps)
-        }));
+        draws.extend(for_purpose(Purpose::SkinView));
         draws.push(of_model(ModelDraw::Normals));
         draws
     }
