@@ -483,12 +483,12 @@ fn show_page(ui: &mut Ui, page: SheetPage, cx: &mut Cx<'_, UiState>) {
             ui.label(RichText::new(words).color(Tokens::of(ui).muted));
         }
         SheetPage::ViewMode => {
-            kit::choices(ui, title, |ui| toolbar::view_mode_items(ui, cx.session, cx.commands));
+            kit::choices(ui, title, |ui| toolbar::view_mode_items(ui, cx));
         }
-        SheetPage::Light => light::show(ui, cx.session, &mut cx.state.cost, cx.commands),
+        SheetPage::Light => light::show(ui, &mut cx.part(|state| &mut state.cost)),
         SheetPage::Overlays => overlays::show(ui, &mut cx.part(|state| &mut state.skeleton)),
         SheetPage::ViewFrom => {
-            toolbar::view_from_items(ui, cx.session, cx.commands);
+            toolbar::view_from_items(ui, cx);
         }
         SheetPage::Picture => picture::show(ui, cx.session, cx.state),
         SheetPage::Model | SheetPage::Export | SheetPage::Timeline => {}
@@ -528,7 +528,7 @@ fn frame_button(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free) {
             let action = &actions::FRAME_MODEL;
             let button = kit::TextButton::new("Frame", action.label).icon(Icon::Frame);
             if button.show(ui).on_hover_text(action.hint()).clicked() {
-                cx.commands.extend(action.command(cx.session));
+                cx.act(action);
             }
         });
 }

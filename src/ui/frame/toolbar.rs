@@ -63,16 +63,16 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
             let hint = action.hint_of(&label);
             ui.add_enabled_ui(action.ask(cx.session).is_some(), |ui| {
                 if push_button(ui, icon, &hint).clicked() {
-                    cx.commands.extend(action.command(cx.session));
+                    cx.act(action);
                 }
             });
         }
-        view_mode_menu(ui, cx.session, cx.commands);
-        light_button(ui, cx.session, &mut cx.state.cost, cx.commands);
+        view_mode_menu(ui, cx);
+        light_button(ui, &mut cx.part(|state| &mut state.cost));
         overlays_button(ui, &mut cx.part(|state| &mut state.skeleton));
-        view_from_menu(ui, cx.session, cx.commands);
-        push_action(ui, cx.session, &actions::FRAME_MODEL, Icon::Frame, cx.commands);
-        action_button(ui, cx.session, &actions::TURNTABLE, Icon::Turntable, cx.commands);
+        view_from_menu(ui, cx);
+        push_action(ui, cx, &actions::FRAME_MODEL, Icon::Frame);
+        action_button(ui, cx, &actions::TURNTABLE, Icon::Turntable);
         let save = &actions::SAVE_PICTURE;
         let hint = format!("Picture… ({} saves one at once)", save.key());
         let camera = push_button(ui, Icon::Camera, &hint);
@@ -131,19 +131,20 @@ pub(in crate::ui) fn show_narrow(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     as_toolbar(ui);
 }
 
-fn view_mode_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let mode = actions::view_mode_label(session);
+fn view_mode_menu<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
+    let mode = actions::view_mode_label(cx.session);
     let label = format!("View mode: {mode}");
     let button = TextButton::new(mode, &label).list().show(ui);
     let button = button.on_hover_text(actions::NEXT_VIEW_MODE.hint());
     popover_menu(ui, &button, RectAlign::BOTTOM_START, MENU_WIDTH, |ui| {
-        if view_mode_items(ui, session, commands) {
+        if view_mode_items(ui, cx) {
             ui.close();
         }
     });
 }
 
-fn light_button(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands: &mut Vec<Command>) {
+fn light_button(ui: &mut Ui, cx: &mut Cx<'_, SteadyCost>) {
+    let session = cx.session;
     let button = TextButton::new(light::label(session), &lighting(session))
         .icon(Icon::Sun)
         .list()
@@ -154,7 +155,7 @@ fn light_button(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands:
     let icon = button.rect.left_center() + vec2(ui.spacing().button_padding.x + 0.5 * ICON_SIZE, 0.0);
     let button = light::mark_button(ui, session, button, icon, &hint);
     popover(ui, (&button, "Lighting"), LIGHT_WIDTH, |ui| {
-        light::show(ui, session, cost, commands);
+        light::show(ui, cx);
     });
 }
 
@@ -208,35 +209,35 @@ fn theme_button(ui: &mut Ui, state: &mut UiState) {
     }
 }
 
-fn view_from_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+fn view_from_menu<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
     let cube = push_button(ui, Icon::Cube, "View from…");
     popover_menu(ui, &cube, RectAlign::BOTTOM_END, MENU_WIDTH, |ui| {
-        if view_from_items(ui, session, commands) {
+        if view_from_items(ui, cx) {
             ui.close();
         }
     });
 }
 
 /// A line for each direction, and the projection. Returns whether one was chosen.
-pub(in crate::ui) fn view_from_items(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) -> bool {
-    let before = commands.len();
+pub(in crate::ui) fn view_from_items<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) -> bool {
+    let before = cx.commands.len();
     for preset in ViewPreset::ALL {
         let command = CameraCommand::Glide(Box::new(CameraCommand::LookFrom(preset))).into();
         // Resetting the camera gives three quarters.
         let key = match preset {
             ViewPreset::ThreeQuarter => actions::RESET_CAMERA.key(),
-            _ => actions::key_of(session, &command),
+            _ => actions::key_of(cx.session, &command),
         };
         if keyed_menu_item(ui, preset.label(), key, MenuLine::Action).clicked() {
-            commands.push(command);
+            cx.push(command);
         }
     }
     let projection = &actions::ORTHOGRAPHIC;
-    let on = MenuLine::Switch(projection.is_on(session));
+    let on = MenuLine::Switch(projection.is_on(cx.session));
     if keyed_menu_item(ui, projection.label, projection.key(), on).clicked() {
-        commands.extend(projection.command(session));
+        cx.act(projection);
     }
-    commands.len() > before
+    cx.commands.len() > before
 }
 
 /// In one column, or in two in a window too low for one.
@@ -287,7 +288,7 @@ fn action_items(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     let turns = MenuLine::Switch(actions::TURNTABLE.is_on(cx.session));
     for (action, line) in [(&actions::FRAME_MODEL, MenuLine::Action), (&actions::TURNTABLE, turns)] {
         if menu_item(ui, action.label, line).clicked() {
-            cx.commands.extend(action.command(cx.session));
+            cx.act(action);
             ui.close();
         }
     }
@@ -303,8 +304,8 @@ fn action_items(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
 }
 
 /// A line for each mode, then one for each view of the skin. Returns whether one was chosen.
-pub(in crate::ui) fn view_mode_items(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) -> bool {
-    let (in_force, skin_view) = (session.look().view_mode, session.look().skin_view);
+pub(in crate::ui) fn view_mode_items<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) -> bool {
+    let (in_force, skin_view) = (cx.session.look().view_mode, cx.session.look().skin_view);
     let mut chosen = false;
     for mode in ViewMode::ALL {
         // The key chooses the next mode. From a view of the skin it goes back to the mode.
@@ -315,20 +316,20 @@ pub(in crate::ui) fn view_mode_items(ui: &mut Ui, session: &Session, commands: &
         };
         let on = mode == in_force && skin_view.is_none();
         if keyed_menu_item(ui, mode.label(), key, MenuLine::Choice(on)).clicked() {
-            commands.push(LookCommand::SetViewMode(mode).into());
-            commands.push(LookCommand::SetSkinView(None).into());
+            cx.push(LookCommand::SetViewMode(mode));
+            cx.push(LookCommand::SetSkinView(None));
             chosen = true;
         }
     }
-    if has_joints(session) {
+    if has_joints(cx.session) {
         ui.add_space(6.0);
         section_name(ui, "Skin");
         for view in SkinView::ALL {
             let on = skin_view == Some(view);
             let command = LookCommand::SetSkinView((!on).then_some(view)).into();
-            let key = actions::key_of(session, &command);
+            let key = actions::key_of(cx.session, &command);
             if keyed_menu_item(ui, view.label(), key, MenuLine::Choice(on)).clicked() {
-                commands.push(command);
+                cx.push(command);
                 chosen = true;
             }
         }

@@ -11,7 +11,7 @@ use super::control::{
 };
 use super::row::Row;
 use crate::actions::Action;
-use crate::session::{Command, Session};
+use crate::ui::cx::Cx;
 use crate::ui::kit::icons::{self, Icon};
 use crate::ui::kit::theme::{self, CONTROL_RADIUS, Tokens};
 
@@ -54,16 +54,16 @@ fn icon_atom(icon: Icon, size: Vec2) -> Atom<'static> {
 }
 
 /// A square button of an action of the session, with its key in the tooltip.
-pub(crate) fn action_button(ui: &mut Ui, session: &Session, action: &Action, icon: Icon, commands: &mut Vec<Command>) {
-    if icon_button(ui, icon, &action.hint(), action.is_on(session)).clicked() {
-        commands.extend(action.command(session));
+pub(in crate::ui) fn action_button<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, action: &Action, icon: Icon) {
+    if icon_button(ui, icon, &action.hint(), action.is_on(cx.session)).clicked() {
+        cx.act(action);
     }
 }
 
 /// The same for an action that does something once.
-pub(crate) fn push_action(ui: &mut Ui, session: &Session, action: &Action, icon: Icon, commands: &mut Vec<Command>) {
+pub(in crate::ui) fn push_action<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, action: &Action, icon: Icon) {
     if push_button(ui, icon, &action.hint()).clicked() {
-        commands.extend(action.command(session));
+        cx.act(action);
     }
 }
 
@@ -334,9 +334,9 @@ pub(crate) fn noted_switch_row(
 }
 
 /// The row of an action of the session that is on or off.
-pub(crate) fn action_switch(ui: &mut Ui, session: &Session, action: &Action, commands: &mut Vec<Command>) {
-    if switch_row(ui, action.label, action.key(), action.is_on(session)).clicked() {
-        commands.extend(action.command(session));
+pub(in crate::ui) fn action_switch<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, action: &Action) {
+    if switch_row(ui, action.label, action.key(), action.is_on(cx.session)).clicked() {
+        cx.act(action);
     }
 }
 

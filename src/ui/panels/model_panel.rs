@@ -45,7 +45,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     }
     rule(ui, MARGIN);
     if !subsets_first {
-        crowd::show(ui, cx.session, &mut cx.state.cost, cx.commands);
+        crowd::show(ui, &mut cx.part(|state| &mut state.cost));
         rule(ui, MARGIN);
     }
     submesh_list(ui, cx, open);
@@ -53,7 +53,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
         rule(ui, MARGIN);
         findings::show_books_row(ui, cx.session, cx.state);
         rule(ui, MARGIN);
-        crowd::show(ui, cx.session, &mut cx.state.cost, cx.commands);
+        crowd::show(ui, &mut cx.part(|state| &mut state.cost));
     }
     if has_maps && subsets_first {
         rule(ui, MARGIN);

@@ -36,7 +36,7 @@ pub(in crate::ui) fn page(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     let (rect, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     let mut child = ui.new_child(UiBuilder::new().max_rect(rect).id_salt("sheet"));
     if rect.height() >= WITH_TRANSPORT {
-        controls::all_steps(&mut child, cx.session, cx.commands);
+        controls::all_steps(&mut child, cx);
         child.add_space(GAP);
     }
     contents(&mut child, &mut cx.part(|state| &mut state.timeline));
