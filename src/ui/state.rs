@@ -4,13 +4,14 @@ use egui::{Rect, Ui};
 
 use super::input::{Grip, Keyboard};
 use super::timeline::state::TimelineState;
-use crate::model::{JointIndex, Mesh, Submesh};
+use crate::model::JointIndex;
 use crate::scene::{Insets, Theme};
 use crate::session::{ExportOptions, Session};
 use crate::ui::frame::focus::Focus;
 use crate::ui::frame::message::Messages;
 use crate::ui::frame::sheet::SheetHeight;
 use crate::ui::frame::viewport::ViewHold;
+use crate::ui::kit::Kept;
 use crate::ui::kit::theme::Contrast;
 use crate::ui::panels::cost::SteadyCost;
 use crate::ui::panels::findings::state::FindingsState;
@@ -126,7 +127,8 @@ pub struct UiState {
     pub(super) thumbnails: Thumbnails,
     pub(super) view_hold: ViewHold,
     pub(super) hovered_submesh: Option<usize>,
-    pub(super) vertex_count: VertexCount,
+    /// How many vertices a submesh of a model has.
+    pub(super) vertex_count: Kept<(u64, usize), usize>,
     pub(super) skeleton: SkeletonState,
     /// Width of the panel on the left, once it was dragged to another.
     pub(super) side_width: Option<f32>,
@@ -276,31 +278,6 @@ pub(super) struct DrawnSheet {
     pub(super) count: usize,
     /// The person does not want it any more.
     pub(super) cancelled: bool,
-}
-
-/// Vertices of the submesh counted last.
-#[derive(Debug, Default)]
-pub(super) struct VertexCount {
-    of: Option<(u64, usize)>,
-    count: usize,
-}
-
-impl VertexCount {
-    /// How many vertices the triangles of a submesh use.
-    pub(super) fn of(&mut self, model_revision: u64, index: usize, mesh: &Mesh, submesh: &Submesh) -> usize {
-        if self.of != Some((model_revision, index)) {
-            let start = submesh.triangle_start as usize * 3;
-            let end = start + submesh.triangle_count as usize * 3;
-            let mut used: Vec<u32> = mesh.indices.get(start..end).unwrap_or_default().to_vec();
-            used.sort_unstable();
-            used.dedup();
-            *self = Self {
-                of: Some((model_revision, index)),
-                count: used.len(),
-            };
-        }
-        self.count
-    }
 }
 
 /// How to save a picture or a contact sheet.

@@ -5,6 +5,7 @@ pub(super) mod color;
 mod control;
 mod heading;
 pub(super) mod icons;
+mod kept;
 mod number;
 mod row;
 mod search;
@@ -27,6 +28,7 @@ pub(super) use heading::{
     closable_heading, explained_section, heading_with_close, keyed_section_name, section_name, section_with_action,
     section_with_labelled_action, selected_heading,
 };
+pub(super) use kept::Kept;
 pub(super) use number::{Slider, TypedValue, leading_number, number_field, number_within};
 pub(super) use row::{Row, RowList, choice_row, progress_bar, row_icon, rule, sheet_handle, value_row};
 pub(super) use search::search_field;

@@ -10,6 +10,7 @@ pub(in crate::ui) mod state;
 pub(in crate::ui) use books::show_row as show_books_row;
 
 use std::cmp::Reverse;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 
 use egui::{RichText, Ui};
 
@@ -106,8 +107,15 @@ fn nothing_found(ui: &mut Ui, session: &Session, open: &OpenModel) {
 
 /// The rows, of which only those near the view are laid out.
 fn rows(ui: &mut Ui, cx: &mut Cx<'_, UiState>, open: &OpenModel, listed: &[&Diagnostic]) {
-    let height_of = |diagnostic: &Diagnostic| row_height(ui, cx.session, open, diagnostic);
-    let heights = cx.state.findings.heights.take_of(ui, listed, height_of);
+    let mut hasher = DefaultHasher::new();
+    ui.available_width().to_bits().hash(&mut hasher);
+    for diagnostic in listed {
+        (diagnostic.code, diagnostic.position, diagnostic.message.as_str()).hash(&mut hasher);
+    }
+    let height_of = |diagnostic: &&Diagnostic| row_height(ui, cx.session, open, diagnostic);
+    // Finding them lays out the words of all.
+    let mut kept = std::mem::take(&mut cx.state.findings.heights);
+    let heights = kept.of(hasher.finish(), || listed.iter().map(height_of).collect());
     let seen = ui.clip_rect().y_range();
     RowList::show(ui, "Findings", |ui, list| {
         let (mut y, mut skipped) = (ui.cursor().min.y, 0.0);
@@ -131,7 +139,7 @@ fn rows(ui: &mut Ui, cx: &mut Cx<'_, UiState>, open: &OpenModel, listed: &[&Diag
         }
         ui.add_space(skipped);
     });
-    cx.state.findings.heights.put_back(heights);
+    cx.state.findings.heights = kept;
 }
 
 /// Buttons that copy and save all of it.

@@ -9,7 +9,7 @@ use crate::session::{Command, NameCommand, Session};
 use crate::ui::cx::Cx;
 use crate::ui::frame::panel::scrolled;
 use crate::ui::kit::theme::{ROW_HEIGHT, Tokens};
-use crate::ui::kit::{Row, TextButton, control_size, section_name};
+use crate::ui::kit::{Kept, Row, TextButton, control_size, section_name};
 
 /// Naming waits so long for its row to scroll into view, in seconds …
 const LONGEST_WAIT_SECS: f64 = 1.0;
@@ -25,33 +25,8 @@ pub(super) struct Naming {
     by_key: bool,
     /// The list of proposed names stands in place of the tree.
     pub(super) proposing: bool,
-    proposed: Proposed,
-}
-
-/// The names proposed last, by bone. They are kept, since finding them searches the whole skeleton.
-#[derive(Debug, Default)]
-struct Proposed {
-    /// The model, names and axes that they belong to.
-    of: Option<(u64, u64, Handedness, UpAxis)>,
-    names: Vec<(usize, String)>,
-}
-
-impl Proposed {
-    fn of(&mut self, session: &Session) -> &[(usize, String)] {
-        let of = (
-            session.model_revision(),
-            session.joint_names_revision(),
-            session.handedness(),
-            session.up_axis(),
-        );
-        if self.of != Some(of) {
-            *self = Self {
-                of: Some(of),
-                names: session.proposed_names().into_iter().collect(),
-            };
-        }
-        &self.names
-    }
+    /// The names proposed last, by bone, for a model with its names and axes.
+    proposed: Kept<(u64, u64, Handedness, UpAxis), Vec<(usize, String)>>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -180,7 +155,13 @@ const BUTTONS_GAP: f32 = 10.0;
 /// The names proposed for mirrored joints, to accept or refuse.
 pub(super) fn show_proposals(ui: &mut Ui, cx: &mut Cx<'_, Naming>) {
     let tokens = Tokens::of(ui);
-    let proposed = cx.state.proposed.of(cx.session);
+    let session = cx.session;
+    let (model, names) = (session.model_revision(), session.joint_names_revision());
+    let of = (model, names, session.handedness(), session.up_axis());
+    let proposed = cx
+        .state
+        .proposed
+        .of(of, || session.proposed_names().into_iter().collect());
     section_name(ui, "Mirrored names");
     if proposed.is_empty() {
         let words = if cx.session.joint_names().is_empty() {

@@ -10,6 +10,7 @@ use crate::model::{Handedness, JointIndex, MirrorPair, UpAxis};
 use crate::scene::{LabelPlace, joint_colors};
 use crate::session::{Command, JointCommand, JointRow, LookCommand, Session};
 use crate::ui::frame::viewport::in_picture;
+use crate::ui::kit::Kept;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::ui) enum SidePage {
@@ -258,25 +259,16 @@ pub(super) enum KeyPart {
     Scale,
 }
 
-/// Which joints mirror each other. It is kept, since finding them searches the whole skeleton.
+/// Which joints mirror each other, for a model and its axes.
 #[derive(Debug, Default)]
-pub(super) struct Mirrored {
-    /// The model and the axes that the pairs belong to.
-    of: Option<(u64, Handedness, UpAxis)>,
-    pairs: Vec<MirrorPair>,
-}
+pub(super) struct Mirrored(Kept<(u64, Handedness, UpAxis), Vec<MirrorPair>>);
 
 impl Mirrored {
     /// The joint that mirrors another one in the bind pose.
     pub(super) fn partner(&mut self, session: &Session, joint: JointIndex) -> Option<JointIndex> {
         let of = (session.model_revision(), session.handedness(), session.up_axis());
-        if self.of != Some(of) {
-            *self = Self {
-                of: Some(of),
-                pairs: session.mirror_pairs(),
-            };
-        }
-        self.pairs.iter().find_map(|pair| match joint {
+        let pairs = self.0.of(of, || session.mirror_pairs());
+        pairs.iter().find_map(|pair| match joint {
             joint if joint == pair.left => Some(pair.right),
             joint if joint == pair.right => Some(pair.left),
             _ => None,
