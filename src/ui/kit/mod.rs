@@ -6,6 +6,7 @@ mod control;
 mod heading;
 pub(super) mod icons;
 mod kept;
+mod list;
 mod number;
 mod row;
 mod search;
@@ -29,6 +30,7 @@ pub(super) use heading::{
     section_with_labelled_action, selected_heading,
 };
 pub(super) use kept::Kept;
+pub(super) use list::{DrawnRows, RowList, asks, focus_row, labelled, row_sense, rows_in_view, tell_folds, tell_row};
 pub(super) use number::{Slider, TypedValue, leading_number, number_field, number_within};
-pub(super) use row::{Row, RowList, choice_row, progress_bar, row_icon, rule, sheet_handle, value_row};
+pub(super) use row::{Row, choice_row, progress_bar, row_icon, rule, sheet_handle, value_row};
 pub(super) use search::search_field;

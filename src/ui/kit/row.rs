@@ -1,12 +1,9 @@
 //! Rows of panels: facts, choices, lists, hairlines.
 
-use egui::{
-    Align2, Color32, FontId, Id, Painter, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
-};
+use egui::{Align2, Color32, FontId, Painter, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use super::control::{
     control_size, focus_ring, hint_beside, paint_ground, paint_name, paint_row_ground, pressed_row_height, tell_node,
-    walked,
 };
 use crate::ui::kit::icons::{self, Icon};
 use crate::ui::kit::theme::{CONTROL_RADIUS, ROW_HEIGHT, Tokens};
@@ -25,51 +22,6 @@ pub(crate) fn row_icon(ui: &Ui, place: Rect, row: &Response, icon: Icon, label: 
     focus_ring(ui, place, &response);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, label));
     hint_beside(response, Some(row.rect), label)
-}
-
-/// Rows that a page key goes by.
-const PAGE: usize = 10;
-
-/// A list of rows, for screen readers and for the arrow keys: they move the focus from row to row.
-#[derive(Debug, Default)]
-pub(crate) struct RowList {
-    rows: Vec<Id>,
-    focused: Option<usize>,
-}
-
-impl RowList {
-    /// Shows a list of this name. The contents tell of each row with [`RowList::row`].
-    pub(crate) fn show(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui, &mut Self)) {
-        let shown = ui.scope(|ui| {
-            let mut list = Self::default();
-            contents(ui, &mut list);
-            list.walk(ui);
-        });
-        shown
-            .response
-            .widget_info(|| WidgetInfo::labeled(Role::List, true, name));
-    }
-
-    /// Tells of the next row.
-    pub(crate) fn row(&mut self, response: &Response, selected: bool) {
-        if response.has_focus() {
-            self.focused = Some(self.rows.len());
-        }
-        if response.gained_focus() {
-            response.scroll_to_me(None);
-        }
-        self.rows.push(response.id);
-        tell_node(response, |node| node.set_selected(selected));
-    }
-
-    fn walk(self, ui: &Ui) {
-        let Some((focused, &id)) = self.focused.and_then(|at| Some((at, self.rows.get(at)?))) else {
-            return;
-        };
-        if let Some(to) = walked(ui, id, focused, self.rows.len(), PAGE) {
-            ui.memory_mut(|memory| memory.request_focus(self.rows[to]));
-        }
-    }
 }
 
 /// A row of a panel. Text goes in from both ends, in 13 points where no size is given. Call `told` last: it

@@ -9,7 +9,7 @@ use crate::model::MapSlot;
 use crate::session::{Checklist, OpenModel, Session, UnreadableMap, UsedMap};
 use crate::ui::kit::theme::Tokens;
 use crate::ui::kit::wording::{counted, grouped};
-use crate::ui::kit::{Row, RowList, hint_beside, paint_fold_mark, tell_node};
+use crate::ui::kit::{Row, RowList, hint_beside, paint_fold_mark, rows_in_view, tell_node};
 use crate::ui::state::UiState;
 
 const THUMBNAIL: f32 = 30.0;
@@ -46,18 +46,6 @@ pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, stat
             ui.label(words.color(Tokens::of(ui).muted));
         }
     });
-}
-
-/// Lays out those of some rows that are seen.
-fn rows_in_view(ui: &mut Ui, height: f32, count: usize, mut row: impl FnMut(&mut Ui, usize)) {
-    let (top, seen) = (ui.cursor().min.y, ui.clip_rect());
-    let place = |y: f32| ((y - top) / height).clamp(0.0, count as f32);
-    let (first, end) = (place(seen.min.y).floor() as usize, place(seen.max.y).ceil() as usize);
-    ui.add_space(first as f32 * height);
-    for index in first..end {
-        row(ui, index);
-    }
-    ui.add_space(count.saturating_sub(end.max(first)) as f32 * height);
 }
 
 /// How many maps are there, and how many are not. A click opens and closes the list.

@@ -1,6 +1,5 @@
 //! One row of the dope sheet: a joint's name and its keys.
 
-use egui::accesskit::Action;
 use egui::{FontId, Rangef, Rect, RectAlign, Response, Role, Sense, Tooltip, Ui, UiBuilder, WidgetInfo, vec2};
 
 use super::dope_sheet::Sheet;
@@ -171,17 +170,9 @@ impl Sheet<'_> {
             }
             WidgetInfo::labeled(Role::RowHeader, true, label)
         });
-        ui.ctx().accesskit_node_builder(id, |node| {
-            node.set_selected(selected);
-            if row.below > 0 {
-                node.set_expanded(!row.folded);
-                node.add_action(if row.folded { Action::Expand } else { Action::Collapse });
-            }
-        });
-        let asks_for = |action| ui.input(|input| input.has_accesskit_action_request(id, action));
-        let (joint, folded_now) = (row.joint, row.folded);
-        if row.below > 0 && asks_for(if folded_now { Action::Expand } else { Action::Collapse }) {
-            let folded = !folded_now;
+        ui.ctx().accesskit_node_builder(id, |node| node.set_selected(selected));
+        if row.below > 0 && kit::tell_folds(ui, id, !row.folded) {
+            let (joint, folded) = (row.joint, !row.folded);
             cx.push(JointCommand::SetFolded { joint, folded });
         }
         if response.clicked() {
