@@ -110,6 +110,12 @@ impl<'a> TextButton<'a> {
         Self { width, ..self }
     }
 
+    /// As wide as what is available.
+    pub(crate) fn show_wide(self, ui: &mut Ui) -> Response {
+        let width = Rangef::point(ui.available_width());
+        self.width(width).show(ui)
+    }
+
     pub(crate) fn show(self, ui: &mut Ui) -> Response {
         let tokens = Tokens::of(ui);
         let icon = self.icon.map_or(0.0, |_| ICON_SIZE + GAP);
@@ -224,6 +230,13 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
     in_force: Option<T>,
 ) -> Option<T> {
     explained_segmented(ui, name, choices, &[], in_force)
+}
+
+/// The same for a value of the interface itself.
+pub(crate) fn choose<T: Copy + PartialEq>(ui: &mut Ui, name: &str, choices: &[(T, &str)], value: &mut T) {
+    if let Some(chosen) = segmented(ui, name, choices, Some(*value)) {
+        *value = chosen;
+    }
 }
 
 /// The same with a sentence about each choice.

@@ -14,7 +14,7 @@ pub mod theme;
 pub(super) mod wording;
 
 pub(super) use button::{
-    ICON_SIZE, MenuLine, TextButton, action_button, action_switch, choices, explained_segmented, icon_button,
+    ICON_SIZE, MenuLine, TextButton, action_button, action_switch, choices, choose, explained_segmented, icon_button,
     keyed_menu_item, menu_item, noted_switch_row, push_action, push_button, segmented, switch_row, untold_icon_button,
     valued_choice, valued_menu_item,
 };

@@ -9,7 +9,7 @@ use crate::ui::cx::Cx;
 use crate::ui::frame::panel::{popover_gap, scrolled};
 use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::kit::{
-    TextButton, control_size, number_field, section_name, section_with_labelled_action, segmented, switch_row,
+    TextButton, choose, control_size, number_field, section_name, section_with_labelled_action, switch_row,
 };
 use crate::ui::state::{SheetPage, UiState};
 
@@ -82,9 +82,7 @@ fn choices(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     let is_saving = session.export().is_some_and(|export| export.saving.is_some());
     ui.add_enabled_ui(!is_saving, |ui| {
         let formats = ExportFormat::ALL.map(|format| (format, format.label()));
-        if let Some(format) = segmented(ui, "Format", &formats, Some(choice.options.format)) {
-            choice.options.format = format;
-        }
+        choose(ui, "Format", &formats, &mut choice.options.format);
         ui.add_space(6.0);
         demo(ui, &mut choice.options);
         ui.add_space(6.0);
@@ -366,9 +364,8 @@ fn save_row(ui: &mut Ui, session: &Session, export: Option<Export<'_>>, commands
     let words = format!("Save {name}");
     let words = words.trim_end();
     let is_ready = export.is_some_and(|export| export.plan.is_some());
-    let width = Rangef::point(ui.available_width());
     ui.add_enabled_ui(is_ready, |ui| {
-        if TextButton::new(words, words).width(width).show(ui).clicked() {
+        if TextButton::new(words, words).show_wide(ui).clicked() {
             commands.push(ExportCommand::Save.into());
         }
     });

@@ -9,7 +9,7 @@ use crate::model::Clip;
 use crate::session::{Command, PlayCommand, Session};
 use crate::ui::cx::Cx;
 use crate::ui::kit::theme::Tokens;
-use crate::ui::kit::{SliderNode, by_finger, control_size, focus_ring, focused_keys, is_touch, segmented};
+use crate::ui::kit::{SliderNode, by_finger, choose, control_size, focus_ring, focused_keys, is_touch};
 
 pub(super) const RULER_HEIGHT: f32 = 24.0;
 /// Width of a label with the gap to the next one.
@@ -187,11 +187,11 @@ pub(super) fn segmented_of_width<T: Copy + PartialEq>(
     width: f32,
     name: &str,
     choices: &[(T, &str)],
-    in_force: T,
-) -> Option<T> {
+    value: &mut T,
+) {
     let (rect, _) = ui.allocate_exact_size(vec2(width, control_size(ui)), Sense::hover());
     let mut child = ui.new_child(UiBuilder::new().max_rect(rect).id_salt(name));
-    segmented(&mut child, name, choices, Some(in_force))
+    choose(&mut child, name, choices, value);
 }
 
 /// The x where names end and time begins.

@@ -1,7 +1,7 @@
 //! The selected joint: its parent and children, its transform now, its matrices and keys. Above it the selected vertex.
 
 use egui::style::ScrollAnimation;
-use egui::{Align, Align2, FontId, Id, Rangef, Rect, Response, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align, Align2, FontId, Id, Rect, Response, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::numbers::{FINAL_EXPLAINED, OFFSET_EXPLAINED, fitted, show_matrix, show_meaning, show_parts};
 use super::state::{KeyList, KeyPart, SkeletonState, Space};
@@ -15,9 +15,9 @@ use crate::ui::cx::Cx;
 use crate::ui::kit::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::kit::wording::{counted, counted_vertices, grouped};
 use crate::ui::kit::{
-    DrawnRows, Row, TextButton, explained, explained_section, explained_segmented, focus_ring, focus_row, is_touch,
-    labelled, paint_name, paint_row_ground, pressed_row_height, row_sense, rule, section_with_action,
-    section_with_labelled_action, segmented, selected_heading, switch_row, tell_row, value_row, walked,
+    DrawnRows, Row, TextButton, choose, explained, explained_section, explained_segmented, focus_ring, focus_row,
+    is_touch, labelled, paint_name, paint_row_ground, pressed_row_height, row_sense, rule, section_with_action,
+    section_with_labelled_action, selected_heading, switch_row, tell_row, value_row, walked,
 };
 
 /// Keys listed before the list scrolls. By touch the list has this fraction of what is seen of the sheet.
@@ -122,8 +122,7 @@ fn show_joint(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, readout: &JointReadou
     }
     ui.add_space(8.0);
     let all = TextButton::new("Copy all numbers", "Copy all numbers of the bone");
-    let wide = Rangef::point(ui.available_width());
-    if all.width(wide).show(ui).clicked() {
+    if all.show_wide(ui).clicked() {
         ui.ctx().copy_text(readout.to_text());
     }
     rule(ui, MARGIN);
@@ -249,9 +248,7 @@ fn key_list(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, joint: JointIndex) {
         (KeyPart::Rotation, "Euler"),
         (KeyPart::Scale, "Scale"),
     ];
-    if let Some(chosen) = segmented(ui, "Keys", &parts, Some(cx.state.key_part)) {
-        cx.state.key_part = chosen;
-    }
+    choose(ui, "Keys", &parts, &mut cx.state.key_part);
     ui.add_space(4.0);
     let height = pressed_row_height(ui);
     let most = if is_touch(ui) {

@@ -30,19 +30,13 @@ pub(in crate::ui::timeline) fn controls(ui: &mut Ui, curves: &mut Curves) {
         (Part::Rotation, "Rotation"),
         (Part::Scale, "Scale"),
     ];
-    if let Some(part) = segmented_of_width(ui, 246.0, "Part", &parts, curves.part) {
-        curves.part = part;
-    }
+    segmented_of_width(ui, 246.0, "Part", &parts, &mut curves.part);
     if curves.part == Part::Rotation {
         let kinds = [(RotationAs::Quaternion, "Quaternion"), (RotationAs::Euler, "Euler")];
-        if let Some(kind) = segmented_of_width(ui, 164.0, "Rotation as", &kinds, curves.rotation) {
-            curves.rotation = kind;
-        }
+        segmented_of_width(ui, 164.0, "Rotation as", &kinds, &mut curves.rotation);
     }
     let spaces = [(CurveSpace::Local, "Local"), (CurveSpace::Model, "Model")];
-    if let Some(space) = segmented_of_width(ui, 124.0, "Space", &spaces, curves.space) {
-        curves.space = space;
-    }
+    segmented_of_width(ui, 124.0, "Space", &spaces, &mut curves.space);
 }
 
 /// The curves. Fills the rest of the sheet.

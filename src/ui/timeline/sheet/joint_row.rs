@@ -1,5 +1,7 @@
 //! One row of the dope sheet: a joint's name and its keys.
 
+use std::ops::Range;
+
 use egui::{FontId, Rangef, Rect, RectAlign, Response, Role, Sense, Tooltip, Ui, UiBuilder, WidgetInfo, vec2};
 
 use super::dope_sheet::Sheet;
@@ -131,10 +133,17 @@ impl Sheet<'_> {
             ui.painter().rect_filled(time_rect, 0.0, tokens.field);
         }
         let name = self.name_cell(ui, row, folded, name_rect, cx);
+        let (key_box, y) = (cx.state.key_box.as_ref(), rect.center().y);
         if let Some(branch) = folded {
-            self.add_folded_marks(row.joint, branch, rect.center().y, cx.state, &tokens, shape);
+            let (times_secs, tree) = (&branch.times_secs, self.session.joints().tree());
+            let is_below = |below| below != row.joint && tree.is_in_branch(below, row.joint);
+            let chosen = key_box.map_or(0..0, |key_box| key_box.part_of_any(is_below, times_secs));
+            self.add_marks(times_secs, chosen, (branch.constant, true), y, &tokens, shape);
         }
-        self.add_marks(row.joint, activity, rect.center().y, cx.state, &tokens, shape);
+        let times_secs = self.key_times(row.joint);
+        let chosen = key_box.map_or(0..0, |key_box| key_box.part_of(row.joint, times_secs));
+        let constant = activity.constant && times_secs.len() > 1;
+        self.add_marks(times_secs, chosen, (constant, false), y, &tokens, shape);
         name
     }
 
@@ -225,71 +234,40 @@ impl Sheet<'_> {
         }
     }
 
-    /// Keys of folded joints: hollow, smaller than the joint's own and below them.
-    fn add_folded_marks(
-        &self,
-        joint: JointIndex,
-        branch: &FoldedBranch,
-        y: f32,
-        state: &TimelineState,
-        tokens: &Tokens,
-        shape: &mut MarkShape,
-    ) {
-        let times_secs = &branch.times_secs[..];
-        let (Some(&first), Some(&last)) = (times_secs.first(), times_secs.last()) else {
-            return;
-        };
-        let tree = self.session.joints().tree();
-        let is_below = |below| below != joint && tree.is_in_branch(below, joint);
-        let chosen = state
-            .key_box
-            .as_ref()
-            .map_or(0..0, |key_box| key_box.part_of_any(is_below, times_secs));
-        let radius = FOLDED_SIZE * mark_radius(self.axis.points_per_sec() / self.clip.keys_per_sec);
-        if branch.constant {
-            shape.bar(self.seen_points(first, last), y, 1.0, tokens.faint.gamma_multiply(0.6));
-        } else {
-            for times_secs in [&times_secs[..chosen.start], &times_secs[chosen.end..]] {
-                shape.add_hollow(times_secs, &self.axis, y, radius, tokens.muted.gamma_multiply(0.85));
-            }
-        }
-        shape.add_hollow(&times_secs[chosen], &self.axis, y, radius, tokens.accent);
-    }
-
-    /// The visible part of a time span.
-    fn seen_points(&self, first_secs: f32, last_secs: f32) -> Rangef {
-        let seen = self.axis.points().expand(END_ROOM);
-        Rangef::new(
-            seen.clamp(self.axis.x_of(first_secs)),
-            seen.clamp(self.axis.x_of(last_secs)),
-        )
-    }
-
+    /// Marks of the keys of a row, or a bar where nothing moves, and over them those that are chosen. `folded`: keys of joints folded
+    /// below it, hollow and smaller.
     fn add_marks(
         &self,
-        joint: JointIndex,
-        activity: JointActivity,
+        times_secs: &[f32],
+        chosen: Range<usize>,
+        (constant, folded): (bool, bool),
         y: f32,
-        state: &TimelineState,
         tokens: &Tokens,
         shape: &mut MarkShape,
     ) {
-        let times_secs = self.key_times(joint);
         let (Some(&first), Some(&last)) = (times_secs.first(), times_secs.last()) else {
             return;
         };
-        let chosen = state
-            .key_box
-            .as_ref()
-            .map_or(0..0, |key_box| key_box.part_of(joint, times_secs));
-        if activity.constant && times_secs.len() > 1 {
-            shape.bar(self.seen_points(first, last), y, 1.0, tokens.faint.gamma_multiply(0.6));
+        let radius = mark_radius(self.axis.points_per_sec() / self.clip.keys_per_sec);
+        let (radius, chosen_radius, color) = if folded {
+            let radius = FOLDED_SIZE * radius;
+            (radius, radius, tokens.muted.gamma_multiply(0.85))
         } else {
-            let radius = mark_radius(self.axis.points_per_sec() / self.clip.keys_per_sec);
-            shape.add(&times_secs[..chosen.start], &self.axis, y, radius, tokens.muted);
-            shape.add(&times_secs[chosen.end..], &self.axis, y, radius, tokens.muted);
+            (radius, radius + 0.6, tokens.muted)
+        };
+        if constant {
+            let seen = self.axis.points().expand(END_ROOM);
+            let [first, last] = [first, last].map(|secs| seen.clamp(self.axis.x_of(secs)));
+            shape.bar(Rangef::new(first, last), y, 1.0, tokens.faint.gamma_multiply(0.6));
         }
-        let radius = mark_radius(self.axis.points_per_sec() / self.clip.keys_per_sec) + 0.6;
-        shape.add(&times_secs[chosen], &self.axis, y, radius, tokens.accent);
+        let mut add = |times_secs: &[f32], radius, color| match folded {
+            true => shape.add_hollow(times_secs, &self.axis, y, radius, color),
+            false => shape.add(times_secs, &self.axis, y, radius, color),
+        };
+        if !constant {
+            add(&times_secs[..chosen.start], radius, color);
+            add(&times_secs[chosen.end..], radius, color);
+        }
+        add(&times_secs[chosen], chosen_radius, tokens.accent);
     }
 }

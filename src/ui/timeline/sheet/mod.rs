@@ -46,9 +46,7 @@ fn contents(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(GAP, 4.0);
         let tabs = [(SheetTab::Keys, "Dope sheet"), (SheetTab::Curves, "Curves")];
-        if let Some(tab) = segmented_of_width(ui, 172.0, "Sheet", &tabs, cx.state.tab) {
-            cx.state.tab = tab;
-        }
+        segmented_of_width(ui, 172.0, "Sheet", &tabs, &mut cx.state.tab);
         match cx.state.tab {
             SheetTab::Keys => keys_controls(ui, cx),
             SheetTab::Curves => curve_plot::controls(ui, &mut cx.state.curves),
