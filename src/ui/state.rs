@@ -82,6 +82,13 @@ pub enum SheetPage {
     Timeline,
 }
 
+impl SheetPage {
+    /// Whether it is one of those between which a switch goes.
+    pub(super) fn is_tab(self) -> bool {
+        matches!(self, Self::Model | Self::Selection)
+    }
+}
+
 /// What the model was framed in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Framed {
@@ -181,7 +188,7 @@ impl UiState {
         let vertex = joints.selected_vertex().map(|selected| selected.vertex);
         let selection = (joints.selected(), vertex, submesh);
         let is_new = std::mem::replace(&mut self.shown_selection, selection) != selection;
-        if is_new && matches!(self.sheet, Some(SheetPage::Model | SheetPage::Selection)) {
+        if is_new && self.sheet.is_some_and(SheetPage::is_tab) {
             let is_some = selection != Selection::default();
             self.sheet = Some(if is_some {
                 SheetPage::Selection

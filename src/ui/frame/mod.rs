@@ -4,6 +4,7 @@ pub(super) mod chips;
 pub(super) mod focus;
 pub(super) mod layout;
 pub(super) mod message;
+mod pages;
 pub(super) mod panel;
 pub(super) mod sheet;
 pub(super) mod split;

@@ -10,6 +10,7 @@ mod list;
 mod number;
 mod row;
 mod search;
+mod slider;
 pub mod theme;
 pub(super) mod wording;
 
@@ -31,6 +32,7 @@ pub(super) use heading::{
 };
 pub(super) use kept::Kept;
 pub(super) use list::{DrawnRows, RowList, asks, focus_row, labelled, row_sense, rows_in_view, tell_folds, tell_row};
-pub(super) use number::{Slider, TypedValue, leading_number, number_field, number_within};
+pub(super) use number::{TypedValue, leading_number, number_field, number_within};
 pub(super) use row::{Row, choice_row, progress_bar, row_icon, rule, sheet_handle, value_row};
 pub(super) use search::search_field;
+pub(super) use slider::Slider;

@@ -33,7 +33,7 @@ const BEYOND_VIEW: f32 = 400.0;
 
 /// Shows or hides them; in a narrow window in the sheet.
 pub(in crate::ui) fn toggle(state: &mut UiState, is_wide: bool) {
-    let in_sheet = matches!(state.sheet, Some(SheetPage::Model | SheetPage::Selection));
+    let in_sheet = state.sheet.is_some_and(SheetPage::is_tab);
     state.diagnostics_open = !(state.diagnostics_open && (is_wide || in_sheet));
     if !is_wide {
         state.sheet = state.diagnostics_open.then_some(SheetPage::Model);
