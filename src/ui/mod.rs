@@ -26,6 +26,7 @@ pub use state::{MAX_PICTURE_SIDE, Request, SheetPage, SheetRequest, UiState};
 use crate::scene::{Insets, Theme};
 use crate::session::{CameraCommand, Command, FileCommand, HistoryCommand, News, Session, SubmeshCommand};
 use cx::Cx;
+use frame::arrangement::Arrangement;
 use frame::message::Offer;
 use frame::{chips, layout, message, split, viewport};
 use input::{Grip, InputOrder, MOST_PASSES};
@@ -104,13 +105,10 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     cx.state.follow_selection(cx.session);
     cx.state.offers_frame &= !cx.session.is_framed() && cx.session.open_model().is_some();
     let (mut free, uncovered) = layout::show(ui, cx);
-    if std::mem::take(&mut cx.state.wants_export) {
-        export::open(cx.state, layout::is_wide(window));
-    }
     let export_is_open = export::settle(cx);
     split::show(ui, cx.session, window, free, cx.commands);
     if let Some(bottom) = chips::show(ui, cx, uncovered, export_is_open)
-        && !layout::is_wide(window)
+        && Arrangement::of(window) != Arrangement::Wide
         && free.max.y - bottom >= LEAST_BELOW_CHIPS * window.height()
     {
         // In a narrow window they would lie over the model's head.

@@ -129,8 +129,6 @@ pub struct UiState {
     /// The contact sheet that is being drawn.
     pub(super) drawn_sheet: Option<DrawnSheet>,
     pub(super) export: ExportChoice,
-    /// A finding asked for the panel that exports.
-    pub(super) wants_export: bool,
     pub(super) thumbnails: Thumbnails,
     pub(super) view_hold: ViewHold,
     pub(super) hovered_submesh: Option<usize>,

@@ -6,6 +6,7 @@
 
 use egui::{Align, Align2, Layout, Margin, Rangef, Rect, Role, Sense, Ui, UiBuilder, Vec2, pos2, vec2};
 
+use super::arrangement::Arrangement;
 use super::panel::{self, Free, LEAST_ROOM, Panel, mark_transport, scrolled};
 use super::sheet::Heights;
 use super::{pages, toolbar};
@@ -14,7 +15,7 @@ use crate::session::{Command, LoadError, Session};
 use crate::ui::cx::Cx;
 use crate::ui::kit::TextButton;
 use crate::ui::kit::icons::Icon;
-use crate::ui::kit::theme::{LOW_HEIGHT, LOW_WIDTH, MARGIN, NARROW_WIDTH, Tokens};
+use crate::ui::kit::theme::{MARGIN, Tokens};
 use crate::ui::kit::wording::grouped;
 use crate::ui::panels::skeleton::state::{SidePage, is_inspected};
 use crate::ui::panels::skeleton::{self, LegendShape};
@@ -46,32 +47,6 @@ const BESIDE_SELECTION: f32 = 110.0;
 const LEAST_WITH_CARD: f32 = 220.0;
 const LEAST_BESIDE_CARD: f32 = 80.0;
 const LEAST_WITH_STRIP: f32 = 180.0;
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Arrangement {
-    Wide,
-    /// A bar above, below a sheet with the timeline and with what was opened.
-    Narrow,
-    /// A bar above, the timeline in one row below, and between them what was opened, beside the model.
-    Low,
-}
-
-impl Arrangement {
-    fn of(window: Rect) -> Self {
-        if window.height() < LOW_HEIGHT && window.width() >= LOW_WIDTH {
-            Self::Low
-        } else if window.width() >= NARROW_WIDTH {
-            Self::Wide
-        } else {
-            Self::Narrow
-        }
-    }
-}
-
-/// Whether the panels stand around the view.
-pub(in crate::ui) fn is_wide(window: Rect) -> bool {
-    Arrangement::of(window) == Arrangement::Wide
-}
 
 /// Shows all panels. Returns what they leave free for the model, and what of that no panel covers.
 pub(in crate::ui) fn show(ui: &Ui, cx: &mut Cx<'_, UiState>) -> (Rect, Rect) {
@@ -332,7 +307,7 @@ pub(in crate::ui) fn sheet_covers_view(window: Rect, state: &UiState) -> bool {
 
 /// Whether facts or the tree of joints are seen.
 pub(in crate::ui) fn shows_side_page(window: Rect, state: &UiState) -> bool {
-    is_wide(window) || state.sheet == Some(SheetPage::Model)
+    Arrangement::of(window) == Arrangement::Wide || state.sheet == Some(SheetPage::Model)
 }
 
 /// Help and the error card: over other panels, but not over the bars, the panel on the left and the timeline.

@@ -1,5 +1,6 @@
 //! How the window is shared: panels, sheet, toolbar, chips and messages over the view, and where the focus goes.
 
+pub(super) mod arrangement;
 pub(super) mod chips;
 pub(super) mod focus;
 pub(super) mod layout;

@@ -6,6 +6,7 @@ use egui::{
     WidgetInfo, vec2,
 };
 
+use super::arrangement::Arrangement;
 use super::panel::{popover, popover_menu, unscrolled_popover};
 use crate::actions::{self, Action};
 use crate::anim::SkinView;
@@ -13,7 +14,7 @@ use crate::scene::{Theme, ViewMode, ViewPreset};
 use crate::session::{CameraCommand, Command, File, FileCommand, LookCommand, OpenModel, Session};
 use crate::ui::cx::Cx;
 use crate::ui::kit::icons::{self, Icon};
-use crate::ui::kit::theme::{self, LOW_HEIGHT, LOW_WIDTH, Tokens};
+use crate::ui::kit::theme::{self, Tokens};
 use crate::ui::kit::wording::{bytes, shortened_front};
 use crate::ui::kit::{
     ICON_SIZE, MenuLine, TextButton, action_button, chip, chip_size, control_size, hint_beside, hint_of_name,
@@ -124,7 +125,10 @@ pub(in crate::ui) fn show_narrow(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     }
     open_button(ui, cx.state);
     let dots = push_button(ui, Icon::Dots, "More");
-    let width = if is_low(ui) { 420.0 } else { 230.0 };
+    let width = match Arrangement::here(ui) {
+        Arrangement::Low => 420.0,
+        _ => 230.0,
+    };
     popover_menu(ui, &dots, RectAlign::BOTTOM_END, width, |ui| {
         more_menu(ui, cx);
     });
@@ -242,7 +246,7 @@ pub(in crate::ui) fn view_from_items<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) -> bool
 
 /// In one column, or in two in a window too low for one.
 fn more_menu(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
-    if is_low(ui) {
+    if Arrangement::here(ui) == Arrangement::Low {
         ui.columns_const(|[left, right]| {
             page_items(left, cx.session, cx.state);
             action_items(right, cx);
@@ -251,12 +255,6 @@ fn more_menu(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
         page_items(ui, cx.session, cx.state);
         action_items(ui, cx);
     }
-}
-
-/// Whether the window is too low for all lines of the menu below each other.
-fn is_low(ui: &Ui) -> bool {
-    let window = ui.ctx().content_rect();
-    window.height() < LOW_HEIGHT && window.width() >= LOW_WIDTH
 }
 
 fn page_items(ui: &mut Ui, session: &Session, state: &mut UiState) {

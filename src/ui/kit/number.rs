@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use egui::accesskit::{Action, ActionData, Invalid};
 use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditState;
 use egui::{
     Align, Align2, Color32, CornerRadius, CursorIcon, FontId, Id, Key, LayerId, Modifiers, Order, Rect, Response, Role,
     Sense, Stroke, StrokeKind, TextEdit, Ui, Vec2, WidgetInfo, pos2, vec2,
@@ -277,7 +278,7 @@ impl<'a> TypedValue<'a> {
         let mut child = ui.new_child(egui::UiBuilder::new().max_rect(inside));
         // By touch egui would make the field higher than it is drawn.
         child.spacing_mut().interact_size.y = field.height();
-        let mut output = TextEdit::singleline(&mut typing.text)
+        let output = TextEdit::singleline(&mut typing.text)
             .id(id.with("field"))
             .font(self.font.clone())
             .text_color(tokens.text)
@@ -300,9 +301,7 @@ impl<'a> TypedValue<'a> {
         }
         if begins {
             response.request_focus();
-            let all = CCursorRange::two(CCursor::new(0), CCursor::new(typing.text.chars().count()));
-            output.state.cursor.set_char_range(Some(all));
-            output.state.clone().store(ui.ctx(), response.id);
+            select_all(ui, response.id, &typing.text);
         } else if response.lost_focus() || !response.has_focus() {
             let entered = ui.input(|input| input.key_pressed(Key::Enter));
             // Esc ends typing and does nothing else.
@@ -330,6 +329,14 @@ impl<'a> TypedValue<'a> {
         ui.data_mut(|data| data.insert_temp(id, typing));
         value
     }
+}
+
+/// Selects the text of a field, so that typing replaces it.
+pub(crate) fn select_all(ui: &Ui, field: Id, text: &str) {
+    let mut state = TextEditState::load(ui.ctx(), field).unwrap_or_default();
+    let all = CCursorRange::two(CCursor::default(), CCursor::new(text.chars().count()));
+    state.cursor.set_char_range(Some(all));
+    state.store(ui.ctx(), field);
 }
 
 /// What is being typed into a field, and why it was refused.

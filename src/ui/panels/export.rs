@@ -6,6 +6,7 @@ use egui::{Align, Color32, Label, Layout, ProgressBar, Rangef, RichText, Sense, 
 
 use crate::session::{Command, Export, ExportCommand, ExportFormat, ExportOptions, ExportRange, Session};
 use crate::ui::cx::Cx;
+use crate::ui::frame::arrangement::Arrangement;
 use crate::ui::frame::panel::{popover_gap, scrolled};
 use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::kit::{
@@ -372,8 +373,8 @@ fn save_row(ui: &mut Ui, session: &Session, export: Option<Export<'_>>, commands
 }
 
 /// Opens it for a key, in a narrow window as a page of the sheet; where it is open, it shuts.
-pub(in crate::ui) fn ask(state: &mut UiState, is_wide: bool) {
-    if is_wide {
+pub(in crate::ui) fn ask(ui: &Ui, state: &mut UiState) {
+    if Arrangement::here(ui) == Arrangement::Wide {
         state.export.asked = true;
         return;
     }
@@ -382,9 +383,9 @@ pub(in crate::ui) fn ask(state: &mut UiState, is_wide: bool) {
 }
 
 /// Opens it, where it is not open yet.
-pub(in crate::ui) fn open(state: &mut UiState, is_wide: bool) {
-    if is_wide || state.sheet != Some(SheetPage::Export) {
-        ask(state, is_wide);
+pub(in crate::ui) fn open(ui: &Ui, state: &mut UiState) {
+    if Arrangement::here(ui) == Arrangement::Wide || state.sheet != Some(SheetPage::Export) {
+        ask(ui, state);
     }
 }
 

@@ -69,6 +69,25 @@ impl TimelineState {
         self.follow(session, clip);
     }
 
+    /// With Shift the keys between where the cell was and where it is are chosen, from where it was when Shift began. Without they are let
+    /// go. `chose`: Shift had chosen some before.
+    pub(super) fn choose_keys<'a>(
+        &mut self,
+        (shift, chose): (bool, bool),
+        [from, to]: [Corner; 2],
+        joints_of: impl Fn(usize) -> Option<&'a [JointIndex]>,
+    ) {
+        if shift {
+            let key_box = match &mut self.key_box {
+                Some(key_box) if chose => key_box,
+                key_box => key_box.insert(KeyBox::at(from)),
+            };
+            key_box.stretch(to, joints_of);
+        } else {
+            self.key_box = None;
+        }
+    }
+
     /// Notes that the dope sheet is shown in a frame. Returns whether it was opened in it.
     pub(super) fn keys_open(&mut self, frame: u64) -> bool {
         if self.keys_shown_in.is_none_or(|last| last + 1 < frame) {
@@ -134,11 +153,14 @@ impl TimelineState {
     }
 }
 
+/// A time, and a row with its fraction.
+pub(super) type Corner = (f32, f32);
+
 /// A time span, and the joints whose keys in it are chosen.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct KeyBox {
-    /// Where the drag began: a time, and a row with its fraction.
-    pub(super) from: (f32, f32),
+    /// Where the drag began.
+    pub(super) from: Corner,
     /// Start and end, in order.
     pub(super) span_secs: [f32; 2],
     /// The joints of the rows that it covers.
@@ -146,8 +168,7 @@ pub(super) struct KeyBox {
 }
 
 impl KeyBox {
-    /// An empty box at a time and a row with its fraction.
-    pub(super) fn at(from: (f32, f32)) -> Self {
+    pub(super) fn at(from: Corner) -> Self {
         Self {
             from,
             span_secs: [from.0; 2],
@@ -157,7 +178,7 @@ impl KeyBox {
 
     pub(super) fn stretch<'a>(
         &mut self,
-        (time_secs, row): (f32, f32),
+        (time_secs, row): Corner,
         joints_of: impl Fn(usize) -> Option<&'a [JointIndex]>,
     ) {
         let (from_secs, from_row) = self.from;

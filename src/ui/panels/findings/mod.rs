@@ -17,6 +17,7 @@ use egui::{RichText, Ui};
 use crate::diagnostic::Diagnostic;
 use crate::session::{OpenModel, Session};
 use crate::ui::cx::Cx;
+use crate::ui::frame::arrangement::Arrangement;
 use crate::ui::frame::panel::scrolled;
 use crate::ui::kit::theme::{MARGIN, Tokens};
 use crate::ui::kit::wording::{counted, counted_vertices};
@@ -32,7 +33,8 @@ const LEAST_SCROLLED: f32 = 60.0;
 const BEYOND_VIEW: f32 = 400.0;
 
 /// Shows or hides them; in a narrow window in the sheet.
-pub(in crate::ui) fn toggle(state: &mut UiState, is_wide: bool) {
+pub(in crate::ui) fn toggle(ui: &Ui, state: &mut UiState) {
+    let is_wide = Arrangement::here(ui) == Arrangement::Wide;
     let in_sheet = state.sheet.is_some_and(SheetPage::is_tab);
     state.diagnostics_open = !(state.diagnostics_open && (is_wide || in_sheet));
     if !is_wide {

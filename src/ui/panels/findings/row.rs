@@ -14,6 +14,7 @@ use crate::ui::kit::theme::{self, Tokens};
 use crate::ui::kit::wording::grouped;
 use crate::ui::kit::{Row, RowList, TextButton, paint_elided, paint_row_ground, tell_folds, tell_node};
 use crate::ui::panels::error_card::{expected_and_found, show_excerpt};
+use crate::ui::panels::export;
 use crate::ui::state::{Request, UiState};
 
 /// Where the words of a line begin, behind its dot.
@@ -218,7 +219,7 @@ fn permanence(ui: &mut Ui, code: &Code, state: &mut UiState) {
     ui.add_space(4.0);
     let button = TextButton::new(actions::EXPORT.label, "Export the model as it is mended");
     if button.show(ui).on_hover_text(actions::EXPORT.hint()).clicked() {
-        state.wants_export = true;
+        export::open(ui, state);
     }
 }
 

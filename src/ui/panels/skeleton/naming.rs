@@ -1,7 +1,5 @@
 //! Naming joints: a field in the row, and names proposed for the other side.
 
-use egui::text::{CCursor, CCursorRange};
-use egui::text_edit::TextEditState;
 use egui::{FontId, Id, Key, Rangef, Rect, Role, TextEdit, Ui, Vec2, WidgetInfo, vec2};
 
 use crate::model::{Handedness, JointIndex, UpAxis};
@@ -9,7 +7,7 @@ use crate::session::{Command, NameCommand, Session};
 use crate::ui::cx::Cx;
 use crate::ui::frame::panel::scrolled;
 use crate::ui::kit::theme::{ROW_HEIGHT, Tokens};
-use crate::ui::kit::{Kept, Row, TextButton, control_size, section_name};
+use crate::ui::kit::{Kept, Row, TextButton, control_size, section_name, select_all};
 
 /// Naming waits so long for its row to scroll into view, in seconds …
 const LONGEST_WAIT_SECS: f64 = 1.0;
@@ -105,7 +103,7 @@ pub(super) fn show_field(ui: &mut Ui, cx: &mut Cx<'_, Naming>, name: Rect, unnam
     let naming = &mut *cx.state;
     let begins = naming.awaits_field();
     if begins {
-        select_all(ui, &naming.text);
+        select_all(ui, field_id(), &naming.text);
     }
     let place = name.expand2(vec2(FIELD_MARGIN.x, -1.0));
     let field = TextEdit::singleline(&mut naming.text)
@@ -138,15 +136,6 @@ pub(super) fn show_field(ui: &mut Ui, cx: &mut Cx<'_, Naming>, name: Rect, unnam
         return by_key && (escape || enter);
     }
     false
-}
-
-/// Selects the old name in the field, so that typing replaces it.
-fn select_all(ui: &Ui, text: &str) {
-    let mut field = TextEditState::load(ui.ctx(), field_id()).unwrap_or_default();
-    let end = CCursor::new(text.chars().count());
-    let all = CCursorRange::two(CCursor::default(), end);
-    field.cursor.set_char_range(Some(all));
-    field.store(ui.ctx(), field_id());
 }
 
 /// Gap between the proposed names and the buttons below them.

@@ -12,7 +12,7 @@ use crate::ui::cx::Cx;
 use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::kit::wording::counted;
 use crate::ui::kit::{focused_keys, tell_node};
-use crate::ui::timeline::state::{KeyBox, KeyCursor, TimelineState};
+use crate::ui::timeline::state::{KeyCursor, TimelineState};
 use crate::ui::timeline::time_area::{self, GRID_KEYS};
 
 /// Rows that the page keys go by.
@@ -99,7 +99,13 @@ impl Sheet<'_> {
                 cursor.joint = row.joint;
                 cursor.key_secs = cursor.wanted_secs.and_then(|secs| keys.nearest(secs));
             }
-            self.choose(shift, before, (&mut cursor, index), rows, cx.state);
+            let corners = [before, (cursor, index)].map(|(cursor, index)| {
+                let secs = cursor.key_secs.or(cursor.wanted_secs);
+                (secs.unwrap_or(self.clip.start_secs), index as f32 + 0.5)
+            });
+            let joints_of = |row| rows.joints_of(self.session, row);
+            cx.state.choose_keys((shift, before.0.chooses), corners, joints_of);
+            cursor.chooses = shift;
         }
         if moved {
             self.bring_into_view(ui, &cursor, index, top, cx.state);
@@ -126,33 +132,6 @@ impl Sheet<'_> {
                 cx.push(JointCommand::Select(joint.filter(|_| !selected)));
             }
         }
-    }
-
-    /// With Shift the keys between where the cell was and where it is are chosen. Without they are let go.
-    fn choose(
-        &self,
-        shift: bool,
-        (before, before_index): (KeyCursor, usize),
-        (cursor, index): (&mut KeyCursor, usize),
-        rows: &Rows,
-        state: &mut TimelineState,
-    ) {
-        if !shift {
-            cursor.chooses = false;
-            state.key_box = None;
-            return;
-        }
-        let corner = |cursor: &KeyCursor, index: usize| {
-            let secs = cursor.key_secs.or(cursor.wanted_secs).unwrap_or(self.clip.start_secs);
-            (secs, index as f32 + 0.5)
-        };
-        let from = corner(&before, before_index);
-        let key_box = match &mut state.key_box {
-            Some(key_box) if before.chooses => key_box,
-            key_box => key_box.insert(KeyBox::at(from)),
-        };
-        key_box.stretch(corner(cursor, index), |row| rows.joints_of(self.session, row));
-        cursor.chooses = true;
     }
 
     /// Scrolls to its row, and its key into what is seen of the time.
