@@ -37,21 +37,21 @@ fn percent(fraction: f32) -> String {
 impl Sheet<'_> {
     /// Scrolls to the row of a joint that was selected elsewhere.
     pub(in crate::ui::timeline) fn reveal(&self, ui: &Ui, rows: &[Row], top: f32, state: &mut TimelineState) {
-        let selected = self.session.joints().selected();
+        let selected = self.time.session.joints().selected();
         if state.revealed == selected {
             return;
         }
         state.revealed = selected;
         if let Some(index) = rows.iter().position(|row| Some(row.joint) == selected) {
             let y = top + index as f32 * self.row_height;
-            let row = Rect::from_x_y_ranges(self.area.x_range(), y..=y + self.row_height);
+            let row = Rect::from_x_y_ranges(self.time.whole.x_range(), y..=y + self.row_height);
             ui.scroll_to_rect(row, None);
         }
     }
 
     /// How far the sheet is scrolled with the row of the selected joint in its middle.
     pub(in crate::ui::timeline) fn offset_of_selected(&self, rows: &[Row], height: f32) -> Option<f32> {
-        let selected = self.session.joints().selected()?;
+        let selected = self.time.session.joints().selected()?;
         let index = rows.iter().position(|row| row.joint == selected)?;
         let most = (rows.len() as f32 * self.row_height - height).max(0.0);
         let middle = (index as f32 + 0.5) * self.row_height;
@@ -70,14 +70,14 @@ impl Sheet<'_> {
 
     fn tooltip(&self, response: &Response, words: &str) {
         let mut tooltip = Tooltip::for_enabled(response);
-        let above = Rect::from_min_size(self.area.min, vec2(self.area.width(), 0.0));
+        let above = Rect::from_min_size(self.time.whole.min, vec2(self.time.whole.width(), 0.0));
         tooltip.popup = tooltip.popup.anchor(above).align(RectAlign::TOP_END);
         tooltip.show(|ui| ui.label(words));
     }
 
     /// How much the bone of a row moves in the clip, and what that has to do with its tint.
     fn motion_words(&self, row: &Row, folded: Option<&FoldedBranch>) -> String {
-        let name = self.session.joint_label(row.joint);
+        let name = self.time.session.joint_label(row.joint);
         let activity = self.activity_of(row.joint);
         let amounts = [
             (activity.path > 0.0).then(|| format!("moves by {}", measured(activity.path))),
@@ -116,8 +116,8 @@ impl Sheet<'_> {
         shape: &mut MarkShape,
     ) -> Response {
         let (tokens, rect) = (Tokens::of(ui), ui.max_rect());
-        let name_rect = Rect::from_x_y_ranges(rect.min.x..=self.split - 4.0, rect.y_range());
-        let time_rect = Rect::from_x_y_ranges(self.split..=rect.max.x, rect.y_range());
+        let name_rect = Rect::from_x_y_ranges(rect.min.x..=self.time.times.min.x - 4.0, rect.y_range());
+        let time_rect = Rect::from_x_y_ranges(self.time.times.min.x..=rect.max.x, rect.y_range());
         let activity = self.activity_of(row.joint);
         let fraction = folded.map_or(activity.fraction, |branch| branch.most_motion.max(activity.fraction));
         let tint = MOST_TINT * fraction;
@@ -129,13 +129,13 @@ impl Sheet<'_> {
         if pointed {
             cx.state.hovered = Some(row.joint);
         }
-        if self.session.joints().hovered() == Some(row.joint) {
+        if self.time.session.joints().hovered() == Some(row.joint) {
             ui.painter().rect_filled(time_rect, 0.0, tokens.field);
         }
         let name = self.name_cell(ui, row, folded, name_rect, cx);
         let (key_box, y) = (cx.state.key_box.as_ref(), rect.center().y);
         if let Some(branch) = folded {
-            let (times_secs, tree) = (&branch.times_secs, self.session.joints().tree());
+            let (times_secs, tree) = (&branch.times_secs, self.time.session.joints().tree());
             let is_below = |below| below != row.joint && tree.is_in_branch(below, row.joint);
             let chosen = key_box.map_or(0..0, |key_box| key_box.part_of_any(is_below, times_secs));
             self.add_marks(times_secs, chosen, (branch.constant, true), y, &tokens, shape);
@@ -160,13 +160,13 @@ impl Sheet<'_> {
         let id = ui.scope_id().with(("row", row.joint.0));
         // Tab goes to the sheet as a whole, whose arrow keys come here.
         let response = ui.interact(rect, id, Sense::CLICK);
-        let joints = self.session.joints();
+        let joints = self.time.session.joints();
         let selected = joints.selected() == Some(row.joint);
         if response.contains_pointer() && !is_touch(ui) {
             cx.state.hovered = Some(row.joint);
         }
         paint_list_ground(ui, rect, selected, joints.hovered() == Some(row.joint));
-        let name = self.session.joint_label(row.joint);
+        let name = self.time.session.joint_label(row.joint);
         response.widget_info(|| {
             let mut label = format!("{name}, {}", counted(self.key_times(row.joint).len(), "key"));
             if let Some(branch) = folded {
@@ -218,8 +218,8 @@ impl Sheet<'_> {
     fn fold(&self, ui: &Ui, row: &Row, name: &str, place: Rect, commands: &mut Vec<Command>) {
         let tokens = Tokens::of(ui);
         let target = if is_touch(ui) {
-            let right = place.max.x.max(self.area.min.x + 44.0);
-            Rect::from_x_y_ranges(self.area.min.x..=right, place.y_range())
+            let right = place.max.x.max(self.time.whole.min.x + 44.0);
+            Rect::from_x_y_ranges(self.time.whole.min.x..=right, place.y_range())
         } else {
             place
         };
@@ -248,7 +248,7 @@ impl Sheet<'_> {
         let (Some(&first), Some(&last)) = (times_secs.first(), times_secs.last()) else {
             return;
         };
-        let radius = mark_radius(self.axis.points_per_sec() / self.clip.keys_per_sec);
+        let radius = mark_radius(self.time.axis.points_per_sec() / self.time.clip.keys_per_sec);
         let (radius, chosen_radius, color) = if folded {
             let radius = FOLDED_SIZE * radius;
             (radius, radius, tokens.muted.gamma_multiply(0.85))
@@ -256,13 +256,13 @@ impl Sheet<'_> {
             (radius, radius + 0.6, tokens.muted)
         };
         if constant {
-            let seen = self.axis.points().expand(END_ROOM);
-            let [first, last] = [first, last].map(|secs| seen.clamp(self.axis.x_of(secs)));
+            let seen = self.time.axis.points().expand(END_ROOM);
+            let [first, last] = [first, last].map(|secs| seen.clamp(self.time.axis.x_of(secs)));
             shape.bar(Rangef::new(first, last), y, 1.0, tokens.faint.gamma_multiply(0.6));
         }
         let mut add = |times_secs: &[f32], radius, color| match folded {
-            true => shape.add_hollow(times_secs, &self.axis, y, radius, color),
-            false => shape.add(times_secs, &self.axis, y, radius, color),
+            true => shape.add_hollow(times_secs, &self.time.axis, y, radius, color),
+            false => shape.add(times_secs, &self.time.axis, y, radius, color),
         };
         if !constant {
             add(&times_secs[..chosen.start], radius, color);

@@ -44,10 +44,10 @@ impl Sheet<'_> {
         let before = cx.state.cursor;
         let place = before.and_then(|cursor| Some((cursor, row_of(rows, cursor.joint)?)));
         let (mut cursor, mut index) = place.unwrap_or_else(|| {
-            let selected = self.session.joints().selected();
+            let selected = self.time.session.joints().selected();
             let index = selected.and_then(|joint| row_of(rows, joint)).unwrap_or(0);
             let joint = rows.all()[index].joint;
-            let now_secs = self.session.playback().time_secs();
+            let now_secs = self.time.session.playback().time_secs();
             let key_secs = RowKeys([self.key_times(joint), &[]]).nearest(now_secs);
             (KeyCursor::at(joint, key_secs), index)
         });
@@ -68,7 +68,12 @@ impl Sheet<'_> {
                 Key::PageDown => index = (index + PAGE as usize).min(last),
                 _ => {}
             }
-            rows.merge_folded(index..index + 1, self.session, self.open, self.clip_index);
+            rows.merge_folded(
+                index..index + 1,
+                self.time.session,
+                self.time.open,
+                self.time.clip_index,
+            );
             let row = rows.all()[index];
             let keys = self.keys_of(rows, &row);
             if index == before.1 {
@@ -101,9 +106,9 @@ impl Sheet<'_> {
             }
             let corners = [before, (cursor, index)].map(|(cursor, index)| {
                 let secs = cursor.key_secs.or(cursor.wanted_secs);
-                (secs.unwrap_or(self.clip.start_secs), index as f32 + 0.5)
+                (secs.unwrap_or(self.time.clip.start_secs), index as f32 + 0.5)
             });
-            let joints_of = |row| rows.joints_of(self.session, row);
+            let joints_of = |row| rows.joints_of(self.time.session, row);
             cx.state.choose_keys((shift, before.0.chooses), corners, joints_of);
             cursor.chooses = shift;
         }
@@ -128,7 +133,7 @@ impl Sheet<'_> {
                 cx.pause_at(time_secs);
             }
             None => {
-                let selected = self.session.joints().selected() == joint;
+                let selected = self.time.session.joints().selected() == joint;
                 cx.push(JointCommand::Select(joint.filter(|_| !selected)));
             }
         }
@@ -137,10 +142,10 @@ impl Sheet<'_> {
     /// Scrolls to its row, and its key into what is seen of the time.
     fn bring_into_view(&self, ui: &Ui, cursor: &KeyCursor, index: usize, top: f32, state: &mut TimelineState) {
         let y = top + index as f32 * self.row_height;
-        let row = Rect::from_x_y_ranges(self.area.x_range(), y..=y + self.row_height);
+        let row = Rect::from_x_y_ranges(self.time.whole.x_range(), y..=y + self.row_height);
         ui.scroll_to_rect(row, None);
         if let Some(secs) = cursor.key_secs {
-            time_area::bring_into_view(self.clip, secs, state);
+            time_area::bring_into_view(self.time.clip, secs, state);
         }
     }
 
@@ -163,7 +168,7 @@ impl Sheet<'_> {
         let cell = match cursor.key_secs {
             Some(secs) => {
                 let side = self.row_height.min(20.0) - 2.0;
-                let center = pos2(self.axis.x_of(secs), name.rect.center().y);
+                let center = pos2(self.time.axis.x_of(secs), name.rect.center().y);
                 // A cell of its own for each key, so that a screen reader hears of each.
                 let id = name.id.with(secs.to_bits());
                 let cell = ui.interact(Rect::from_center_size(center, vec2(side, side)), id, Sense::hover());
@@ -179,7 +184,7 @@ impl Sheet<'_> {
     }
 
     fn cell_words(&self, rows: &Rows, row: &Row, secs: f32) -> String {
-        let name = self.session.joint_label(row.joint);
+        let name = self.time.session.joint_label(row.joint);
         let times = self.key_times(row.joint);
         let own = times.iter().position(|&key| key == secs);
         let number = match own {
@@ -189,6 +194,6 @@ impl Sheet<'_> {
                 format!("key of {} folded away", counted(folded, "bone"))
             }
         };
-        format!("{number}, frame {}, {secs:.2} s, {name}", self.clip.frame_at(secs))
+        format!("{number}, frame {}, {secs:.2} s, {name}", self.time.clip.frame_at(secs))
     }
 }
