@@ -25,7 +25,6 @@ use crate::ui::{kit, timeline};
 
 /// Width of the panel on the left.
 const SIDE_WIDTH: f32 = 246.0;
-/// Width of the inspector on the right.
 const INSPECTOR_WIDTH: f32 = 288.0;
 /// Width of the list of diagnostics, where there is room for it.
 const DIAGNOSTICS_WIDTH: f32 = 456.0;

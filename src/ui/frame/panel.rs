@@ -26,22 +26,18 @@ impl Free {
         self.rect.intersect(self.window.shrink(MARGIN))
     }
 
-    /// Cuts a panel at the top.
     pub(in crate::ui) fn cut_top(&mut self, panel: Rect) {
         self.rect.min.y = panel.max.y + MARGIN;
     }
 
-    /// Cuts a panel at the bottom.
     pub(in crate::ui) fn cut_bottom(&mut self, panel: Rect) {
         self.rect.max.y = panel.min.y - MARGIN;
     }
 
-    /// Cuts a panel at the left.
     pub(in crate::ui) fn cut_left(&mut self, panel: Rect) {
         self.rect.min.x = panel.max.x + MARGIN;
     }
 
-    /// Cuts a panel at the right.
     pub(in crate::ui) fn cut_right(&mut self, panel: Rect) {
         self.rect.max.x = panel.min.x - MARGIN;
     }

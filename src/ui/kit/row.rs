@@ -68,7 +68,6 @@ impl Row {
         }
     }
 
-    /// Words at the left.
     pub(crate) fn left(&mut self, text: &str, color: Color32) {
         self.left_in(FontId::proportional(13.0), text, color);
     }
@@ -78,7 +77,6 @@ impl Row {
         self.left = self.painter.text(at, Align2::LEFT_CENTER, text, font, color).max.x;
     }
 
-    /// Words at the right.
     pub(crate) fn right(&mut self, text: &str, color: Color32) {
         self.right_in(FontId::proportional(13.0), text, color);
     }
@@ -98,7 +96,6 @@ impl Row {
         paint_name(&self.painter, at, name, font, color, self.right - self.left);
     }
 
-    /// Tells screen readers of it.
     pub(crate) fn told(self, role: Role, label: impl Into<String>) -> Response {
         let label = label.into();
         self.response.widget_info(|| WidgetInfo::labeled(role, true, &label));

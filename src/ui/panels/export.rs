@@ -24,9 +24,7 @@ const FIELD_WIDTH: f32 = 76.0;
 /// The least height of what is lost and changed, and of the words about the demo.
 const LEAST_OUTCOME: f32 = 150.0;
 const DEMO_WORDS_HEIGHT: f32 = 32.0;
-/// Gap above the button that saves.
 const FOOT_GAP: f32 = 8.0;
-/// Width of the button that stops writing.
 const CANCEL_WIDTH: f32 = 74.0;
 
 /// The contents of the popover and of the sheet's page, no higher than `most`. The button that saves stays in view below what scrolls.

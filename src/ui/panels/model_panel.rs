@@ -197,7 +197,6 @@ pub(in crate::ui) fn shown_color(session: &Session, material: usize) -> [f32; 3]
     }
 }
 
-/// One row.
 struct SubmeshRow<'a> {
     index: usize,
     name: &'a str,

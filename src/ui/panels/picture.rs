@@ -21,7 +21,6 @@ const PRESETS: [(&str, [u32; 2]); 3] = [
 
 /// The most columns, and the most rows, of a contact sheet.
 const MOST_CELLS: u32 = 24;
-/// Width of the button that cancels one.
 const CANCEL_WIDTH: f32 = 70.0;
 
 /// The contents of the popover and of the sheet's page, below their title.

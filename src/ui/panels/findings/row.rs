@@ -21,7 +21,6 @@ use crate::ui::state::{Request, UiState};
 pub(super) const INDENT: f32 = 16.0;
 const AROUND: f32 = 12.0;
 
-/// A row of the list.
 pub(super) struct FindingRow<'a> {
     pub(super) diagnostic: &'a Diagnostic,
     /// Its index, and how many there are.

@@ -38,7 +38,6 @@ enum Stage {
 }
 
 impl Naming {
-    /// Begins to name a joint.
     pub(super) fn begin(&mut self, ui: &Ui, session: &Session, joint: JointIndex) {
         *self = Self {
             of: Some(joint),

@@ -164,8 +164,8 @@ pub(super) struct TreeState {
     /// The joint whose row has the keyboard in this pass.
     pub(super) focused: Option<JointIndex>,
     pub(super) typed: Typed,
-    /// The selected joint to which the tree has scrolled.
-    shown: Option<JointIndex>,
+    /// The selected joint to which the tree has scrolled. Without it, it does again.
+    pub(super) shown: Option<JointIndex>,
     /// Height that the rows had in the last pass.
     pub(super) room: Option<f32>,
 }
@@ -223,11 +223,6 @@ impl TreeState {
     pub(super) fn stop(&self, rows: &[JointRow], selected: Option<JointIndex>) -> usize {
         let place = |joint: JointIndex| rows.iter().position(|row| row.joint == joint);
         self.stop.and_then(place).or(selected.and_then(place)).unwrap_or(0)
-    }
-
-    /// Scrolls to the selected joint once more.
-    pub(super) fn show_again(&mut self) {
-        self.shown = None;
     }
 
     /// The index of the selected joint's row, once after each selection.

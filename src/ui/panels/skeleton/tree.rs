@@ -47,7 +47,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
     let most = ui.available_height().max(LEAST_ROWS * height);
     if cx.state.tree.room.replace(most) != Some(most) {
         // What was in view may not be any more.
-        cx.state.tree.show_again();
+        cx.state.tree.shown = None;
     }
     let to_show = cx.state.tree.row_to_show(cx.session.joints().selected());
     let rows = std::mem::take(&mut cx.state.tree.rows);
@@ -120,7 +120,6 @@ const INDENT: f32 = 9.0;
 /// Room for `Bone 999`, and for the count behind it.
 const LEAST_LABEL: f32 = 62.0;
 const COUNT_WIDTH: f32 = 46.0;
-/// Gap between the number and the tree.
 const NUMBER_GAP: f32 = 3.0;
 /// The least distance between two guide lines.
 const BETWEEN_GUIDES: f32 = 6.0;
@@ -175,7 +174,6 @@ fn row_id(ui: &Ui, joint: JointIndex) -> Id {
     Id::unique("joint row").with((ui.layer_id(), joint.0))
 }
 
-/// What a row shows.
 struct TreeRow<'a> {
     row: &'a JointRow,
     place: usize,

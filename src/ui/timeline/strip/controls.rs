@@ -35,10 +35,6 @@ pub(in crate::ui::timeline) fn play_button<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, d
     }
 }
 
-pub(in crate::ui::timeline) fn backward_button<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
-    action_button(ui, cx, &actions::PLAY_BACKWARD, Icon::PlayBackward);
-}
-
 /// How far a button goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::ui::timeline) enum Step {
@@ -93,7 +89,7 @@ pub(in crate::ui::timeline) fn all_steps<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
         for &step in steps.iter().rev() {
             step_button(ui, cx, step, Direction::Backward);
         }
-        backward_button(ui, cx);
+        action_button(ui, cx, &actions::PLAY_BACKWARD, Icon::PlayBackward);
         for &step in steps {
             step_button(ui, cx, step, Direction::Forward);
         }

@@ -11,14 +11,13 @@ use crate::ui::cx::Cx;
 use crate::ui::frame::panel::{mark_transport, popover_above};
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};
-use crate::ui::kit::{control_size, focus_ring, icon_button, push_button, tell_open};
+use crate::ui::kit::{action_button, control_size, focus_ring, icon_button, push_button, tell_open};
 use crate::ui::state::{SheetPage, UiState};
 use crate::ui::timeline::sheet;
 use crate::ui::timeline::state::TimelineState;
 
 /// Side of the button that plays, in a wide window.
 const PLAY_SIZE: f32 = 34.0;
-/// Gap between sheet and transport.
 const SHEET_GAP: f32 = 8.0;
 /// The least width of the clip's name on a phone.
 const CLIP_WIDTH_NARROW: f32 = 84.0;
@@ -56,7 +55,7 @@ fn strip(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
         for &step in steps.iter().rev() {
             controls::step_button(ui, cx, step, Direction::Backward);
         }
-        controls::backward_button(ui, cx);
+        action_button(ui, cx, &actions::PLAY_BACKWARD, Icon::PlayBackward);
         ui.add_space(3.0);
         controls::play_button(ui, cx, PLAY_SIZE);
         ui.add_space(3.0);
