@@ -7,9 +7,9 @@ use super::input::is_arrow;
 use super::state::{Request, UiState};
 use crate::actions::{self, Action, Ask};
 use crate::session::{Command, FileCommand, JointCommand, Session, SubmeshCommand};
-use crate::ui::frame::viewport::{self, FLIGHT_KEYS};
 use crate::ui::panels::export;
 use crate::ui::panels::findings;
+use crate::ui::window::viewport::{self, FLIGHT_KEYS};
 
 /// Reads the keys of a pass in which nobody types into a field. `popover_open`: Esc closes the popover and nothing else.
 pub(super) fn read(ui: &Ui, cx: &mut Cx<'_, UiState>, popover_open: bool) {

@@ -158,7 +158,7 @@ pub(crate) enum MenuLine {
     Switch(bool),
 }
 
-/// A line of a menu, or of a page of the sheet.
+/// A line of a menu, or of a page of the drawer.
 pub(crate) fn menu_item(ui: &mut Ui, text: &str, line: MenuLine) -> Response {
     menu_line(ui, text, "", theme::mono(11.0), line)
 }

@@ -33,6 +33,6 @@ pub(super) use heading::{
 pub(super) use kept::Kept;
 pub(super) use list::{DrawnRows, RowList, asks, focus_row, labelled, row_sense, rows_in_view, tell_folds, tell_row};
 pub(super) use number::{TypedValue, leading_number, number_field, number_within, select_all};
-pub(super) use row::{Row, choice_row, progress_bar, row_icon, rule, sheet_handle, value_row};
+pub(super) use row::{Row, choice_row, drawer_handle, progress_bar, row_icon, rule, value_row};
 pub(super) use search::search_field;
 pub(super) use slider::Slider;

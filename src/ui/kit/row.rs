@@ -158,14 +158,14 @@ pub(crate) fn rule(ui: &mut Ui, panel_margin: f32) {
     ui.add_space(7.0);
 }
 
-/// Height of the handle of a sheet.
-const SHEET_HANDLE_HEIGHT: f32 = 24.0;
+/// Height of the handle of a drawer.
+const DRAWER_HANDLE_HEIGHT: f32 = 24.0;
 
-/// The grip of the bottom sheet. `label`: what it opens or closes.
-pub(crate) fn sheet_handle(ui: &mut Ui, label: &str) -> Response {
+/// The grip of the drawer. `label`: what it opens or closes.
+pub(crate) fn drawer_handle(ui: &mut Ui, label: &str) -> Response {
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), SHEET_HANDLE_HEIGHT), Sense::hover());
-    // By touch its target reaches a little above the sheet.
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), DRAWER_HANDLE_HEIGHT), Sense::hover());
+    // By touch its target reaches a little above the drawer.
     let above = (control_size(ui) - rect.height()).max(0.0);
     let target = Rect::from_min_max(pos2(rect.min.x, rect.min.y - above), rect.max);
     let response = ui.interact(target, response.id.with("grip"), Sense::click_and_drag());

@@ -6,13 +6,13 @@ use egui::{Align, Color32, Label, Layout, ProgressBar, Rangef, RichText, Sense, 
 
 use crate::session::{Command, Export, ExportCommand, ExportFormat, ExportOptions, ExportRange, Session};
 use crate::ui::cx::Cx;
-use crate::ui::frame::arrangement::Arrangement;
-use crate::ui::frame::panel::{popover_gap, scrolled};
 use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::kit::{
     TextButton, choose, control_size, number_field, section_name, section_with_labelled_action, switch_row,
 };
-use crate::ui::state::{SheetPage, UiState};
+use crate::ui::state::{DrawerPage, UiState};
+use crate::ui::window::arrangement::Arrangement;
+use crate::ui::window::panel::{popover_gap, scrolled};
 
 pub(in crate::ui) const WIDTH: f32 = 320.0;
 /// More sentences of a list than this are folded.
@@ -27,7 +27,7 @@ const DEMO_WORDS_HEIGHT: f32 = 32.0;
 const FOOT_GAP: f32 = 8.0;
 const CANCEL_WIDTH: f32 = 74.0;
 
-/// The contents of the popover and of the sheet's page, no higher than `most`. The button that saves stays in view below what scrolls.
+/// The contents of the popover and of the drawer's page, no higher than `most`. The button that saves stays in view below what scrolls.
 pub(in crate::ui) fn show(ui: &mut Ui, most: f32, cx: &mut Cx<'_, UiState>) {
     let foot = if cx.session.open_model().is_some() {
         control_size(ui) + FOOT_GAP
@@ -370,19 +370,19 @@ fn save_row(ui: &mut Ui, session: &Session, export: Option<Export<'_>>, commands
     });
 }
 
-/// Opens it for a key, in a narrow window as a page of the sheet; where it is open, it shuts.
+/// Opens it for a key, in a narrow window as a page of the drawer; where it is open, it shuts.
 pub(in crate::ui) fn ask(ui: &Ui, state: &mut UiState) {
     if Arrangement::here(ui) == Arrangement::Wide {
         state.export.asked = true;
         return;
     }
-    let shown = state.sheet == Some(SheetPage::Export);
-    state.sheet = (!shown).then_some(SheetPage::Export);
+    let shown = state.drawer == Some(DrawerPage::Export);
+    state.drawer = (!shown).then_some(DrawerPage::Export);
 }
 
 /// Opens it, where it is not open yet.
 pub(in crate::ui) fn open(ui: &Ui, state: &mut UiState) {
-    if Arrangement::here(ui) == Arrangement::Wide || state.sheet != Some(SheetPage::Export) {
+    if Arrangement::here(ui) == Arrangement::Wide || state.drawer != Some(DrawerPage::Export) {
         ask(ui, state);
     }
 }

@@ -8,13 +8,13 @@ use egui::{
 
 use crate::actions::{self, Group};
 use crate::session::Session;
-use crate::ui::frame::panel::{Panel, scrolled};
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::{self, ROW_HEIGHT, Tokens};
 use crate::ui::kit::{
     Row, TextButton, arrow_steps, closable_heading, control_size, focus_ring, is_touch, paint_elided, push_button, rule,
 };
 use crate::ui::state::{Request, UiState};
+use crate::ui::window::panel::{Panel, scrolled};
 
 const ABOUT: [&str; 3] = [
     "Bindpose shows models with bones, plays their clips, says what is wrong with them and writes them anew.",

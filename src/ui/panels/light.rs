@@ -9,7 +9,6 @@ use crate::session::{
     FileCommand, LookCommand, Lowered, MAX_EXPOSURE_STOPS, PassChoice, PassState, QualityCommand, QualityMode, Session,
 };
 use crate::ui::cx::Cx;
-use crate::ui::frame::panel::popover_gap;
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::Tokens;
 use crate::ui::kit::wording::{milliseconds, shortened};
@@ -17,6 +16,7 @@ use crate::ui::kit::{
     MenuLine, Row, Slider, color_picker, control_size, keyed_section_name, menu_item, noted_switch_row, push_button,
     section_name, segmented, switch_row, tell_node, value_row,
 };
+use crate::ui::window::panel::popover_gap;
 
 /// The first colour of a plain background: the middle of the backdrop.
 const FIRST_COLOR_DARK: [u8; 3] = [0x33, 0x38, 0x42];

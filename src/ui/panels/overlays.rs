@@ -8,13 +8,13 @@ use crate::anim::{GHOST_STEP_FRAMES, GhostPlan};
 use crate::scene::{BoneStyle, Overlay, Overlays, joint_colors};
 use crate::session::{GHOSTS_SRGB, LookCommand, MAX_LINE_LENGTH, PlayCommand, Session};
 use crate::ui::cx::Cx;
-use crate::ui::frame::panel::popover_gap;
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::Tokens;
 use crate::ui::kit::{
     Row, Slider, action_switch, control_size, noted_switch_row, number_field, push_button, section_name,
     section_with_action, segmented, switch_row,
 };
+use crate::ui::window::panel::popover_gap;
 
 /// The ghosts when they are switched on.
 const FIRST_GHOSTS: GhostPlan = GhostPlan {

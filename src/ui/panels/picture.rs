@@ -4,13 +4,13 @@ use egui::{Id, Rangef, Ui, UiBuilder, vec2};
 
 use crate::actions;
 use crate::session::Session;
-use crate::ui::frame::panel::popover_gap;
 use crate::ui::kit::theme::Tokens;
 use crate::ui::kit::{
     MenuLine, TextButton, choices, choose, control_size, menu_item, number_field, progress_bar, section_name,
     switch_row,
 };
 use crate::ui::state::{MAX_PICTURE_SIDE, UiState};
+use crate::ui::window::panel::popover_gap;
 
 /// Sizes with a name, in pixels.
 const PRESETS: [(&str, [u32; 2]); 3] = [
@@ -23,7 +23,7 @@ const PRESETS: [(&str, [u32; 2]); 3] = [
 const MOST_CELLS: u32 = 24;
 const CANCEL_WIDTH: f32 = 70.0;
 
-/// The contents of the popover and of the sheet's page, below their title.
+/// The contents of the popover and of the drawer's page, below their title.
 pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let size = state.picture.size_in_pixels(ui);
     choices(ui, "Size", |ui| {

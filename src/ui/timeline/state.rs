@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::axis::TimeWindow;
+use super::axis::SeenTime;
 use super::curves::Curves;
 use super::loop_gap::LoopGapReading;
 use crate::model::{Clip, JointIndex};
@@ -33,7 +33,7 @@ pub(in crate::ui) struct TimelineState {
     pub(super) open: bool,
     pub(super) dragged_height: Option<f32>,
     pub(super) tab: SheetTab,
-    pub(super) window: TimeWindow,
+    pub(super) seen: SeenTime,
     pub(super) rows: Rows,
     pub(super) curves: Curves,
     pub(super) key_box: Option<KeyBox>,
@@ -61,7 +61,7 @@ impl TimelineState {
         };
         let of = Some((session.clips_revision(), index));
         if self.of != of {
-            self.window.show_all();
+            self.seen.show_all();
             self.key_box = None;
             self.cursor = None;
             self.of = of;
@@ -101,7 +101,7 @@ impl TimelineState {
     fn follow(&mut self, session: &Session, clip: &Clip) {
         let time_secs = session.playback().time_secs();
         let whole_secs = [clip.start_secs, clip.end_secs];
-        let [start_secs, end_secs] = self.window.span_secs(whole_secs);
+        let [start_secs, end_secs] = self.seen.span_secs(whole_secs);
         let seen = (start_secs..=end_secs).contains(&time_secs);
         if !seen && self.head_was_seen && session.is_animating() {
             let length_secs = end_secs - start_secs;
@@ -111,7 +111,7 @@ impl TimelineState {
                 time_secs
             };
             let frame_secs = 1.0 / clip.keys_per_sec;
-            self.window
+            self.seen
                 .show(whole_secs, frame_secs, [start_secs, start_secs + length_secs]);
         } else {
             self.head_was_seen = seen;

@@ -37,7 +37,7 @@ impl<'a> TimeArea<'a> {
         let whole = ui.available_rect_before_wrap();
         let names = if whole.width() < 600.0 { 124.0 } else { 196.0 };
         let times = whole.with_min_x(whole.min.x + names);
-        let span_secs = cx.state.window.span_secs([clip.start_secs, clip.end_secs]);
+        let span_secs = cx.state.seen.span_secs([clip.start_secs, clip.end_secs]);
         ui.painter().rect_filled(times, CONTROL_RADIUS, Tokens::of(ui).field);
         Some(Self {
             session,
@@ -218,13 +218,13 @@ pub(super) fn navigate(
         let (zoom, scroll) = ui.input(|input| (input.zoom_delta(), input.smooth_scroll_delta().x));
         if zoom != 1.0 {
             let around_secs = axis.seen_time_at(pointer.x);
-            state.window.zoom(whole_secs, frame_secs, zoom, around_secs);
+            state.seen.zoom(whole_secs, frame_secs, zoom, around_secs);
         }
         pan_points += scroll;
     }
     if pan_points != 0.0 && axis.points_per_sec() > 0.0 {
         let by_secs = -pan_points / axis.points_per_sec();
-        state.window.pan(whole_secs, frame_secs, by_secs);
+        state.seen.pan(whole_secs, frame_secs, by_secs);
     }
 }
 
@@ -247,10 +247,10 @@ pub(super) const SLIDER_KEYS: &[Key] = GRID_KEYS.split_at(8).0;
 /// Pans so that a time is seen.
 pub(super) fn bring_into_view(clip: &Clip, secs: f32, state: &mut TimelineState) {
     let whole_secs = [clip.start_secs, clip.end_secs];
-    let [start_secs, end_secs] = state.window.span_secs(whole_secs);
+    let [start_secs, end_secs] = state.seen.span_secs(whole_secs);
     let by_secs = (secs - end_secs).max(0.0) + (secs - start_secs).min(0.0);
     if by_secs != 0.0 {
-        state.window.pan(whole_secs, 1.0 / clip.keys_per_sec, by_secs);
+        state.seen.pan(whole_secs, 1.0 / clip.keys_per_sec, by_secs);
     }
 }
 

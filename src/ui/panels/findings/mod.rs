@@ -17,12 +17,12 @@ use egui::{RichText, Ui};
 use crate::diagnostic::Diagnostic;
 use crate::session::{OpenModel, Session};
 use crate::ui::cx::Cx;
-use crate::ui::frame::arrangement::Arrangement;
-use crate::ui::frame::panel::scrolled;
 use crate::ui::kit::theme::{MARGIN, Tokens};
 use crate::ui::kit::wording::{counted, counted_vertices};
 use crate::ui::kit::{RowList, TextButton, closable_heading, control_size, is_touch, rule};
-use crate::ui::state::{Request, SheetPage, UiState};
+use crate::ui::state::{DrawerPage, Request, UiState};
+use crate::ui::window::arrangement::Arrangement;
+use crate::ui::window::panel::scrolled;
 use row::{FindingRow, row_height};
 
 /// Gap between the parts of the panel.
@@ -32,13 +32,13 @@ const LEAST_SCROLLED: f32 = 60.0;
 /// Rows are laid out this far out of view, so that Tab and the arrow keys find the next ones.
 const BEYOND_VIEW: f32 = 400.0;
 
-/// Shows or hides them; in a narrow window in the sheet.
+/// Shows or hides them; in a narrow window in the drawer.
 pub(in crate::ui) fn toggle(ui: &Ui, state: &mut UiState) {
     let is_wide = Arrangement::here(ui) == Arrangement::Wide;
-    let in_sheet = state.sheet.is_some_and(SheetPage::is_tab);
-    state.diagnostics_open = !(state.diagnostics_open && (is_wide || in_sheet));
+    let in_drawer = state.drawer.is_some_and(DrawerPage::is_tab);
+    state.diagnostics_open = !(state.diagnostics_open && (is_wide || in_drawer));
     if !is_wide {
-        state.sheet = state.diagnostics_open.then_some(SheetPage::Model);
+        state.drawer = state.diagnostics_open.then_some(DrawerPage::Model);
     }
 }
 

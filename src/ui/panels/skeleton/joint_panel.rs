@@ -20,9 +20,9 @@ use crate::ui::kit::{
     section_with_labelled_action, selected_heading, switch_row, tell_row, value_row, walked,
 };
 
-/// Keys listed before the list scrolls. By touch the list has this fraction of what is seen of the sheet.
+/// Keys listed before the list scrolls. By touch the list has this fraction of what is seen of the drawer.
 const ROWS: f32 = 8.0;
-const SHEET_FRACTION: f32 = 0.6;
+const DRAWER_FRACTION: f32 = 0.6;
 /// Right ends of the columns of frame and time.
 const FRAME_END: f32 = 34.0;
 const TIME_END: f32 = 86.0;
@@ -252,7 +252,7 @@ fn key_list(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, joint: JointIndex) {
     ui.add_space(4.0);
     let height = pressed_row_height(ui);
     let most = if is_touch(ui) {
-        SHEET_FRACTION * ui.clip_rect().height()
+        DRAWER_FRACTION * ui.clip_rect().height()
     } else {
         ROWS * height
     };

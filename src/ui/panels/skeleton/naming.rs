@@ -5,9 +5,9 @@ use egui::{FontId, Id, Key, Rangef, Rect, Role, TextEdit, Ui, Vec2, WidgetInfo, 
 use crate::model::{Handedness, JointIndex, UpAxis};
 use crate::session::{Command, NameCommand, Session};
 use crate::ui::cx::Cx;
-use crate::ui::frame::panel::scrolled;
 use crate::ui::kit::theme::{ROW_HEIGHT, Tokens};
 use crate::ui::kit::{Kept, Row, TextButton, control_size, section_name, select_all};
+use crate::ui::window::panel::scrolled;
 
 /// Naming waits so long for its row to scroll into view, in seconds …
 const LONGEST_WAIT_SECS: f64 = 1.0;

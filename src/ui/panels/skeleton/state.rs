@@ -9,8 +9,8 @@ use crate::anim::{JointReadout, SkinView, VertexExplanation};
 use crate::model::{Handedness, JointIndex, MirrorPair, UpAxis};
 use crate::scene::{LabelPlace, joint_colors};
 use crate::session::{Command, JointCommand, JointRow, LookCommand, Session};
-use crate::ui::frame::viewport::in_picture;
 use crate::ui::kit::Kept;
+use crate::ui::window::viewport::in_picture;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::ui) enum SidePage {

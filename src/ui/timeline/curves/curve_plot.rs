@@ -57,7 +57,7 @@ pub(in crate::ui::timeline) fn show(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>)
             joint,
             space: cx.state.curves.space,
         },
-        span_secs: cx.state.window.span_secs([clip.start_secs, clip.end_secs]),
+        span_secs: cx.state.seen.span_secs([clip.start_secs, clip.end_secs]),
         count: count.min(MOST_SAMPLES),
     };
     cx.state.curves.sample(cx.session, open, of);

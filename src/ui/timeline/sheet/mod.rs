@@ -52,8 +52,8 @@ fn contents(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>) {
             SheetTab::Curves => curve_plot::controls(ui, &mut cx.state.curves),
         }
         chosen_keys(ui, cx);
-        if cx.state.window.is_part() && push_button(ui, Icon::Frame, "All of the time").clicked() {
-            cx.state.window.show_all();
+        if cx.state.seen.is_part() && push_button(ui, Icon::Frame, "All of the time").clicked() {
+            cx.state.seen.show_all();
         }
     });
     ui.add_space(GAP);

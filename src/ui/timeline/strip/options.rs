@@ -9,7 +9,6 @@ use crate::anim::{LoopMode, WrapMode};
 use crate::model::JointIndex;
 use crate::session::{JointCommand, PlayCommand, SPEEDS};
 use crate::ui::cx::Cx;
-use crate::ui::frame::panel::{popover_gap, scrolled};
 use crate::ui::kit::theme::{self, MARGIN, Tokens};
 use crate::ui::kit::wording::trimmed;
 use crate::ui::kit::{
@@ -19,6 +18,7 @@ use crate::ui::kit::{
 use crate::ui::timeline::loop_gap::{LoopGapReading, angle, scale};
 use crate::ui::timeline::state::TimelineState;
 use crate::ui::timeline::time_area::seconds;
+use crate::ui::window::panel::{popover_gap, scrolled};
 
 /// Rows before the list scrolls.
 const ROWS: f32 = 6.0;

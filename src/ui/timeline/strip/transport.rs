@@ -8,13 +8,13 @@ use crate::actions;
 use crate::anim::{Direction, LoopMode};
 use crate::model::Clip;
 use crate::ui::cx::Cx;
-use crate::ui::frame::panel::{mark_transport, popover_above};
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::kit::{action_button, control_size, focus_ring, icon_button, push_button, tell_open};
-use crate::ui::state::{SheetPage, UiState};
+use crate::ui::state::{DrawerPage, UiState};
 use crate::ui::timeline::sheet;
 use crate::ui::timeline::state::TimelineState;
+use crate::ui::window::panel::{mark_transport, popover_above};
 
 /// Side of the button that plays, in a wide window.
 const PLAY_SIZE: f32 = 34.0;
@@ -109,9 +109,9 @@ pub(in crate::ui) fn narrow(ui: &mut Ui, cx: &mut Cx<'_, UiState>, low: bool) {
         if low {
             ui.scope(|ui| end.show(ui, &mut cx.part(|state| &mut state.timeline), clip));
         }
-        let open = cx.state.sheet == Some(SheetPage::Timeline);
+        let open = cx.state.drawer == Some(DrawerPage::Timeline);
         if sheet_button(ui, open) {
-            cx.state.sheet = (!open).then_some(SheetPage::Timeline);
+            cx.state.drawer = (!open).then_some(DrawerPage::Timeline);
         }
     });
     if low {

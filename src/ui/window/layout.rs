@@ -1,4 +1,4 @@
-//! Where the panels are: around the view in a wide window, a bar and a sheet in a narrow one. In a low window, such as a phone on its
+//! Where the panels are: around the view in a wide window, a bar and a drawer in a narrow one. In a low window, such as a phone on its
 //! side, what was opened stands beside the model instead of below it.
 //!
 //! One pass goes from the edges inwards. Each panel gets the room that the panels before it left, and what all of them leave is where
@@ -7,8 +7,8 @@
 use egui::{Align, Align2, Layout, Margin, Rangef, Rect, Role, Sense, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use super::arrangement::Arrangement;
+use super::drawer::Heights;
 use super::panel::{self, Free, LEAST_ROOM, Panel, mark_transport, scrolled};
-use super::sheet::Heights;
 use super::{pages, toolbar};
 use crate::actions;
 use crate::session::{Command, LoadError, Session};
@@ -20,7 +20,7 @@ use crate::ui::kit::wording::grouped;
 use crate::ui::panels::skeleton::state::{SidePage, is_inspected};
 use crate::ui::panels::skeleton::{self, LegendShape};
 use crate::ui::panels::{error_card, findings, help, inspector, model_panel};
-use crate::ui::state::{SheetPage, UiState};
+use crate::ui::state::{DrawerPage, UiState};
 use crate::ui::{kit, timeline};
 
 /// Width of the panel on the left.
@@ -141,7 +141,7 @@ fn wide(ui: &Ui, cx: &mut Cx<'_, UiState>, mut free: Free) -> (Free, Free) {
     (free, beside)
 }
 
-/// Phones, slim and low windows: one bar above, one sheet below; in a low window what is opened stands between them. Returns the same as
+/// Phones, slim and low windows: one bar above, one drawer below; in a low window what is opened stands between them. Returns the same as
 /// [`wide`].
 fn narrow(ui: &Ui, cx: &mut Cx<'_, UiState>, mut free: Free, low: bool) -> (Free, Free) {
     let room = free.room();
@@ -163,10 +163,10 @@ fn narrow(ui: &Ui, cx: &mut Cx<'_, UiState>, mut free: Free, low: bool) -> (Free
         });
     cx.commands.append(&mut opens);
     free.cut_top(bar);
-    if cx.session.open_model().is_some() || !matches!(cx.state.sheet, None | Some(SheetPage::Model)) {
-        let sheet = sheet(ui, cx, &free, low);
-        free.cut_bottom(sheet);
-        if let Some(page) = cx.state.sheet.filter(|_| low) {
+    if cx.session.open_model().is_some() || !matches!(cx.state.drawer, None | Some(DrawerPage::Model)) {
+        let drawer = drawer(ui, cx, &free, low);
+        free.cut_bottom(drawer);
+        if let Some(page) = cx.state.drawer.filter(|_| low) {
             let room = free.room();
             let label = pages::page_title(page, cx.state);
             let page = Panel::new("page", label, Align2::RIGHT_TOP)
@@ -175,7 +175,7 @@ fn narrow(ui: &Ui, cx: &mut Cx<'_, UiState>, mut free: Free, low: bool) -> (Free
             free.cut_right(page);
         }
     }
-    if cx.state.sheet.is_none()
+    if cx.state.drawer.is_none()
         && let Some(greeting) = help::greet(ui, cx.state, free.room())
     {
         free.cut_bottom(greeting);
@@ -222,14 +222,14 @@ fn show_legend(ui: &Ui, session: &Session, state: &mut UiState, room: Rect, shap
     Some(panel.show(ui, room, |ui| {
         if skeleton::show_legend(ui, session, view, shape, tree_shown) {
             state.skeleton.show_page(session, SidePage::Skeleton);
-            state.sheet = Some(SheetPage::Model);
+            state.drawer = Some(DrawerPage::Model);
         }
     }))
 }
 
 /// The timeline at the window's lower edge, and above it what was opened, unless it stands beside the model. The transport stays in its
 /// place whatever opens. Returns the rect that it has at rest.
-fn sheet(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free, low: bool) -> Rect {
+fn drawer(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free, low: bool) -> Rect {
     let window = ui.max_rect();
     let margin = Margin {
         left: 14,
@@ -237,34 +237,34 @@ fn sheet(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free, low: bool) -> Rect {
         top: 0,
         bottom: 14,
     };
-    // How much higher the sheet will be when it comes to rest.
+    // How much higher the drawer will be when it comes to rest.
     let mut rises = 0.0;
     let rect = Panel::new("sheet", "Sheet", Align2::LEFT_BOTTOM)
-        .sheet()
+        .drawer()
         .margin(margin)
         .width(window.width())
         .show(ui, window.with_min_y(free.room().min.y), |ui| {
             let shows_facts = !cx.state.diagnostics_open && pages::side_tab(cx.state) == Some(SidePage::Model);
-            let label = match cx.state.sheet {
+            let label = match cx.state.drawer {
                 Some(_) => "Close the sheet",
                 None if shows_facts => "Model facts",
-                None => pages::page_title(SheetPage::Model, cx.state),
+                None => pages::page_title(DrawerPage::Model, cx.state),
             };
-            let handle = kit::sheet_handle(ui, label);
+            let handle = kit::drawer_handle(ui, label);
             if handle.clicked() {
-                cx.state.sheet = cx.state.sheet.is_none().then_some(SheetPage::Model);
+                cx.state.drawer = cx.state.drawer.is_none().then_some(DrawerPage::Model);
             }
             if !low {
-                let most = ui.available_height() - cx.state.sheet_height.strip;
-                let of_timeline = cx.state.sheet == Some(SheetPage::Timeline);
+                let most = ui.available_height() - cx.state.drawer_height.strip;
+                let of_timeline = cx.state.drawer == Some(DrawerPage::Timeline);
                 let heights = Heights::new(of_timeline, window.height(), most);
-                let (height, page) = (&mut cx.state.sheet_height, cx.state.sheet);
+                let (height, page) = (&mut cx.state.drawer_height, cx.state.drawer);
                 let open = height.drag(ui, &handle, heights, page.is_some());
-                cx.state.sheet = open.then(|| page.unwrap_or(SheetPage::Model));
-                match cx.state.sheet {
+                cx.state.drawer = open.then(|| page.unwrap_or(DrawerPage::Model));
+                match cx.state.drawer {
                     Some(page) => {
                         let still = cx.session.reduced_motion();
-                        let (height, at_rest) = cx.state.sheet_height.now(ui.ctx(), heights, still);
+                        let (height, at_rest) = cx.state.drawer_height.now(ui.ctx(), heights, still);
                         let label = pages::page_title(page, cx.state);
                         let region = UiBuilder::new()
                             .accessibility_role(Role::Region)
@@ -277,7 +277,7 @@ fn sheet(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free, low: bool) -> Rect {
                             rises = at_rest - height;
                         }
                     }
-                    None => cx.state.sheet_height.shut(ui.ctx()),
+                    None => cx.state.drawer_height.shut(ui.ctx()),
                 }
             }
             // Whole points above it, so that the strip stays where it is.
@@ -285,7 +285,7 @@ fn sheet(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free, low: bool) -> Rect {
             ui.add_space(above.ceil() - above);
             let top = ui.cursor().min.y;
             if cx.session.clip().is_some() {
-                if cx.state.sheet.is_some() && !low {
+                if cx.state.drawer.is_some() && !low {
                     ui.add_space(10.0);
                 }
                 let region = UiBuilder::new()
@@ -294,19 +294,19 @@ fn sheet(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free, low: bool) -> Rect {
                 let strip = ui.scope_builder(region, |ui| timeline::narrow(ui, cx, low));
                 mark_transport(ui, strip.response.rect);
             }
-            cx.state.sheet_height.strip = ui.min_rect().max.y - top;
+            cx.state.drawer_height.strip = ui.min_rect().max.y - top;
         });
     rect.with_min_y(rect.min.y - rises)
 }
 
-/// Whether a sheet lies over the view. A tap on the view shuts it.
-pub(in crate::ui) fn sheet_covers_view(window: Rect, state: &UiState) -> bool {
-    Arrangement::of(window) == Arrangement::Narrow && state.sheet.is_some()
+/// Whether a drawer lies over the view. A tap on the view shuts it.
+pub(in crate::ui) fn drawer_covers_view(window: Rect, state: &UiState) -> bool {
+    Arrangement::of(window) == Arrangement::Narrow && state.drawer.is_some()
 }
 
 /// Whether facts or the tree of joints are seen.
 pub(in crate::ui) fn shows_side_page(window: Rect, state: &UiState) -> bool {
-    Arrangement::of(window) == Arrangement::Wide || state.sheet == Some(SheetPage::Model)
+    Arrangement::of(window) == Arrangement::Wide || state.drawer == Some(DrawerPage::Model)
 }
 
 /// Help and the error card: over other panels, but not over the bars, the panel on the left and the timeline.
@@ -314,7 +314,7 @@ fn show_on_top(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free) {
     let window = ui.max_rect();
     if cx.state.help_open {
         let room = free.room();
-        // A phone's sheet may leave too little.
+        // A phone's drawer may leave too little.
         let room = if room.height() < LEAST_ROOM {
             room.with_max_y(window.max.y - MARGIN)
         } else {
@@ -347,10 +347,10 @@ fn frame_button(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free) {
         });
 }
 
-/// While the sheet is shut: how many findings there are, and what is selected. Each opens its page. A message takes
+/// While the drawer is shut: how many findings there are, and what is selected. Each opens its page. A message takes
 /// their place.
 fn shortcuts(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) -> Option<Rect> {
-    if state.sheet.is_some() {
+    if state.drawer.is_some() {
         return None;
     }
     let joints = session.joints();
@@ -375,7 +375,7 @@ fn shortcuts(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) -> Opt
                     let (count, color) = model_panel::summary(session, &Tokens::of(ui));
                     if toolbar::findings_chip(ui, false, &count, color) {
                         state.diagnostics_open = true;
-                        state.sheet = Some(SheetPage::Model);
+                        state.drawer = Some(DrawerPage::Model);
                     }
                 }
                 let Some(name) = name else { return };
@@ -384,7 +384,7 @@ fn shortcuts(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) -> Opt
                 let width = Rangef::new(LEAST_SELECTION, most);
                 if TextButton::new(&name, &label).width(width).show(ui).clicked() {
                     state.diagnostics_open = false;
-                    state.sheet = Some(SheetPage::Selection);
+                    state.drawer = Some(DrawerPage::Selection);
                 }
             });
         });
@@ -392,7 +392,7 @@ fn shortcuts(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) -> Opt
 }
 
 /// Why a file was not opened: in the middle of the window, or so far to the right that the panel on the left can be read. It scrolls
-/// rather than cover the bars, and covers the page of a sheet rather than be too low, but never the transport.
+/// rather than cover the bars, and covers the page of a drawer rather than be too low, but never the transport.
 fn show_error(ui: &Ui, session: &Session, error: &LoadError, room: Rect, commands: &mut Vec<Command>) {
     let window = ui.max_rect();
     let within = window.shrink(MARGIN);

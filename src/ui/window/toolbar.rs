@@ -25,7 +25,7 @@ use crate::ui::panels::cost::SteadyCost;
 use crate::ui::panels::model_panel::summary;
 use crate::ui::panels::skeleton::state::{SkeletonState, has_joints};
 use crate::ui::panels::{export, light, overlays, picture};
-use crate::ui::state::{Request, SheetPage, UiState};
+use crate::ui::state::{DrawerPage, Request, UiState};
 
 /// Room between the words of the title.
 const TITLE_SPACING: f32 = 10.0;
@@ -111,17 +111,17 @@ pub(in crate::ui) fn narrow_width(ui: &Ui) -> f32 {
     3.0 * control_size(ui) + 2.0 * SPACING
 }
 
-/// In a narrow window. The rarer buttons are in the menu behind the dots, and open pages of the sheet.
+/// In a narrow window. The rarer buttons are in the menu behind the dots, and open pages of the drawer.
 pub(in crate::ui) fn show_narrow(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     ui.spacing_mut().item_spacing.x = SPACING;
-    let shown = cx.state.sheet == Some(SheetPage::Light);
+    let shown = cx.state.drawer == Some(DrawerPage::Light);
     let lighting = lighting(cx.session);
     let button = untold_icon_button(ui, Icon::Sun, &lighting, shown);
     let icon = button.rect.center();
     let button = light::mark_button(ui, cx.session, button, icon, "Light and background");
     tell_open(&button, shown);
     if button.clicked() {
-        cx.state.sheet = (!shown).then_some(SheetPage::Light);
+        cx.state.drawer = (!shown).then_some(DrawerPage::Light);
     }
     open_button(ui, cx.state);
     let dots = push_button(ui, Icon::Dots, "More");
@@ -259,16 +259,16 @@ fn more_menu(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
 
 fn page_items(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let pages = [
-        ("View mode", actions::view_mode_label(session), SheetPage::ViewMode),
-        ("Light and background", light::label(session), SheetPage::Light),
-        ("Lines over the model", "", SheetPage::Overlays),
-        ("View from…", "", SheetPage::ViewFrom),
-        ("Picture…", "", SheetPage::Picture),
-        ("Export…", "", SheetPage::Export),
+        ("View mode", actions::view_mode_label(session), DrawerPage::ViewMode),
+        ("Light and background", light::label(session), DrawerPage::Light),
+        ("Lines over the model", "", DrawerPage::Overlays),
+        ("View from…", "", DrawerPage::ViewFrom),
+        ("Picture…", "", DrawerPage::Picture),
+        ("Export…", "", DrawerPage::Export),
     ];
     for (label, in_force, page) in pages {
-        if valued_menu_item(ui, label, in_force, state.sheet == Some(page)).clicked() {
-            state.sheet = Some(page);
+        if valued_menu_item(ui, label, in_force, state.drawer == Some(page)).clicked() {
+            state.drawer = Some(page);
             ui.close();
         }
     }

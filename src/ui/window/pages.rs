@@ -10,7 +10,7 @@ use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::Tokens;
 use crate::ui::panels::skeleton::state::{SidePage, has_joints, is_inspected};
 use crate::ui::panels::{export, findings, inspector, light, model_panel, overlays, picture, skeleton};
-use crate::ui::state::{SheetPage, UiState};
+use crate::ui::state::{DrawerPage, UiState};
 use crate::ui::{kit, timeline};
 
 /// Fraction of a low window's width that a page beside the model has, and one with keys over time; and the greatest width.
@@ -35,8 +35,8 @@ pub(super) fn side_panel(ui: &mut Ui, id: &'static str, cx: &mut Cx<'_, UiState>
     side_page(ui, id, cx);
 }
 
-/// The switch between the pages of the panel on the left, and in the sheet what is selected.
-fn show_tabs(ui: &mut Ui, session: &Session, state: &mut UiState, in_sheet: bool) {
+/// The switch between the pages of the panel on the left, and in the drawer what is selected.
+fn show_tabs(ui: &mut Ui, session: &Session, state: &mut UiState, in_drawer: bool) {
     let tabs = [
         (Some(SidePage::Model), "Model"),
         (Some(SidePage::Skeleton), "Skeleton"),
@@ -44,10 +44,10 @@ fn show_tabs(ui: &mut Ui, session: &Session, state: &mut UiState, in_sheet: bool
     ];
     let is_there = |tab: &(Option<SidePage>, _)| match tab.0 {
         Some(page) => page == SidePage::Model || has_joints(session),
-        None => in_sheet,
+        None => in_drawer,
     };
     let tabs: Vec<_> = tabs.into_iter().filter(is_there).collect();
-    let shown = if in_sheet {
+    let shown = if in_drawer {
         side_tab(state)
     } else {
         Some(state.skeleton.page)
@@ -55,16 +55,16 @@ fn show_tabs(ui: &mut Ui, session: &Session, state: &mut UiState, in_sheet: bool
     match kit::segmented(ui, "Panel", &tabs, Some(shown)) {
         Some(Some(page)) => {
             state.skeleton.page = page;
-            state.sheet = state.sheet.map(|_| SheetPage::Model);
+            state.drawer = state.drawer.map(|_| DrawerPage::Model);
         }
-        Some(None) => state.sheet = Some(SheetPage::Selection),
+        Some(None) => state.drawer = Some(DrawerPage::Selection),
         None => {}
     }
 }
 
-/// The tab of the sheet: a page of the panel on the left, or none for what is selected. A bone is named in the tree.
+/// The tab of the drawer: a page of the panel on the left, or none for what is selected. A bone is named in the tree.
 pub(super) fn side_tab(state: &UiState) -> Option<SidePage> {
-    let selection = state.sheet == Some(SheetPage::Selection) && !state.skeleton.is_naming();
+    let selection = state.drawer == Some(DrawerPage::Selection) && !state.skeleton.is_naming();
     (!selection).then_some(state.skeleton.page)
 }
 
@@ -77,8 +77,8 @@ fn side_page(ui: &mut Ui, id: &'static str, cx: &mut Cx<'_, UiState>) {
 }
 
 /// Width of a page beside the model.
-pub(super) fn page_width(page: SheetPage, window: Rect) -> f32 {
-    let fraction = if page == SheetPage::Timeline {
+pub(super) fn page_width(page: DrawerPage, window: Rect) -> f32 {
+    let fraction = if page == DrawerPage::Timeline {
         TIMELINE_BESIDE_FRACTION
     } else {
         BESIDE_FRACTION
@@ -86,25 +86,25 @@ pub(super) fn page_width(page: SheetPage, window: Rect) -> f32 {
     (fraction * window.width()).min(MOST_BESIDE)
 }
 
-pub(super) fn page_title(page: SheetPage, state: &UiState) -> &'static str {
+pub(super) fn page_title(page: DrawerPage, state: &UiState) -> &'static str {
     match page {
         page if page.is_tab() && state.diagnostics_open => "Findings",
-        SheetPage::Model | SheetPage::Selection => match side_tab(state) {
+        DrawerPage::Model | DrawerPage::Selection => match side_tab(state) {
             Some(_) => side_label(state),
             None => "Inspector",
         },
-        SheetPage::ViewMode => "View mode",
-        SheetPage::Light => "Light and background",
-        SheetPage::Overlays => "Lines over the model",
-        SheetPage::ViewFrom => "View from",
-        SheetPage::Picture => "Picture",
-        SheetPage::Export => "Export",
-        SheetPage::Timeline => "Timeline",
+        DrawerPage::ViewMode => "View mode",
+        DrawerPage::Light => "Light and background",
+        DrawerPage::Overlays => "Lines over the model",
+        DrawerPage::ViewFrom => "View from",
+        DrawerPage::Picture => "Picture",
+        DrawerPage::Export => "Export",
+        DrawerPage::Timeline => "Timeline",
     }
 }
 
-/// A page of the sheet below its title, no higher than what is available.
-pub(super) fn show_page(ui: &mut Ui, page: SheetPage, cx: &mut Cx<'_, UiState>) {
+/// A page of the drawer below its title, no higher than what is available.
+pub(super) fn show_page(ui: &mut Ui, page: DrawerPage, cx: &mut Cx<'_, UiState>) {
     let is_tab = page.is_tab();
     if is_tab && cx.state.diagnostics_open {
         findings::show(ui, cx);
@@ -128,17 +128,17 @@ pub(super) fn show_page(ui: &mut Ui, page: SheetPage, cx: &mut Cx<'_, UiState>) 
     ui.add_space(4.0);
     focus::note_page(ui, Id::unique(("page", page)), close.id);
     if close.clicked() {
-        cx.state.sheet = None;
+        cx.state.drawer = None;
     }
     if is_tab && side_tab(cx.state).is_some() {
         side_page(ui, "sheet", cx);
         return;
     }
-    if page == SheetPage::Timeline {
+    if page == DrawerPage::Timeline {
         timeline::page(ui, cx);
         return;
     }
-    if page == SheetPage::Export {
+    if page == DrawerPage::Export {
         export::show(ui, ui.available_height(), cx);
         return;
     }
@@ -146,25 +146,25 @@ pub(super) fn show_page(ui: &mut Ui, page: SheetPage, cx: &mut Cx<'_, UiState>) 
     let salt = ("sheet", page as u8, cx.state.shown_selection);
     let area = scrolled("sheet", ui.available_height()).id_salt(salt);
     area.show(ui, |ui| match page {
-        SheetPage::Selection if cx.session.submeshes().selected().is_some() => {
+        DrawerPage::Selection if cx.session.submeshes().selected().is_some() => {
             inspector::show(ui, cx);
         }
-        SheetPage::Selection if is_inspected(cx.session) => {
+        DrawerPage::Selection if is_inspected(cx.session) => {
             skeleton::show_inspector(ui, &mut cx.part(|state| &mut state.skeleton));
         }
-        SheetPage::Selection => {
+        DrawerPage::Selection => {
             let words = "Nothing is selected. Tap a part of the model, or choose a bone under Skeleton.";
             ui.label(RichText::new(words).color(Tokens::of(ui).muted));
         }
-        SheetPage::ViewMode => {
+        DrawerPage::ViewMode => {
             kit::choices(ui, title, |ui| toolbar::view_mode_items(ui, cx));
         }
-        SheetPage::Light => light::show(ui, &mut cx.part(|state| &mut state.cost)),
-        SheetPage::Overlays => overlays::show(ui, &mut cx.part(|state| &mut state.skeleton)),
-        SheetPage::ViewFrom => {
+        DrawerPage::Light => light::show(ui, &mut cx.part(|state| &mut state.cost)),
+        DrawerPage::Overlays => overlays::show(ui, &mut cx.part(|state| &mut state.skeleton)),
+        DrawerPage::ViewFrom => {
             toolbar::view_from_items(ui, cx);
         }
-        SheetPage::Picture => picture::show(ui, cx.session, cx.state),
-        SheetPage::Model | SheetPage::Export | SheetPage::Timeline => {}
+        DrawerPage::Picture => picture::show(ui, cx.session, cx.state),
+        DrawerPage::Model | DrawerPage::Export | DrawerPage::Timeline => {}
     });
 }

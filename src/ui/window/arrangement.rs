@@ -8,7 +8,7 @@ use crate::ui::kit::theme::{LOW_HEIGHT, LOW_WIDTH, NARROW_WIDTH};
 pub(in crate::ui) enum Arrangement {
     /// Panels stand around the view.
     Wide,
-    /// A bar above, below a sheet with the timeline and with what was opened.
+    /// A bar above, below a drawer with the timeline and with what was opened.
     Narrow,
     /// A bar above, the timeline in one row below, and between them what was opened, beside the model.
     Low,
