@@ -23,9 +23,12 @@ pub(super) struct Naming {
     by_key: bool,
     /// The list of proposed names stands in place of the tree.
     pub(super) proposing: bool,
-    /// The names proposed last, by bone, for a model with its names and axes.
-    proposed: Kept<(u64, u64, Handedness, UpAxis), Vec<(usize, String)>>,
+    /// The names proposed last, by bone.
+    proposed: Kept<ProposedFor, Vec<(usize, String)>>,
 }
+
+/// A model, its names and its axes.
+type ProposedFor = (u64, u64, Handedness, UpAxis);
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Stage {
