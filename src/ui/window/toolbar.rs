@@ -37,7 +37,6 @@ const LIGHT_BUTTON_WIDTH: f32 = 103.0;
 const MENU_WIDTH: f32 = 190.0;
 /// The least room for the program's name beside that of the file.
 const LEAST_WITH_PROGRAM: f32 = 170.0;
-/// Room between buttons.
 const SPACING: f32 = 4.0;
 /// The least width that chips leave to the name of the file.
 const LEAST_NAME: f32 = 90.0;
@@ -125,13 +124,9 @@ pub(in crate::ui) fn show_narrow(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     }
     open_button(ui, cx.state);
     let dots = push_button(ui, Icon::Dots, "More");
-    let width = match Arrangement::here(ui) {
-        Arrangement::Low => 420.0,
-        _ => 230.0,
-    };
-    popover_menu(ui, &dots, RectAlign::BOTTOM_END, width, |ui| {
-        more_menu(ui, cx);
-    });
+    let is_low = Arrangement::here(ui) == Arrangement::Low;
+    let width = if is_low { 420.0 } else { 230.0 };
+    popover_menu(ui, &dots, RectAlign::BOTTOM_END, width, |ui| more_menu(ui, cx));
     as_toolbar(ui);
 }
 
@@ -407,10 +402,8 @@ fn file_line(ui: &mut Ui, file: &File, is_open: bool, commands: &mut Vec<Command
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         let room = ui.available_width() - control_size(ui);
-        let (path, size) = (
-            shortened_front(&file.path, MOST_OF_PATH),
-            bytes(file.bytes.len() as u64),
-        );
+        let path = shortened_front(&file.path, MOST_OF_PATH);
+        let size = bytes(file.bytes.len() as u64);
         let line = ui.scope(|ui| {
             ui.set_max_width(room);
             ui.style_mut().wrap_mode = Some(TextWrapMode::Truncate);
@@ -421,10 +414,8 @@ fn file_line(ui: &mut Ui, file: &File, is_open: bool, commands: &mut Vec<Command
         tell_node(&line, |node| node.set_description(note));
         // It takes no focus, so that arrows go from line to line.
         let (rect, cross) = ui.allocate_exact_size(Vec2::splat(control_size(ui)), Sense::CLICK);
-        let (icon, tokens) = (
-            Rect::from_center_size(rect.center(), Vec2::splat(ICON_SIZE)),
-            Tokens::of(ui),
-        );
+        let icon = Rect::from_center_size(rect.center(), Vec2::splat(ICON_SIZE));
+        let tokens = Tokens::of(ui);
         let color = if cross.hovered() { tokens.text } else { tokens.faint };
         icons::paint(ui.painter(), icon, Icon::Close, color);
         cross.widget_info(|| WidgetInfo::labeled(Role::MenuItem, true, format!("Close {}", file.base_name())));
