@@ -1,5 +1,6 @@
 //! What the functions of a pass hand down to each other.
 
+use crate::actions::Action;
 use crate::session::{Command, PlayCommand, Session};
 
 /// What is shown, what the interface remembers of it (all, or the part of one panel), and what the person asks for.
@@ -12,6 +13,11 @@ pub(super) struct Cx<'a, S> {
 impl<S> Cx<'_, S> {
     pub(super) fn push(&mut self, command: impl Into<Command>) {
         self.commands.push(command.into());
+    }
+
+    /// Does what an action of the session does now, if anything.
+    pub(super) fn act(&mut self, action: &Action) {
+        self.commands.extend(action.command(self.session));
     }
 
     /// Pauses at a time. A clip that played on would leave it at once.

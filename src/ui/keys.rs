@@ -7,10 +7,9 @@ use super::input::is_arrow;
 use super::state::{Request, UiState};
 use crate::actions::{self, Action, Ask};
 use crate::session::{Command, FileCommand, JointCommand, Session, SubmeshCommand};
-use crate::ui::frame::layout;
-use crate::ui::frame::viewport::{self, FLIGHT_KEYS};
 use crate::ui::panels::export;
 use crate::ui::panels::findings;
+use crate::ui::window::viewport::{self, FLIGHT_KEYS};
 
 /// Reads the keys of a pass in which nobody types into a field. `popover_open`: Esc closes the popover and nothing else.
 pub(super) fn read(ui: &Ui, cx: &mut Cx<'_, UiState>, popover_open: bool) {
@@ -117,8 +116,8 @@ pub(super) fn carry_out(ask: Ask, ui: &Ui, cx: &mut Cx<'_, UiState>) {
         Ask::OpenFiles => cx.state.requests.push(Request::PickFiles),
         Ask::ReadAgain => cx.state.read_again(),
         Ask::SavePicture { transparent } => cx.state.save_picture(ui, transparent),
-        Ask::Findings => findings::toggle(cx.state, layout::is_wide(ui.max_rect())),
-        Ask::Export => export::ask(cx.state, layout::is_wide(ui.max_rect())),
+        Ask::Findings => findings::toggle(ui, cx.state),
+        Ask::Export => export::ask(ui, cx.state),
     }
 }
 

@@ -3,7 +3,6 @@
 mod cx;
 #[doc(hidden)]
 pub mod for_tests;
-mod frame;
 mod input;
 mod keys;
 mod kit;
@@ -11,28 +10,30 @@ mod panels;
 mod rim;
 mod state;
 mod timeline;
+mod window;
 
 use egui::{Popup, Rect, Ui};
 
-pub use frame::message::Messages;
 pub use keys::owns_key;
 pub use kit::theme;
 pub use kit::theme::Contrast;
 pub use panels::picture::{picture_name, report_name, sheet_name};
 pub use rim::announce::{Announcement, view_in_words};
 pub use rim::mirror::{Mirror, MirrorAction, MirrorChanges, MirrorId, MirrorInput, MirrorNode};
-pub use state::{MAX_PICTURE_SIDE, Request, SheetPage, SheetRequest, UiState};
+pub use state::{DrawerPage, MAX_PICTURE_SIDE, Request, SheetRequest, UiState};
+pub use window::message::Messages;
 
 use crate::scene::{Insets, Theme};
 use crate::session::{CameraCommand, Command, FileCommand, HistoryCommand, News, Session, SubmeshCommand};
 use cx::Cx;
-use frame::message::Offer;
-use frame::{chips, layout, message, split, viewport};
 use input::{Grip, InputOrder, MOST_PASSES};
 use kit::theme::MARGIN;
 use kit::wording::{counted, shortened};
 use panels::{export, skeleton};
 use state::Framed;
+use window::arrangement::Arrangement;
+use window::message::Offer;
+use window::{chips, layout, message, split, viewport};
 
 /// The camera frames the model in no less of the window's height. Chips lie over it where they leave less.
 const LEAST_BELOW_CHIPS: f32 = 0.1;
@@ -81,10 +82,10 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     // A click outside of a popover closes it and does nothing else. So does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
     let typed = cx.state.keyboard.was_typing(ui.ctx());
-    let shuts_sheet = layout::sheet_covers_view(window, cx.state);
+    let shuts_drawer = layout::drawer_covers_view(window, cx.state);
     let page_seen = layout::shows_side_page(window, cx.state);
     let picks_bones = cx.state.skeleton.picks_bones(cx.session, page_seen);
-    let blocked = popover_open || shuts_sheet;
+    let blocked = popover_open || shuts_drawer;
     let clicked = viewport::show(
         ui,
         window,
@@ -92,8 +93,8 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
         picks_bones,
         blocked,
     );
-    if clicked && shuts_sheet && !popover_open {
-        cx.state.sheet = None;
+    if clicked && shuts_drawer && !popover_open {
+        cx.state.drawer = None;
     }
     if cx.state.view_hold.is_held() {
         cx.state.offers_frame = false;
@@ -104,13 +105,10 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     cx.state.follow_selection(cx.session);
     cx.state.offers_frame &= !cx.session.is_framed() && cx.session.open_model().is_some();
     let (mut free, uncovered) = layout::show(ui, cx);
-    if std::mem::take(&mut cx.state.wants_export) {
-        export::open(cx.state, layout::is_wide(window));
-    }
     let export_is_open = export::settle(cx);
     split::show(ui, cx.session, window, free, cx.commands);
     if let Some(bottom) = chips::show(ui, cx, uncovered, export_is_open)
-        && !layout::is_wide(window)
+        && Arrangement::of(window) != Arrangement::Wide
         && free.max.y - bottom >= LEAST_BELOW_CHIPS * window.height()
     {
         // In a narrow window they would lie over the model's head.

@@ -4,19 +4,20 @@ use egui::{Rect, Ui};
 
 use super::input::{Grip, Keyboard};
 use super::timeline::state::TimelineState;
-use crate::model::{JointIndex, Mesh, Submesh};
+use crate::model::JointIndex;
 use crate::scene::{Insets, Theme};
 use crate::session::{ExportOptions, Session};
-use crate::ui::frame::focus::Focus;
-use crate::ui::frame::message::Messages;
-use crate::ui::frame::sheet::SheetHeight;
-use crate::ui::frame::viewport::ViewHold;
+use crate::ui::kit::Kept;
 use crate::ui::kit::theme::Contrast;
 use crate::ui::panels::cost::SteadyCost;
 use crate::ui::panels::findings::state::FindingsState;
 use crate::ui::panels::skeleton::state::{SidePage, SkeletonState};
 use crate::ui::panels::thumbnails::Thumbnails;
 use crate::ui::rim::announce::{Announcement, Announcer};
+use crate::ui::window::drawer::DrawerHeight;
+use crate::ui::window::focus::Focus;
+use crate::ui::window::message::Messages;
+use crate::ui::window::viewport::ViewHold;
 
 /// The longest side of a picture, in pixels.
 pub const MAX_PICTURE_SIDE: u32 = 8192;
@@ -62,9 +63,9 @@ pub struct SheetRequest {
     pub transparent: bool,
 }
 
-/// What the bottom sheet of a narrow window shows below the timeline.
+/// What the drawer of a narrow window shows below the timeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum SheetPage {
+pub enum DrawerPage {
     /// The page of the panel that is on the left of a wide window: facts, or the tree of joints. Instead of all tabs the diagnostics while
     /// they are open.
     Model,
@@ -79,6 +80,13 @@ pub enum SheetPage {
     /// The model as a file of another format.
     Export,
     Timeline,
+}
+
+impl DrawerPage {
+    /// Whether it is one of those between which a switch goes.
+    pub(super) fn is_tab(self) -> bool {
+        matches!(self, Self::Model | Self::Selection)
+    }
 }
 
 /// What the model was framed in.
@@ -97,14 +105,14 @@ pub struct UiState {
     pub diagnostics_open: bool,
     /// What was just done, in a few words.
     pub messages: Messages,
-    /// What the bottom sheet of a narrow window shows. None while it is closed.
-    pub sheet: Option<SheetPage>,
+    /// What the drawer of a narrow window shows. None while it is closed.
+    pub drawer: Option<DrawerPage>,
     /// How much contrast the person asks for.
     pub contrast: Contrast,
     pub theme: Option<Theme>,
     /// A sentence above the timeline for somebody who has opened nothing yet, with a button that does.
     pub greeting: Option<String>,
-    pub(super) sheet_height: SheetHeight,
+    pub(super) drawer_height: DrawerHeight,
     pub(super) cost: SteadyCost,
     /// The camera was moved by hand, and the panels have changed since: a button offers to frame the model.
     pub(super) offers_frame: bool,
@@ -121,12 +129,11 @@ pub struct UiState {
     /// The contact sheet that is being drawn.
     pub(super) drawn_sheet: Option<DrawnSheet>,
     pub(super) export: ExportChoice,
-    /// A finding asked for the panel that exports.
-    pub(super) wants_export: bool,
     pub(super) thumbnails: Thumbnails,
     pub(super) view_hold: ViewHold,
     pub(super) hovered_submesh: Option<usize>,
-    pub(super) vertex_count: VertexCount,
+    /// How many vertices a submesh of a model has.
+    pub(super) vertex_count: Kept<(u64, usize), usize>,
     pub(super) skeleton: SkeletonState,
     /// Width of the panel on the left, once it was dragged to another.
     pub(super) side_width: Option<f32>,
@@ -166,25 +173,25 @@ impl UiState {
         (self.view_hold, self.grip, self.framed) = Default::default();
     }
 
-    /// Shows the tree of joints: in the panel on the left, and in the sheet of a narrow window.
+    /// Shows the tree of joints: in the panel on the left, and in the drawer of a narrow window.
     pub fn show_skeleton(&mut self, session: &Session) {
         self.skeleton.show_page(session, SidePage::Skeleton);
         self.diagnostics_open = false;
-        self.sheet = Some(SheetPage::Model);
+        self.drawer = Some(DrawerPage::Model);
     }
 
-    /// Shows in the open sheet what was selected since the last pass; the page of before when nothing is any more.
+    /// Shows in the open drawer what was selected since the last pass; the page of before when nothing is any more.
     pub(super) fn follow_selection(&mut self, session: &Session) {
         let (joints, submesh) = (session.joints(), session.submeshes().selected());
         let vertex = joints.selected_vertex().map(|selected| selected.vertex);
         let selection = (joints.selected(), vertex, submesh);
         let is_new = std::mem::replace(&mut self.shown_selection, selection) != selection;
-        if is_new && matches!(self.sheet, Some(SheetPage::Model | SheetPage::Selection)) {
+        if is_new && self.drawer.is_some_and(DrawerPage::is_tab) {
             let is_some = selection != Selection::default();
-            self.sheet = Some(if is_some {
-                SheetPage::Selection
+            self.drawer = Some(if is_some {
+                DrawerPage::Selection
             } else {
-                SheetPage::Model
+                DrawerPage::Model
             });
         }
     }
@@ -276,31 +283,6 @@ pub(super) struct DrawnSheet {
     pub(super) count: usize,
     /// The person does not want it any more.
     pub(super) cancelled: bool,
-}
-
-/// Vertices of the submesh counted last.
-#[derive(Debug, Default)]
-pub(super) struct VertexCount {
-    of: Option<(u64, usize)>,
-    count: usize,
-}
-
-impl VertexCount {
-    /// How many vertices the triangles of a submesh use.
-    pub(super) fn of(&mut self, model_revision: u64, index: usize, mesh: &Mesh, submesh: &Submesh) -> usize {
-        if self.of != Some((model_revision, index)) {
-            let start = submesh.triangle_start as usize * 3;
-            let end = start + submesh.triangle_count as usize * 3;
-            let mut used: Vec<u32> = mesh.indices.get(start..end).unwrap_or_default().to_vec();
-            used.sort_unstable();
-            used.dedup();
-            *self = Self {
-                of: Some((model_revision, index)),
-                count: used.len(),
-            };
-        }
-        self.count
-    }
 }
 
 /// How to save a picture or a contact sheet.

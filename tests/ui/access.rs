@@ -1,7 +1,7 @@
 //! What programs that read the screen are told, and what they can do.
 
 use bindpose::session::{FileCommand, LookCommand, SubmeshCommand};
-use bindpose::ui::SheetPage;
+use bindpose::ui::DrawerPage;
 use egui::accesskit::{Action, ActionData, ActionRequest, Role, TreeId};
 use egui::{Event, Key, Modifiers, Vec2, vec2};
 use egui_kittest::Node;
@@ -119,22 +119,22 @@ fn on_a_phone_too() {
         let open = || touch_window(size, vec![moving("a.m3d")]);
         assert_told(&open(), "shut");
         for (page, name) in [
-            (SheetPage::Model, "Model"),
-            (SheetPage::Model, "Skeleton"),
-            (SheetPage::Selection, "Inspector"),
-            (SheetPage::ViewMode, "View mode"),
-            (SheetPage::Light, "Light and background"),
-            (SheetPage::Overlays, "Lines over the model"),
-            (SheetPage::ViewFrom, "View from"),
-            (SheetPage::Picture, "Picture"),
-            (SheetPage::Timeline, "Timeline"),
+            (DrawerPage::Model, "Model"),
+            (DrawerPage::Model, "Skeleton"),
+            (DrawerPage::Selection, "Inspector"),
+            (DrawerPage::ViewMode, "View mode"),
+            (DrawerPage::Light, "Light and background"),
+            (DrawerPage::Overlays, "Lines over the model"),
+            (DrawerPage::ViewFrom, "View from"),
+            (DrawerPage::Picture, "Picture"),
+            (DrawerPage::Timeline, "Timeline"),
         ] {
             let mut window = open();
             let state = window.harness.state_mut();
             if name == "Skeleton" {
                 state.state.show_skeleton(&state.session);
             }
-            state.state.sheet = Some(page);
+            state.state.drawer = Some(page);
             window.pass_on();
             assert_told(&window, name);
             assert_has(&window, Role::Region, name);
@@ -366,7 +366,7 @@ fn at_twice_the_size_nothing_is_lost() {
         assert!(found || item.ends_with("theme"), "{item}");
     }
     window.press(PLAIN, Key::Escape);
-    window.harness.state_mut().state.sheet = Some(SheetPage::Model);
+    window.harness.state_mut().state.drawer = Some(DrawerPage::Model);
     window.pass_on();
     assert!(window.shows("Findings, nothing found") || window.shows("Panel: Skeleton"));
     window.click("Panel: Skeleton");

@@ -2,7 +2,7 @@
 
 use bindpose::scene::FrameCost;
 use bindpose::session::{CrowdCommand, LookCommand};
-use bindpose::ui::SheetPage;
+use bindpose::ui::DrawerPage;
 use egui::accesskit::{Action, ActionData, Role, Toggled};
 use egui::{Key, Modifiers, vec2};
 
@@ -168,7 +168,7 @@ fn a_chip_goes_back_to_one_and_a_phone_has_the_same() {
         window.apply(CrowdCommand::Set { count: 100, seed: 5 });
         window.click("Leave the crowd of 100");
         assert_eq!(crowd(&window), (1, 5, 0));
-        window.harness.state_mut().state.sheet = Some(SheetPage::Model);
+        window.harness.state_mut().state.drawer = Some(DrawerPage::Model);
         window.pass_on();
         window.ask("Crowd: 10", Action::Click, None);
         assert!(window.shows("Another seed") && window.shows("Seed 5"));

@@ -374,7 +374,7 @@ fn a_bone_without_a_mirror_or_children_moves_nothing_below() {
     for (mut window, joints) in [(tree(vec2(1440.0, 1300.0), 5), [0, 1]), (phone(chains(5)), [1, 3])] {
         let mut places = Vec::new();
         for joint in joints {
-            window.harness.state_mut().state.sheet = Some(bindpose::ui::SheetPage::Selection);
+            window.harness.state_mut().state.drawer = Some(bindpose::ui::DrawerPage::Selection);
             window.apply(JointCommand::Select(Some(JointIndex(joint))));
             places.push(window.rect("Copy: place now").min.y);
         }

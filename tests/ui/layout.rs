@@ -3,7 +3,7 @@
 use bindpose::anim::SkinView;
 use bindpose::model::JointIndex;
 use bindpose::session::{FileCommand, JointCommand, LookCommand, PlayCommand, SubmeshCommand};
-use bindpose::ui::SheetPage;
+use bindpose::ui::DrawerPage;
 use egui::{Rect, Vec2, pos2, vec2};
 
 use crate::models::{self, broken, moving, still};
@@ -314,9 +314,9 @@ fn the_legend_lies_on_no_panel_and_not_on_the_model() {
 
 #[test]
 fn chips_leave_the_models_head_free_on_phones() {
-    for (size, sheet) in [(PHONE, Some(SheetPage::Model)), (vec2(844.0, 390.0), None)] {
+    for (size, sheet) in [(PHONE, Some(DrawerPage::Model)), (vec2(844.0, 390.0), None)] {
         let mut window = touch_window(size, vec![moving("a.m3d")]);
-        window.harness.state_mut().state.sheet = sheet;
+        window.harness.state_mut().state.drawer = sheet;
         window.wait(1.0);
         let free = model_rect(&mut window, size);
         window.apply(PlayCommand::SetSpeed(0.5));
@@ -380,14 +380,14 @@ fn what_opens_stands_in_its_place_from_its_first_frame_on() {
         assert_in_place("legend", &|page| {
             page.session.apply(LookCommand::SetSkinView(Some(SkinView::Stretch)));
         });
-        assert_in_place("sheet", &|page| page.state.sheet = Some(SheetPage::Light));
+        assert_in_place("sheet", &|page| page.state.drawer = Some(DrawerPage::Light));
         assert_in_place("findings", &|page| page.state.diagnostics_open = true);
         assert_in_place("keys", &|page| page.state.help_open = true);
         assert_in_place("error", &|page| {
             page.session.apply(FileCommand::Add(vec![broken("bad.m3d")]));
         });
         assert_in_place("no findings", &|page| page.state.diagnostics_open = false);
-        assert_in_place("no sheet", &|page| page.state.sheet = None);
+        assert_in_place("no sheet", &|page| page.state.drawer = None);
     }
 }
 
@@ -405,7 +405,7 @@ fn tiny_windows_are_drawn_with_everything_open() {
         page.session.apply(SubmeshCommand::Select(Some(0)));
         page.session.apply(LookCommand::SetSkinView(Some(SkinView::Stretch)));
         page.session.apply(FileCommand::Add(vec![broken("bad.m3d")]));
-        page.state.sheet = Some(SheetPage::Timeline);
+        page.state.drawer = Some(DrawerPage::Timeline);
         page.state.diagnostics_open = true;
         page.state.help_open = true;
         window.pass_on();
@@ -530,8 +530,8 @@ fn what_stands_over_the_view_of_a_phone_counts_when_the_model_is_framed() {
     window.apply(LookCommand::SetSkinView(Some(SkinView::Weight)));
     window.apply(PlayCommand::SetSpeed(0.5));
     window.wait(1.0);
-    for sheet in [None, Some(SheetPage::Model)] {
-        window.harness.state_mut().state.sheet = sheet;
+    for sheet in [None, Some(DrawerPage::Model)] {
+        window.harness.state_mut().state.drawer = sheet;
         window.wait(1.0);
         let [top, bottom] = top_of_model(&mut window);
         let chip = window.rect("Leave speed 0.5×");

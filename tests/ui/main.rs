@@ -14,6 +14,7 @@ mod crowd;
 #[allow(dead_code, reason = "shared with the tests of the core, which need more of it")]
 mod documents;
 mod dope_sheet;
+mod drawer;
 mod export;
 mod file_menu;
 mod findings;
@@ -42,7 +43,6 @@ mod roles;
 mod saving;
 #[path = "../common/shared.rs"]
 mod shared;
-mod sheet;
 mod skeleton;
 mod split;
 mod submeshes;

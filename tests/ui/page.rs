@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use bindpose::app::{App, AppOptions};
 use bindpose::session::{Command, ExportedFile, File, FileCommand, Session};
-use bindpose::ui::{self, Request, SheetPage, UiState};
+use bindpose::ui::{self, DrawerPage, Request, UiState};
 use egui::accesskit::{Action, ActionData, ActionRequest, Role};
 use egui::{Rect, Vec2};
 use egui_kittest::kittest::{AccessKitNode, NodeT as _};
@@ -18,16 +18,16 @@ pub(crate) const WIDE: Vec2 = Vec2::new(1440.0, 900.0);
 pub(crate) const PHONE: Vec2 = Vec2::new(390.0, 844.0);
 
 /// Every page of the sheet.
-pub(crate) const SHEET_PAGES: [SheetPage; 9] = [
-    SheetPage::Model,
-    SheetPage::Selection,
-    SheetPage::ViewMode,
-    SheetPage::Light,
-    SheetPage::Overlays,
-    SheetPage::ViewFrom,
-    SheetPage::Picture,
-    SheetPage::Export,
-    SheetPage::Timeline,
+pub(crate) const DRAWER_PAGES: [DrawerPage; 9] = [
+    DrawerPage::Model,
+    DrawerPage::Selection,
+    DrawerPage::ViewMode,
+    DrawerPage::Light,
+    DrawerPage::Overlays,
+    DrawerPage::ViewFrom,
+    DrawerPage::Picture,
+    DrawerPage::Export,
+    DrawerPage::Timeline,
 ];
 
 /// What is behind the window.

@@ -3,6 +3,7 @@
 mod aria;
 mod axis;
 mod color;
+mod drawer;
 mod goal;
 mod input;
 mod keys;
@@ -10,7 +11,6 @@ mod loop_gap;
 mod marks;
 mod numbers;
 mod rows;
-mod sheet;
 mod theme;
 mod thumbnails;
 mod time_area;

@@ -4,12 +4,12 @@ use std::collections::HashMap;
 
 use bindpose::model::JointIndex;
 use bindpose::session::{File, FileCommand, JointCommand, LookCommand, PlayCommand, SubmeshCommand};
-use bindpose::ui::{Mirror, MirrorId, MirrorNode, SheetPage};
+use bindpose::ui::{DrawerPage, Mirror, MirrorId, MirrorNode};
 use egui::accesskit::Action;
 use egui::{Key, Modifiers, Vec2, vec2};
 
 use crate::models::{broken, moving};
-use crate::page::{PHONE, SHEET_PAGES, WIDE, Window, touch_window, window};
+use crate::page::{DRAWER_PAGES, PHONE, WIDE, Window, touch_window, window};
 use crate::rigs::rig;
 
 const LOW: Vec2 = vec2(844.0, 390.0);
@@ -375,10 +375,10 @@ fn every_page_of_a_small_window_is_what_it_is_said_to_be() {
             "they are read from left to right: {}",
             told.outline
         );
-        for page in SHEET_PAGES {
+        for page in DRAWER_PAGES {
             let mut window = open();
             let state = window.harness.state_mut();
-            state.state.sheet = Some(page);
+            state.state.drawer = Some(page);
             window.pass_on();
             assert_sound(&Told::of(&mut window), &format!("{page:?}"));
         }
@@ -415,7 +415,7 @@ fn view_modes_are_choices_in_a_menu_and_on_a_page() {
     assert_eq!(told.find("menuitemradio", "Lit").on, Some("true"));
 
     let mut phone = touch_window(PHONE, files());
-    phone.harness.state_mut().state.sheet = Some(SheetPage::ViewMode);
+    phone.harness.state_mut().state.drawer = Some(DrawerPage::ViewMode);
     let told = Told::of(&mut phone);
     let lit = told.find("radio", "Lit");
     assert_eq!(lit.on, Some("true"));
@@ -438,7 +438,7 @@ fn the_grip_of_the_sheet_says_what_it_opens() {
     phone.click("Close the sheet");
     let state = phone.harness.state_mut();
     state.state.show_skeleton(&state.session);
-    state.state.sheet = None;
+    state.state.drawer = None;
     phone.pass_on();
     assert!(phone.shows("Skeleton") && !phone.shows("Model facts"));
 }

@@ -11,7 +11,7 @@ use super::control::{
 };
 use super::row::Row;
 use crate::actions::Action;
-use crate::session::{Command, Session};
+use crate::ui::cx::Cx;
 use crate::ui::kit::icons::{self, Icon};
 use crate::ui::kit::theme::{self, CONTROL_RADIUS, Tokens};
 
@@ -54,16 +54,16 @@ fn icon_atom(icon: Icon, size: Vec2) -> Atom<'static> {
 }
 
 /// A square button of an action of the session, with its key in the tooltip.
-pub(crate) fn action_button(ui: &mut Ui, session: &Session, action: &Action, icon: Icon, commands: &mut Vec<Command>) {
-    if icon_button(ui, icon, &action.hint(), action.is_on(session)).clicked() {
-        commands.extend(action.command(session));
+pub(in crate::ui) fn action_button<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, action: &Action, icon: Icon) {
+    if icon_button(ui, icon, &action.hint(), action.is_on(cx.session)).clicked() {
+        cx.act(action);
     }
 }
 
 /// The same for an action that does something once.
-pub(crate) fn push_action(ui: &mut Ui, session: &Session, action: &Action, icon: Icon, commands: &mut Vec<Command>) {
+pub(in crate::ui) fn push_action<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, action: &Action, icon: Icon) {
     if push_button(ui, icon, &action.hint()).clicked() {
-        commands.extend(action.command(session));
+        cx.act(action);
     }
 }
 
@@ -110,6 +110,12 @@ impl<'a> TextButton<'a> {
         Self { width, ..self }
     }
 
+    /// As wide as what is available.
+    pub(crate) fn show_wide(self, ui: &mut Ui) -> Response {
+        let width = Rangef::point(ui.available_width());
+        self.width(width).show(ui)
+    }
+
     pub(crate) fn show(self, ui: &mut Ui) -> Response {
         let tokens = Tokens::of(ui);
         let icon = self.icon.map_or(0.0, |_| ICON_SIZE + GAP);
@@ -152,7 +158,7 @@ pub(crate) enum MenuLine {
     Switch(bool),
 }
 
-/// A line of a menu, or of a page of the sheet.
+/// A line of a menu, or of a page of the drawer.
 pub(crate) fn menu_item(ui: &mut Ui, text: &str, line: MenuLine) -> Response {
     menu_line(ui, text, "", theme::mono(11.0), line)
 }
@@ -224,6 +230,13 @@ pub(crate) fn segmented<T: Copy + PartialEq>(
     in_force: Option<T>,
 ) -> Option<T> {
     explained_segmented(ui, name, choices, &[], in_force)
+}
+
+/// The same for a value of the interface itself.
+pub(crate) fn choose<T: Copy + PartialEq>(ui: &mut Ui, name: &str, choices: &[(T, &str)], value: &mut T) {
+    if let Some(chosen) = segmented(ui, name, choices, Some(*value)) {
+        *value = chosen;
+    }
 }
 
 /// The same with a sentence about each choice.
@@ -334,9 +347,9 @@ pub(crate) fn noted_switch_row(
 }
 
 /// The row of an action of the session that is on or off.
-pub(crate) fn action_switch(ui: &mut Ui, session: &Session, action: &Action, commands: &mut Vec<Command>) {
-    if switch_row(ui, action.label, action.key(), action.is_on(session)).clicked() {
-        commands.extend(action.command(session));
+pub(in crate::ui) fn action_switch<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, action: &Action) {
+    if switch_row(ui, action.label, action.key(), action.is_on(cx.session)).clicked() {
+        cx.act(action);
     }
 }
 

@@ -9,9 +9,7 @@ use super::row::Row;
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::{self, CONTROL_RADIUS, Tokens};
 
-/// Height of the heading of a selection.
 const SELECTED_HEIGHT: f32 = 22.0;
-/// Height of the name of a section.
 const SECTION_HEIGHT: f32 = 21.0;
 
 /// The title of a panel with a button that closes it. Returns whether it was clicked.

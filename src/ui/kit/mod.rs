@@ -5,14 +5,17 @@ pub(super) mod color;
 mod control;
 mod heading;
 pub(super) mod icons;
+mod kept;
+mod list;
 mod number;
 mod row;
 mod search;
+mod slider;
 pub mod theme;
 pub(super) mod wording;
 
 pub(super) use button::{
-    ICON_SIZE, MenuLine, TextButton, action_button, action_switch, choices, explained_segmented, icon_button,
+    ICON_SIZE, MenuLine, TextButton, action_button, action_switch, choices, choose, explained_segmented, icon_button,
     keyed_menu_item, menu_item, noted_switch_row, push_action, push_button, segmented, switch_row, untold_icon_button,
     valued_choice, valued_menu_item,
 };
@@ -27,6 +30,9 @@ pub(super) use heading::{
     closable_heading, explained_section, heading_with_close, keyed_section_name, section_name, section_with_action,
     section_with_labelled_action, selected_heading,
 };
-pub(super) use number::{Slider, TypedValue, leading_number, number_field, number_within};
-pub(super) use row::{Row, RowList, choice_row, progress_bar, row_icon, rule, sheet_handle, value_row};
+pub(super) use kept::Kept;
+pub(super) use list::{DrawnRows, RowList, asks, focus_row, labelled, row_sense, rows_in_view, tell_folds, tell_row};
+pub(super) use number::{TypedValue, leading_number, number_field, number_within, select_all};
+pub(super) use row::{Row, choice_row, drawer_handle, progress_bar, row_icon, rule, value_row};
 pub(super) use search::search_field;
+pub(super) use slider::Slider;

@@ -1,121 +1,20 @@
-//! Numbers: a slider, a field to drag or type, and a read-out that becomes a field.
+//! Numbers: a field to drag or type, and a read-out that becomes a field.
 
 use std::ops::RangeInclusive;
 
 use egui::accesskit::{Action, ActionData, Invalid};
 use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditState;
 use egui::{
     Align, Align2, Color32, CornerRadius, CursorIcon, FontId, Id, Key, LayerId, Modifiers, Order, Rect, Response, Role,
     Sense, Stroke, StrokeKind, TextEdit, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use super::control::{
-    MOUSE_CONTROL, SliderNode, arrow_steps, control_size, focus_ring, hint_of_name, slider_keys, tell_node,
-};
+use super::control::{MOUSE_CONTROL, arrow_steps, control_size, focus_ring, hint_of_name, tell_node};
 use super::row::Row;
 use crate::ui::input::press_field;
 use crate::ui::kit::theme::{self, CONTROL_RADIUS, Tokens};
 use crate::ui::kit::wording::trimmed;
-
-/// Width of the label before the track.
-const LABEL_WIDTH: f32 = 90.0;
-/// Width of the number behind the track. The track stands still while the number changes.
-const NUMBER_WIDTH: f32 = 56.0;
-const KNOB_RADIUS: f32 = 6.0;
-/// Steps of the arrow keys over the whole range.
-const KEY_STEPS: f32 = 50.0;
-
-/// A row with a label, a track with a knob, and the number as the caller writes it. Painted here: egui's slider fills its track only
-/// from the range's start, and has no default for a double click to restore.
-#[derive(Clone, Debug)]
-pub(crate) struct Slider<'a> {
-    label: &'a str,
-    value: f32,
-    range: RangeInclusive<f32>,
-    text: &'a str,
-    reset_to: f32,
-}
-
-impl<'a> Slider<'a> {
-    /// A slider at a value, which `text` writes out.
-    pub(crate) fn new(label: &'a str, value: f32, range: RangeInclusive<f32>, text: &'a str) -> Self {
-        let reset_to = *range.start();
-        Self {
-            label,
-            value,
-            range,
-            text,
-            reset_to,
-        }
-    }
-
-    /// The default: a double click restores it, and the filled part of the track begins there. The range's start unless told.
-    pub(crate) fn reset_to(self, reset_to: f32) -> Self {
-        Self { reset_to, ..self }
-    }
-
-    pub(crate) fn show(self, ui: &mut Ui) -> Option<f32> {
-        let tokens = Tokens::of(ui);
-        let height = control_size(ui).max(MOUSE_CONTROL);
-        let mut row = Row::new(ui, height);
-        row.left(self.label, tokens.muted);
-        row.right_in(theme::mono(12.0), self.text, tokens.text);
-        let row = row.rect;
-
-        let ends = row.min.x + LABEL_WIDTH + KNOB_RADIUS..=row.max.x - NUMBER_WIDTH - KNOB_RADIUS;
-        let target = Rect::from_x_y_ranges(*ends.start() - KNOB_RADIUS..=*ends.end() + KNOB_RADIUS, row.y_range());
-        let response = ui.interact(target, ui.next_auto_id().with(self.label), Sense::click_and_drag());
-        ui.skip_ahead_auto_ids(1);
-        let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
-        self.paint(ui, *ends.start(), *ends.end(), row.center().y, &response);
-        focus_ring(ui, target, &response);
-        self.asked(ui, *ends.start(), *ends.end(), &response)
-    }
-
-    /// The value that pointer or keys ask for.
-    fn asked(&self, ui: &Ui, left: f32, right: f32, response: &Response) -> Option<f32> {
-        let (start, end) = (*self.range.start(), *self.range.end());
-        let slider = SliderNode {
-            name: self.label,
-            value: f64::from(self.value),
-            range: f64::from(start)..=f64::from(end),
-            step: f64::from((end - start) / KEY_STEPS),
-            text: self.text,
-        };
-        if let Some(value) = slider_keys(ui, response, &slider) {
-            return Some(value as f32);
-        }
-        if response.double_clicked() {
-            return Some(self.reset_to);
-        }
-        let pressed = response.is_pointer_button_down_on() || response.clicked();
-        let pointer = response.interact_pointer_pos().filter(|_| pressed)?;
-        let fraction = ((pointer.x - left) / (right - left).max(1.0)).clamp(0.0, 1.0);
-        let value = start + fraction * (end - start);
-        // The knob snaps to the default, so that it is easy to find again.
-        let near = (value - self.reset_to).abs() < 0.015 * (end - start);
-        Some(if near { self.reset_to } else { value })
-    }
-
-    fn paint(&self, ui: &Ui, left: f32, right: f32, y: f32, response: &Response) {
-        let (tokens, painter) = (Tokens::of(ui), ui.painter());
-        let (start, end) = (*self.range.start(), *self.range.end());
-        let x_of = |value: f32| left + ((value - start) / (end - start)).clamp(0.0, 1.0) * (right - left);
-        let (origin, knob) = (x_of(self.reset_to), x_of(self.value));
-        let band = |from: f32, to: f32| Rect::from_min_max(pos2(from.min(to), y - 1.5), pos2(from.max(to), y + 1.5));
-        painter.rect_filled(band(left - 2.0, right + 2.0), 1.5, tokens.track());
-        painter.rect_filled(band(origin, knob), 1.5, tokens.accent);
-        let active = response.hovered() || response.is_pointer_button_down_on();
-        let center = pos2(knob, y);
-        if response.has_focus() || response.is_pointer_button_down_on() {
-            painter.circle_filled(center, KNOB_RADIUS + 4.0, tokens.accent_ground);
-        }
-        let ground = tokens.panel.to_opaque();
-        let color = if active { tokens.accent } else { tokens.muted };
-        let radius = KNOB_RADIUS - 0.75;
-        painter.circle(center, radius, ground, Stroke::new(1.5, color));
-    }
-}
 
 /// A field for a number: a drag changes it by `speed` a point, the arrow keys by a step, and a click lets one type it. What is no number of
 /// the range is refused. It always shows all `decimals`, so that it stands still. Returns a new value.
@@ -379,7 +278,7 @@ impl<'a> TypedValue<'a> {
         let mut child = ui.new_child(egui::UiBuilder::new().max_rect(inside));
         // By touch egui would make the field higher than it is drawn.
         child.spacing_mut().interact_size.y = field.height();
-        let mut output = TextEdit::singleline(&mut typing.text)
+        let output = TextEdit::singleline(&mut typing.text)
             .id(id.with("field"))
             .font(self.font.clone())
             .text_color(tokens.text)
@@ -402,9 +301,7 @@ impl<'a> TypedValue<'a> {
         }
         if begins {
             response.request_focus();
-            let all = CCursorRange::two(CCursor::new(0), CCursor::new(typing.text.chars().count()));
-            output.state.cursor.set_char_range(Some(all));
-            output.state.clone().store(ui.ctx(), response.id);
+            select_all(ui, response.id, &typing.text);
         } else if response.lost_focus() || !response.has_focus() {
             let entered = ui.input(|input| input.key_pressed(Key::Enter));
             // Esc ends typing and does nothing else.
@@ -432,6 +329,14 @@ impl<'a> TypedValue<'a> {
         ui.data_mut(|data| data.insert_temp(id, typing));
         value
     }
+}
+
+/// Selects the text of a field, so that typing replaces it.
+pub(crate) fn select_all(ui: &Ui, field: Id, text: &str) {
+    let mut state = TextEditState::load(ui.ctx(), field).unwrap_or_default();
+    let all = CCursorRange::two(CCursor::default(), CCursor::new(text.chars().count()));
+    state.cursor.set_char_range(Some(all));
+    state.store(ui.ctx(), field);
 }
 
 /// What is being typed into a field, and why it was refused.

@@ -1,12 +1,9 @@
 //! Rows of panels: facts, choices, lists, hairlines.
 
-use egui::{
-    Align2, Color32, FontId, Id, Painter, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2,
-};
+use egui::{Align2, Color32, FontId, Painter, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use super::control::{
     control_size, focus_ring, hint_beside, paint_ground, paint_name, paint_row_ground, pressed_row_height, tell_node,
-    walked,
 };
 use crate::ui::kit::icons::{self, Icon};
 use crate::ui::kit::theme::{CONTROL_RADIUS, ROW_HEIGHT, Tokens};
@@ -25,51 +22,6 @@ pub(crate) fn row_icon(ui: &Ui, place: Rect, row: &Response, icon: Icon, label: 
     focus_ring(ui, place, &response);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, label));
     hint_beside(response, Some(row.rect), label)
-}
-
-/// Rows that a page key goes by.
-const PAGE: usize = 10;
-
-/// A list of rows, for screen readers and for the arrow keys: they move the focus from row to row.
-#[derive(Debug, Default)]
-pub(crate) struct RowList {
-    rows: Vec<Id>,
-    focused: Option<usize>,
-}
-
-impl RowList {
-    /// Shows a list of this name. The contents tell of each row with [`RowList::row`].
-    pub(crate) fn show(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui, &mut Self)) {
-        let shown = ui.scope(|ui| {
-            let mut list = Self::default();
-            contents(ui, &mut list);
-            list.walk(ui);
-        });
-        shown
-            .response
-            .widget_info(|| WidgetInfo::labeled(Role::List, true, name));
-    }
-
-    /// Tells of the next row.
-    pub(crate) fn row(&mut self, response: &Response, selected: bool) {
-        if response.has_focus() {
-            self.focused = Some(self.rows.len());
-        }
-        if response.gained_focus() {
-            response.scroll_to_me(None);
-        }
-        self.rows.push(response.id);
-        tell_node(response, |node| node.set_selected(selected));
-    }
-
-    fn walk(self, ui: &Ui) {
-        let Some((focused, &id)) = self.focused.and_then(|at| Some((at, self.rows.get(at)?))) else {
-            return;
-        };
-        if let Some(to) = walked(ui, id, focused, self.rows.len(), PAGE) {
-            ui.memory_mut(|memory| memory.request_focus(self.rows[to]));
-        }
-    }
 }
 
 /// A row of a panel. Text goes in from both ends, in 13 points where no size is given. Call `told` last: it
@@ -116,7 +68,6 @@ impl Row {
         }
     }
 
-    /// Words at the left.
     pub(crate) fn left(&mut self, text: &str, color: Color32) {
         self.left_in(FontId::proportional(13.0), text, color);
     }
@@ -126,7 +77,6 @@ impl Row {
         self.left = self.painter.text(at, Align2::LEFT_CENTER, text, font, color).max.x;
     }
 
-    /// Words at the right.
     pub(crate) fn right(&mut self, text: &str, color: Color32) {
         self.right_in(FontId::proportional(13.0), text, color);
     }
@@ -146,7 +96,6 @@ impl Row {
         paint_name(&self.painter, at, name, font, color, self.right - self.left);
     }
 
-    /// Tells screen readers of it.
     pub(crate) fn told(self, role: Role, label: impl Into<String>) -> Response {
         let label = label.into();
         self.response.widget_info(|| WidgetInfo::labeled(role, true, &label));
@@ -209,14 +158,14 @@ pub(crate) fn rule(ui: &mut Ui, panel_margin: f32) {
     ui.add_space(7.0);
 }
 
-/// Height of the handle of a sheet.
-const SHEET_HANDLE_HEIGHT: f32 = 24.0;
+/// Height of the handle of a drawer.
+const DRAWER_HANDLE_HEIGHT: f32 = 24.0;
 
-/// The grip of the bottom sheet. `label`: what it opens or closes.
-pub(crate) fn sheet_handle(ui: &mut Ui, label: &str) -> Response {
+/// The grip of the drawer. `label`: what it opens or closes.
+pub(crate) fn drawer_handle(ui: &mut Ui, label: &str) -> Response {
     let tokens = Tokens::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), SHEET_HANDLE_HEIGHT), Sense::hover());
-    // By touch its target reaches a little above the sheet.
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), DRAWER_HANDLE_HEIGHT), Sense::hover());
+    // By touch its target reaches a little above the drawer.
     let above = (control_size(ui) - rect.height()).max(0.0);
     let target = Rect::from_min_max(pos2(rect.min.x, rect.min.y - above), rect.max);
     let response = ui.interact(target, response.id.with("grip"), Sense::click_and_drag());

@@ -14,9 +14,9 @@ pub const MARGIN: f32 = 12.0;
 pub const ROW_HEIGHT: f32 = 23.0;
 pub const PANEL_RADIUS: u8 = 10;
 pub const CONTROL_RADIUS: u8 = 6;
-/// Below this width the panels become one bottom sheet.
+/// Below this width the panels become one drawer.
 pub const NARROW_WIDTH: f32 = 900.0;
-/// Below this height a sheet would cover the model. What it shows stands beside the model instead …
+/// Below this height a drawer would cover the model. What it shows stands beside the model instead …
 pub const LOW_HEIGHT: f32 = 480.0;
 /// … if the window is at least this wide.
 pub const LOW_WIDTH: f32 = 600.0;

@@ -3,7 +3,8 @@
 use egui::Ui;
 
 use super::cost::SteadyCost;
-use crate::session::{Command, CrowdCommand, CrowdState, MAX_CROWD, Session};
+use crate::session::{CrowdCommand, MAX_CROWD};
+use crate::ui::cx::Cx;
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::wording::{bytes, grouped, milliseconds};
 use crate::ui::kit::{TypedValue, control_size, hint_beside, push_button, section_name, segmented, value_row};
@@ -17,25 +18,26 @@ const SEED_WIDTH: f32 = 86.0;
 const HINT: &str = "Click to type";
 
 /// The section. One model alone has neither seed nor selection nor costs.
-pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands: &mut Vec<Command>) {
-    let crowd = session.crowd();
+pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, SteadyCost>) {
+    let crowd = cx.session.crowd();
     section_name(ui, "Crowd");
     let labels = COUNTS.map(grouped);
     let choices: Vec<_> = COUNTS.into_iter().zip(labels.iter().map(String::as_str)).collect();
     if let Some(count) = segmented(ui, "Crowd", &choices, Some(crowd.count)) {
         let seed = crowd.seed;
-        commands.push(CrowdCommand::Set { count, seed }.into());
+        cx.push(CrowdCommand::Set { count, seed });
     }
     if crowd.count > 1 {
         ui.add_space(4.0);
-        seed_row(ui, crowd, commands);
+        seed_row(ui, cx);
         ui.add_space(4.0);
-        selected_row(ui, crowd, commands);
-        cost_rows(ui, session, cost);
+        selected_row(ui, cx);
+        cost_rows(ui, cx);
     }
 }
 
-fn seed_row(ui: &mut Ui, crowd: CrowdState, commands: &mut Vec<Command>) {
+fn seed_row<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
+    let crowd = cx.session.crowd();
     let button = button_width(ui);
     let seed = crowd.seed.to_string();
     let read = |typed: &str| {
@@ -50,12 +52,13 @@ fn seed_row(ui: &mut Ui, crowd: CrowdState, commands: &mut Vec<Command>) {
     });
     if let Some(seed) = asked.inner {
         let count = crowd.count;
-        commands.push(CrowdCommand::Set { count, seed }.into());
+        cx.push(CrowdCommand::Set { count, seed });
     }
 }
 
 /// Which instance timeline, skeleton and read-outs are of. The first is 1.
-fn selected_row(ui: &mut Ui, crowd: CrowdState, commands: &mut Vec<Command>) {
+fn selected_row<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
+    let crowd = cx.session.crowd();
     let count = crowd.count;
     let number = (crowd.selected + 1).to_string();
     let text = format!("{} of {}", grouped(crowd.selected + 1), grouped(count));
@@ -70,7 +73,7 @@ fn selected_row(ui: &mut Ui, crowd: CrowdState, commands: &mut Vec<Command>) {
     let field = TypedValue::new(ui, "Selected", &text, &number).width(field_width(ui));
     let asked = ui.horizontal(|ui| field.row(ui, 0.0, ("", HINT), read));
     if let Some(number) = asked.inner {
-        commands.push(CrowdCommand::Select(number - 1).into());
+        cx.push(CrowdCommand::Select(number - 1));
     }
 }
 
@@ -82,10 +85,10 @@ fn button_width(ui: &Ui) -> f32 {
     control_size(ui) + ui.spacing().item_spacing.x
 }
 
-fn cost_rows(ui: &mut Ui, session: &Session, cost: &mut SteadyCost) {
-    let cost = cost.read(ui, session);
+fn cost_rows(ui: &mut Ui, cx: &mut Cx<'_, SteadyCost>) {
+    let cost = cx.state.read(ui, cx.session);
     let gpu_secs = cost.gpu_secs.map(|passes| passes.iter().sum());
-    let frame_secs = Some(session.quality().frame_secs()).filter(|secs| *secs > 0.0);
+    let frame_secs = Some(cx.session.quality().frame_secs()).filter(|secs| *secs > 0.0);
     let rows = [
         (
             "Time",

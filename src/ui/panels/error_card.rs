@@ -6,11 +6,11 @@ use egui::{Align, Color32, Id, Layout, Rangef, Rect, RichText, Role, ScrollArea,
 use crate::diagnostic::{Diagnostic, codes};
 use crate::format::Excerpt;
 use crate::session::{Command, FileCommand, LoadError, Session};
-use crate::ui::frame::panel::scrolled;
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::{self, CONTROL_RADIUS, MARGIN, Tokens};
 use crate::ui::kit::wording::shortened;
 use crate::ui::kit::{TextButton, control_size, paint_elided, push_button, rule};
+use crate::ui::window::panel::scrolled;
 
 pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, error: &LoadError, commands: &mut Vec<Command>) {
     let tokens = Tokens::of(ui);

@@ -6,12 +6,13 @@ use egui::{Align, Color32, Label, Layout, ProgressBar, Rangef, RichText, Sense, 
 
 use crate::session::{Command, Export, ExportCommand, ExportFormat, ExportOptions, ExportRange, Session};
 use crate::ui::cx::Cx;
-use crate::ui::frame::panel::{popover_gap, scrolled};
 use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::kit::{
-    TextButton, control_size, number_field, section_name, section_with_labelled_action, segmented, switch_row,
+    TextButton, choose, control_size, number_field, section_name, section_with_labelled_action, switch_row,
 };
-use crate::ui::state::{SheetPage, UiState};
+use crate::ui::state::{DrawerPage, UiState};
+use crate::ui::window::arrangement::Arrangement;
+use crate::ui::window::panel::{popover_gap, scrolled};
 
 pub(in crate::ui) const WIDTH: f32 = 320.0;
 /// More sentences of a list than this are folded.
@@ -23,12 +24,10 @@ const FIELD_WIDTH: f32 = 76.0;
 /// The least height of what is lost and changed, and of the words about the demo.
 const LEAST_OUTCOME: f32 = 150.0;
 const DEMO_WORDS_HEIGHT: f32 = 32.0;
-/// Gap above the button that saves.
 const FOOT_GAP: f32 = 8.0;
-/// Width of the button that stops writing.
 const CANCEL_WIDTH: f32 = 74.0;
 
-/// The contents of the popover and of the sheet's page, no higher than `most`. The button that saves stays in view below what scrolls.
+/// The contents of the popover and of the drawer's page, no higher than `most`. The button that saves stays in view below what scrolls.
 pub(in crate::ui) fn show(ui: &mut Ui, most: f32, cx: &mut Cx<'_, UiState>) {
     let foot = if cx.session.open_model().is_some() {
         control_size(ui) + FOOT_GAP
@@ -82,9 +81,7 @@ fn choices(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     let is_saving = session.export().is_some_and(|export| export.saving.is_some());
     ui.add_enabled_ui(!is_saving, |ui| {
         let formats = ExportFormat::ALL.map(|format| (format, format.label()));
-        if let Some(format) = segmented(ui, "Format", &formats, Some(choice.options.format)) {
-            choice.options.format = format;
-        }
+        choose(ui, "Format", &formats, &mut choice.options.format);
         ui.add_space(6.0);
         demo(ui, &mut choice.options);
         ui.add_space(6.0);
@@ -366,28 +363,27 @@ fn save_row(ui: &mut Ui, session: &Session, export: Option<Export<'_>>, commands
     let words = format!("Save {name}");
     let words = words.trim_end();
     let is_ready = export.is_some_and(|export| export.plan.is_some());
-    let width = Rangef::point(ui.available_width());
     ui.add_enabled_ui(is_ready, |ui| {
-        if TextButton::new(words, words).width(width).show(ui).clicked() {
+        if TextButton::new(words, words).show_wide(ui).clicked() {
             commands.push(ExportCommand::Save.into());
         }
     });
 }
 
-/// Opens it for a key, in a narrow window as a page of the sheet; where it is open, it shuts.
-pub(in crate::ui) fn ask(state: &mut UiState, is_wide: bool) {
-    if is_wide {
+/// Opens it for a key, in a narrow window as a page of the drawer; where it is open, it shuts.
+pub(in crate::ui) fn ask(ui: &Ui, state: &mut UiState) {
+    if Arrangement::here(ui) == Arrangement::Wide {
         state.export.asked = true;
         return;
     }
-    let shown = state.sheet == Some(SheetPage::Export);
-    state.sheet = (!shown).then_some(SheetPage::Export);
+    let shown = state.drawer == Some(DrawerPage::Export);
+    state.drawer = (!shown).then_some(DrawerPage::Export);
 }
 
 /// Opens it, where it is not open yet.
-pub(in crate::ui) fn open(state: &mut UiState, is_wide: bool) {
-    if is_wide || state.sheet != Some(SheetPage::Export) {
-        ask(state, is_wide);
+pub(in crate::ui) fn open(ui: &Ui, state: &mut UiState) {
+    if Arrangement::here(ui) == Arrangement::Wide || state.drawer != Some(DrawerPage::Export) {
+        ask(ui, state);
     }
 }
 

@@ -8,13 +8,13 @@ use egui::{
 
 use crate::actions::{self, Group};
 use crate::session::Session;
-use crate::ui::frame::panel::{Panel, scrolled};
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::{self, ROW_HEIGHT, Tokens};
 use crate::ui::kit::{
     Row, TextButton, arrow_steps, closable_heading, control_size, focus_ring, is_touch, paint_elided, push_button, rule,
 };
 use crate::ui::state::{Request, UiState};
+use crate::ui::window::panel::{Panel, scrolled};
 
 const ABOUT: [&str; 3] = [
     "Bindpose shows models with bones, plays their clips, says what is wrong with them and writes them anew.",
@@ -22,7 +22,7 @@ const ABOUT: [&str; 3] = [
     "Files stay on this machine.",
 ];
 
-/// What the pointer and fingers do, beside the table of actions.
+/// Beside the table of actions.
 const MOUSE: [(&str, &str); 13] = [
     ("Drag", "orbit"),
     ("Right drag", "pan; middle drag too"),
@@ -46,19 +46,19 @@ const FINGERS: [(&str, &str); 5] = [
     ("", "else a subset"),
 ];
 
+/// What the pointer or fingers do, and what keys of a group do.
 #[derive(Clone, Copy, Debug)]
 enum Part {
-    Mouse,
-    Fingers,
+    Gestures(&'static [(&'static str, &'static str)]),
     Keys(Group),
 }
 
-use Part::{Fingers, Keys, Mouse};
+use Part::{Gestures, Keys};
 
 /// Parts in two columns of about the same length, one below the other where there is room for one. By touch the second comes first.
 const COLUMNS: [&[Part]; 2] = [
-    &[Mouse, Keys(Group::Time), Keys(Group::Bones)],
-    &[Fingers, Keys(Group::Camera), Keys(Group::Picture)],
+    &[Gestures(&MOUSE), Keys(Group::Time), Keys(Group::Bones)],
+    &[Gestures(&FINGERS), Keys(Group::Camera), Keys(Group::Picture)],
 ];
 
 /// Width of a column, and of the gap between two.
@@ -177,23 +177,18 @@ fn parts(ui: &mut Ui, session: &Session, parts: &[Part]) {
     for &part in parts {
         rule(ui, 12.0);
         match part {
-            Mouse => gestures(ui, &MOUSE),
-            Fingers => gestures(ui, &FINGERS),
-            Keys(group) => keys(ui, session, group),
+            Gestures(gestures) => {
+                for (gesture, does) in gestures {
+                    row(ui, gesture, does, None);
+                }
+            }
+            Keys(group) => {
+                for actions in actions::rows(group) {
+                    let in_force = actions.iter().find_map(|action| action.in_force(session));
+                    row(ui, &actions::keys_of(actions), actions[0].does, in_force.as_deref());
+                }
+            }
         }
-    }
-}
-
-fn keys(ui: &mut Ui, session: &Session, group: Group) {
-    for actions in actions::rows(group) {
-        let in_force = actions.iter().find_map(|action| action.in_force(session));
-        row(ui, &actions::keys_of(actions), actions[0].does, in_force.as_deref());
-    }
-}
-
-fn gestures(ui: &mut Ui, gestures: &[(&str, &str)]) {
-    for (gesture, does) in gestures {
-        row(ui, gesture, does, None);
     }
 }
 

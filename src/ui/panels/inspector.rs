@@ -6,7 +6,7 @@ use egui::{Role, Ui, Vec2, vec2};
 
 use super::model_panel::shown_color;
 use super::textures::{holds, picture_row};
-use crate::model::{AlphaMode, MapSlot, Material, Reflectance};
+use crate::model::{AlphaMode, MapSlot, Material, Mesh, Reflectance, Submesh};
 use crate::scene::{linear_from_srgb8, srgb8_from_linear};
 use crate::session::{MAX_SPEC_POWER, MaterialCommand, OpenModel, Session, SubmeshCommand};
 use crate::ui::cx::Cx;
@@ -42,8 +42,8 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
         cx.push(SubmeshCommand::Select(None));
     }
     rule(ui, MARGIN);
-    let count = &mut cx.state.vertex_count;
-    let vertices = count.of(session.model_revision(), index, mesh, submesh);
+    let of = (session.model_revision(), index);
+    let vertices = *cx.state.vertex_count.of(of, || vertex_count(mesh, submesh));
     value_row(ui, "Subset", &format!("{} of {}", index + 1, mesh.submeshes.len()));
     value_row(ui, "Triangles", &grouped(submesh.triangle_count as usize));
     value_row(ui, "Vertices", &grouped(vertices));
@@ -65,6 +65,16 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
             map_row(ui, session, open, cx.state, material, slot);
         }
     }
+}
+
+/// How many vertices the triangles of a submesh use.
+fn vertex_count(mesh: &Mesh, submesh: &Submesh) -> usize {
+    let start = submesh.triangle_start as usize * 3;
+    let end = start + submesh.triangle_count as usize * 3;
+    let mut used: Vec<u32> = mesh.indices.get(start..end).unwrap_or_default().to_vec();
+    used.sort_unstable();
+    used.dedup();
+    used.len()
 }
 
 /// A map that the material names: its thumbnail, or that it is missing.

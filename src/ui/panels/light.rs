@@ -6,10 +6,9 @@ use super::cost::SteadyCost;
 use crate::actions;
 use crate::scene::{Background, Detail, Light, Pass, TimedPass};
 use crate::session::{
-    Command, FileCommand, LookCommand, Lowered, MAX_EXPOSURE_STOPS, PassChoice, PassState, QualityCommand, QualityMode,
-    Session,
+    FileCommand, LookCommand, Lowered, MAX_EXPOSURE_STOPS, PassChoice, PassState, QualityCommand, QualityMode, Session,
 };
-use crate::ui::frame::panel::popover_gap;
+use crate::ui::cx::Cx;
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::Tokens;
 use crate::ui::kit::wording::{milliseconds, shortened};
@@ -17,6 +16,7 @@ use crate::ui::kit::{
     MenuLine, Row, Slider, color_picker, control_size, keyed_section_name, menu_item, noted_switch_row, push_button,
     section_name, segmented, switch_row, tell_node, value_row,
 };
+use crate::ui::window::panel::popover_gap;
 
 /// The first colour of a plain background: the middle of the backdrop.
 const FIRST_COLOR_DARK: [u8; 3] = [0x33, 0x38, 0x42];
@@ -46,61 +46,62 @@ pub(in crate::ui) fn mark_button(ui: &Ui, session: &Session, button: Response, i
     button.on_hover_text(format!("{words}\n{note}"))
 }
 
-pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands: &mut Vec<Command>) {
-    let look = session.look();
+pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, SteadyCost>) {
+    let look = cx.session.look();
     keyed_section_name(ui, "Light", actions::OTHER_LIGHT.key());
     let lights = Light::ALL.map(|light| (light, light.label()));
     let in_force = look.split.is_none().then_some(look.light);
     if let Some(light) = segmented(ui, "Light", &lights, in_force) {
-        commands.push(LookCommand::SetSplit(None).into());
-        commands.push(LookCommand::SetLight(light).into());
+        cx.push(LookCommand::SetSplit(None));
+        cx.push(LookCommand::SetLight(light));
     }
     ui.add_space(4.0);
     let split = look.split.is_some();
     let response = switch_row(ui, "Split: both side by side", "", split);
     if response.clicked() {
         let middle = (!split).then_some(0.5);
-        commands.push(LookCommand::SetSplit(middle).into());
+        cx.push(LookCommand::SetSplit(middle));
     }
     if split || look.light == Light::Studio {
-        exposure(ui, look.exposure_stops, commands);
+        exposure(ui, cx);
     }
-    environment_turn(ui, look.environment_turn_radians, commands);
+    environment_turn(ui, cx);
     popover_gap(ui);
-    background(ui, session, commands);
+    background(ui, cx);
     popover_gap(ui);
     section_name(ui, "Green of normal maps");
     let directions = [(false, "DirectX ↓"), (true, "OpenGL ↑")];
     if let Some(flipped) = segmented(ui, "Normal maps", &directions, Some(look.normal_green_flipped)) {
-        commands.push(LookCommand::SetNormalGreenFlipped(flipped).into());
+        cx.push(LookCommand::SetNormalGreenFlipped(flipped));
     }
     popover_gap(ui);
-    passes(ui, session, commands);
+    passes(ui, cx);
     popover_gap(ui);
-    quality(ui, session, commands);
-    pass_times(ui, session, cost);
+    quality(ui, cx);
+    pass_times(ui, cx);
 }
 
-fn exposure(ui: &mut Ui, stops: f32, commands: &mut Vec<Command>) {
+fn exposure<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
+    let stops = cx.session.look().exposure_stops;
     // A true minus sign, as wide as the plus.
     let text = format!("{}{:.1} EV", if stops < -0.04 { '−' } else { '+' }, stops.abs());
     let slider = Slider::new("Exposure", stops, -MAX_EXPOSURE_STOPS..=MAX_EXPOSURE_STOPS, &text);
     if let Some(stops) = slider.reset_to(0.0).show(ui) {
-        commands.push(LookCommand::SetExposure(stops).into());
+        cx.push(LookCommand::SetExposure(stops));
     }
 }
 
-fn environment_turn(ui: &mut Ui, radians: f32, commands: &mut Vec<Command>) {
-    let degrees = radians.to_degrees();
+fn environment_turn<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
+    let degrees = cx.session.look().environment_turn_radians.to_degrees();
     let text = format!("{degrees:.0}°");
     if let Some(degrees) = Slider::new("Environment", degrees, 0.0..=360.0, &text).show(ui) {
         // 360° would come back as 0°, and the knob would jump to the other end.
-        commands.push(LookCommand::SetEnvironmentTurn(degrees.min(359.9).to_radians()).into());
+        cx.push(LookCommand::SetEnvironmentTurn(degrees.min(359.9).to_radians()));
     }
 }
 
-fn background(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let in_force = session.look().background;
+fn background<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
+    let in_force = cx.session.look().background;
     section_name(ui, "Background");
     let first_color = if ui.visuals().dark_mode {
         FIRST_COLOR_DARK
@@ -118,27 +119,27 @@ fn background(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         (Background::None, "None"),
     ];
     if let Some(background) = segmented(ui, "Background", &choices, Some(in_force)) {
-        commands.push(LookCommand::SetBackground(background).into());
+        cx.push(LookCommand::SetBackground(background));
     }
-    if let Some(file) = session.sky_file() {
-        sky_row(ui, file.base_name(), commands);
+    if let Some(file) = cx.session.sky_file() {
+        sky_row(ui, cx, file.base_name());
     }
-    for file in session.skies() {
+    for file in cx.session.skies() {
         let words = format!("Use {} as sky", shortened(file.base_name(), 30));
-        if session.sky_file() != Some(file) && menu_item(ui, &words, MenuLine::Action).clicked() {
-            commands.push(FileCommand::UseSky(file.path.clone()).into());
+        if cx.session.sky_file() != Some(file) && menu_item(ui, &words, MenuLine::Action).clicked() {
+            cx.push(FileCommand::UseSky(file.path.clone()));
         }
     }
     if let Background::Color(color) = in_force {
         ui.add_space(8.0);
         if let Some(color) = color_picker(ui, "Background colour", color) {
-            commands.push(LookCommand::SetBackground(Background::Color(color)).into());
+            cx.push(LookCommand::SetBackground(Background::Color(color)));
         }
     }
 }
 
 /// The name of the sky that was dropped, and a button that takes it away.
-fn sky_row(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
+fn sky_row<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, name: &str) {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
         let tokens = Tokens::of(ui);
@@ -150,15 +151,15 @@ fn sky_row(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
         row.name(name, tokens.text);
         row.told(Role::Label, format!("Sky {name}"));
         if push_button(ui, Icon::Close, "Remove the sky").clicked() {
-            commands.push(FileCommand::ClearSky.into());
+            cx.push(FileCommand::ClearSky);
         }
     });
 }
 
 /// The passes: which are on, and for which the device is too slow.
-fn passes(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+fn passes<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
     section_name(ui, "Passes");
-    let quality = session.quality();
+    let quality = cx.session.quality();
     for pass in Pass::ALL {
         let state = quality.state(pass);
         let (choice, hint) = match state {
@@ -177,18 +178,18 @@ fn passes(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             tell_node(&row, |node| node.set_description("Drawn only at rest"));
         }
         if row.on_hover_text(hint).clicked() {
-            commands.push(QualityCommand::SetPass(pass, choice).into());
+            cx.push(QualityCommand::SetPass(pass, choice));
         }
     }
 }
 
 /// How finely the picture is drawn while it moves: what was chosen, and what is lowered.
-fn quality(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+fn quality<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
     section_name(ui, "While it moves");
-    let quality = session.quality();
+    let quality = cx.session.quality();
     let choices = QualityMode::ALL.map(|mode| (mode, mode.label()));
     if let Some(mode) = segmented(ui, "Quality while it moves", &choices, Some(quality.mode())) {
-        commands.push(QualityCommand::SetMode(mode).into());
+        cx.push(QualityCommand::SetMode(mode));
     }
     if let Some(lowered) = quality.lowered() {
         ui.add_space(4.0);
@@ -228,8 +229,8 @@ fn lowered_words(lowered: &Lowered) -> String {
 }
 
 /// What the GPU spent on each pass of a frame, where it tells that.
-fn pass_times(ui: &mut Ui, session: &Session, cost: &mut SteadyCost) {
-    let Some(gpu_secs) = cost.read(ui, session).gpu_secs else {
+fn pass_times(ui: &mut Ui, cx: &mut Cx<'_, SteadyCost>) {
+    let Some(gpu_secs) = cx.state.read(ui, cx.session).gpu_secs else {
         return;
     };
     popover_gap(ui);

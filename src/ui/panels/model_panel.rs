@@ -35,30 +35,29 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     bounds_row(ui, open);
     diagnostics_row(ui, cx.session, cx.state);
     let has_maps = cx.session.maps().checklist().named > 0;
+    let crowd = |ui: &mut Ui, cx: &mut Cx<'_, UiState>| crowd::show(ui, &mut cx.part(|state| &mut state.cost));
     // The rows of a phone are high: there the subsets come first.
-    let subsets_first = is_touch(ui);
-    if !subsets_first {
+    if is_touch(ui) {
+        rule(ui, MARGIN);
+        submesh_list(ui, cx, open);
+        rule(ui, MARGIN);
         findings::show_books_row(ui, cx.session, cx.state);
+        rule(ui, MARGIN);
+        crowd(ui, cx);
+        if has_maps {
+            rule(ui, MARGIN);
+            textures::show(ui, cx.session, open, cx.state);
+        }
+        return;
     }
-    if has_maps && !subsets_first {
+    findings::show_books_row(ui, cx.session, cx.state);
+    if has_maps {
         textures::show(ui, cx.session, open, cx.state);
     }
     rule(ui, MARGIN);
-    if !subsets_first {
-        crowd::show(ui, cx.session, &mut cx.state.cost, cx.commands);
-        rule(ui, MARGIN);
-    }
+    crowd(ui, cx);
+    rule(ui, MARGIN);
     submesh_list(ui, cx, open);
-    if subsets_first {
-        rule(ui, MARGIN);
-        findings::show_books_row(ui, cx.session, cx.state);
-        rule(ui, MARGIN);
-        crowd::show(ui, cx.session, &mut cx.state.cost, cx.commands);
-    }
-    if has_maps && subsets_first {
-        rule(ui, MARGIN);
-        textures::show(ui, cx.session, open, cx.state);
-    }
 }
 
 fn heading(ui: &mut Ui) {
@@ -198,7 +197,6 @@ pub(in crate::ui) fn shown_color(session: &Session, material: usize) -> [f32; 3]
     }
 }
 
-/// One row.
 struct SubmeshRow<'a> {
     index: usize,
     name: &'a str,

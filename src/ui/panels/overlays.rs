@@ -6,15 +6,15 @@ use super::skeleton::state::{SkeletonState, has_joints};
 use crate::actions;
 use crate::anim::{GHOST_STEP_FRAMES, GhostPlan};
 use crate::scene::{BoneStyle, Overlay, Overlays, joint_colors};
-use crate::session::{Command, GHOSTS_SRGB, LookCommand, MAX_LINE_LENGTH, PlayCommand, Session};
+use crate::session::{GHOSTS_SRGB, LookCommand, MAX_LINE_LENGTH, PlayCommand, Session};
 use crate::ui::cx::Cx;
-use crate::ui::frame::panel::popover_gap;
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::Tokens;
 use crate::ui::kit::{
     Row, Slider, action_switch, control_size, noted_switch_row, number_field, push_button, section_name,
     section_with_action, segmented, switch_row,
 };
+use crate::ui::window::panel::popover_gap;
 
 /// The ghosts when they are switched on.
 const FIRST_GHOSTS: GhostPlan = GhostPlan {
@@ -37,7 +37,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
         }
         let last_with_lines = overlay == Overlay::Tangents;
         if last_with_lines && (overlays.has(Overlay::Normals) || overlays.has(Overlay::Tangents)) {
-            line_length(ui, overlays.line_length, cx.commands);
+            line_length(ui, cx);
         }
     }
     skeleton_rows(ui, cx);
@@ -50,11 +50,12 @@ pub(in crate::ui) fn any_beside_the_grid(session: &Session) -> bool {
     lines.any(|overlay| overlays.has(overlay)) || any_of_skeleton(session)
 }
 
-fn line_length(ui: &mut Ui, length: f32, commands: &mut Vec<Command>) {
+fn line_length<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
+    let length = cx.session.look().overlays.line_length;
     let text = format!("{:.1} %", length * 100.0);
     let slider = Slider::new("Line length", length, 0.0..=MAX_LINE_LENGTH, &text);
     if let Some(length) = slider.reset_to(Overlays::default().line_length).show(ui) {
-        commands.push(LookCommand::SetLineLength(length).into());
+        cx.push(LookCommand::SetLineLength(length));
     }
 }
 
@@ -73,45 +74,45 @@ fn skeleton_rows(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
     let look = cx.session.look();
     popover_gap(ui);
     section_name(ui, "Skeleton");
-    action_switch(ui, cx.session, &actions::BONES, cx.commands);
+    action_switch(ui, cx, &actions::BONES);
     if look.bones_visible {
         let styles = BoneStyle::ALL.map(|style| (style, style.label()));
         if let Some(style) = segmented(ui, "Bones", &styles, Some(look.bone_style)) {
             cx.push(LookCommand::SetBoneStyle(style));
         }
     }
-    action_switch(ui, cx.session, &actions::BONE_NAMES, cx.commands);
+    action_switch(ui, cx, &actions::BONE_NAMES);
     popover_gap(ui);
     section_name(ui, "Pose");
-    bind_pose(ui, cx.session, cx.commands);
+    bind_pose(ui, cx);
     if cx.session.clip().is_some() {
-        ghosts(ui, cx.session, cx.commands);
+        ghosts(ui, cx);
         trails(ui, cx);
     }
 }
 
-fn bind_pose(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let weight = session.bind_weight();
-    if session.clip().is_some() {
+fn bind_pose<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
+    let weight = cx.session.bind_weight();
+    if cx.session.clip().is_some() {
         let toggle = &actions::BIND_POSE;
         if switch_row(ui, toggle.label, toggle.key(), weight >= 0.5).clicked() {
-            commands.extend(toggle.command(session));
+            cx.act(toggle);
         }
         let text = format!("{:.0} %", weight * 100.0);
         if let Some(weight) = Slider::new("To bind pose", weight, 0.0..=1.0, &text).show(ui) {
-            commands.push(PlayCommand::SetBindWeight(weight).into());
+            cx.push(PlayCommand::SetBindWeight(weight));
         }
     }
     let note = ("grey", FontId::proportional(12.0), ghost_color(ui, 2));
-    if noted_switch_row(ui, "Bind pose as a ghost", note, session.look().bind_ghost).clicked() {
-        commands.push(LookCommand::SetBindGhost(!session.look().bind_ghost).into());
+    if noted_switch_row(ui, "Bind pose as a ghost", note, cx.session.look().bind_ghost).clicked() {
+        cx.push(LookCommand::SetBindGhost(!cx.session.look().bind_ghost));
     }
 }
 
-fn ghosts(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let plan = session.look().ghosts;
+fn ghosts<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
+    let plan = cx.session.look().ghosts;
     if switch_row(ui, "Ghosts", "", plan.is_some()).clicked() {
-        commands.push(LookCommand::SetGhosts(plan.is_none().then_some(FIRST_GHOSTS)).into());
+        cx.push(LookCommand::SetGhosts(plan.is_none().then_some(FIRST_GHOSTS)));
     }
     let Some(plan) = plan else { return };
     ui.horizontal(|ui| {
@@ -141,7 +142,7 @@ fn ghosts(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             step_frames: step.unwrap_or(plan.step_frames),
         };
         if asked != plan {
-            commands.push(LookCommand::SetGhosts(Some(asked)).into());
+            cx.push(LookCommand::SetGhosts(Some(asked)));
         }
     });
     ui.add_space(6.0);

@@ -4,13 +4,13 @@ use egui::{Id, Rangef, Ui, UiBuilder, vec2};
 
 use crate::actions;
 use crate::session::Session;
-use crate::ui::frame::panel::popover_gap;
 use crate::ui::kit::theme::Tokens;
 use crate::ui::kit::{
-    MenuLine, TextButton, choices, control_size, menu_item, number_field, progress_bar, section_name, segmented,
+    MenuLine, TextButton, choices, choose, control_size, menu_item, number_field, progress_bar, section_name,
     switch_row,
 };
 use crate::ui::state::{MAX_PICTURE_SIDE, UiState};
+use crate::ui::window::panel::popover_gap;
 
 /// Sizes with a name, in pixels.
 const PRESETS: [(&str, [u32; 2]); 3] = [
@@ -21,10 +21,9 @@ const PRESETS: [(&str, [u32; 2]); 3] = [
 
 /// The most columns, and the most rows, of a contact sheet.
 const MOST_CELLS: u32 = 24;
-/// Width of the button that cancels one.
 const CANCEL_WIDTH: f32 = 70.0;
 
-/// The contents of the popover and of the sheet's page, below their title.
+/// The contents of the popover and of the drawer's page, below their title.
 pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let size = state.picture.size_in_pixels(ui);
     choices(ui, "Size", |ui| {
@@ -49,12 +48,8 @@ pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let transparent = &mut state.picture.transparent;
     *transparent ^= switch_row(ui, "Transparent ground", "", *transparent).clicked();
     popover_gap(ui);
-    let width = Rangef::point(ui.available_width());
-    if TextButton::new(actions::SAVE_PICTURE.label, &actions::SAVE_PICTURE.hint())
-        .width(width)
-        .show(ui)
-        .clicked()
-    {
+    let save = &actions::SAVE_PICTURE;
+    if TextButton::new(save.label, &save.hint()).show_wide(ui).clicked() {
         state.save_picture(ui, false);
     }
     if session.open_model().is_some() {
@@ -68,9 +63,7 @@ fn contact_sheet(ui: &mut Ui, session: &Session, state: &mut UiState) {
     section_name(ui, "Contact sheet");
     if session.clip().is_some() {
         let choices = [(false, "Clip"), (true, "Turntable")];
-        if let Some(turntable) = segmented(ui, "Contact sheet of", &choices, Some(state.picture.turntable)) {
-            state.picture.turntable = turntable;
-        }
+        choose(ui, "Contact sheet of", &choices, &mut state.picture.turntable);
         ui.add_space(8.0);
     }
     let cells = state.picture.cells;
@@ -84,10 +77,9 @@ fn contact_sheet(ui: &mut Ui, session: &Session, state: &mut UiState) {
     // One button in two shapes: the focus stays on it.
     let button = || UiBuilder::new().scope_id(Id::unique("contact sheet"));
     let Some(drawn) = &mut state.drawn_sheet else {
-        let width = Rangef::point(ui.available_width());
         let label = "Save contact sheet";
-        let save = TextButton::new(label, label).width(width);
-        if ui.scope_builder(button(), |ui| save.show(ui)).inner.clicked() {
+        let save = TextButton::new(label, label);
+        if ui.scope_builder(button(), |ui| save.show_wide(ui)).inner.clicked() {
             state.save_sheet(ui);
         }
         return;

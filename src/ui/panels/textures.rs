@@ -9,7 +9,7 @@ use crate::model::MapSlot;
 use crate::session::{Checklist, OpenModel, Session, UnreadableMap, UsedMap};
 use crate::ui::kit::theme::Tokens;
 use crate::ui::kit::wording::{counted, grouped};
-use crate::ui::kit::{Row, RowList, hint_beside, paint_fold_mark, tell_node};
+use crate::ui::kit::{Row, RowList, hint_beside, paint_fold_mark, rows_in_view, tell_node};
 use crate::ui::state::UiState;
 
 const THUMBNAIL: f32 = 30.0;
@@ -46,18 +46,6 @@ pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, stat
             ui.label(words.color(Tokens::of(ui).muted));
         }
     });
-}
-
-/// Lays out those of some rows that are seen.
-fn rows_in_view(ui: &mut Ui, height: f32, count: usize, mut row: impl FnMut(&mut Ui, usize)) {
-    let (top, seen) = (ui.cursor().min.y, ui.clip_rect());
-    let place = |y: f32| ((y - top) / height).clamp(0.0, count as f32);
-    let (first, end) = (place(seen.min.y).floor() as usize, place(seen.max.y).ceil() as usize);
-    ui.add_space(first as f32 * height);
-    for index in first..end {
-        row(ui, index);
-    }
-    ui.add_space(count.saturating_sub(end.max(first)) as f32 * height);
 }
 
 /// How many maps are there, and how many are not. A click opens and closes the list.
@@ -116,23 +104,8 @@ fn unreadable_row(ui: &mut Ui, open: &OpenModel, map: &UnreadableMap<'_>) -> Res
 
 /// A map that cannot be shown: an empty frame and its name in a colour, and words in the second line.
 fn absent_row(ui: &mut Ui, [name, words]: [&str; 2], color: Color32, details: &str) -> Response {
-    let tokens = Tokens::of(ui);
-    let mut row = Row::new(ui, MAP_ROW_HEIGHT);
-    let frame = frame_in(row.rect);
-    let outline = Stroke::new(1.0, color.gamma_multiply(0.5));
-    ui.painter().rect_stroke(frame, 4.0, outline, StrokeKind::Inside);
-    row.left = frame.max.x + 8.0;
-    row.y = row.rect.center().y - 8.0;
-    row.name(name, color);
-    row.y = row.rect.center().y + 8.0;
-    row.name_in(FontId::proportional(11.0), words, tokens.muted);
-    hint_beside(row.told(Role::ListItem, details), None, details)
-}
-
-/// The rect of a row's thumbnail.
-fn frame_in(row: Rect) -> Rect {
-    let center = pos2(row.min.x + THUMBNAIL * 0.5, row.center().y);
-    Rect::from_center_size(center, Vec2::splat(THUMBNAIL))
+    let outline = color.gamma_multiply(0.5);
+    framed_row(ui, outline, |_, _| {}, (name, color), (words, ""), details)
 }
 
 /// A row with the thumbnail of a map, its name, and in the second line what it holds.
@@ -144,28 +117,51 @@ pub(in crate::ui) fn picture_row(
     details: &str,
 ) -> Response {
     let tokens = Tokens::of(ui);
-    let mut row = Row::new(ui, MAP_ROW_HEIGHT);
-    let picture = frame_in(row.rect);
-    ui.painter().rect_filled(picture, 4.0, tokens.field);
-    if let Some(texture) = thumbnail {
-        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        ui.painter()
-            .add(RectShape::filled(picture, 4.0, Color32::WHITE).with_texture(texture, whole));
-    }
-    let outline = Stroke::new(1.0, tokens.hairline);
-    ui.painter().rect_stroke(picture, 4.0, outline, StrokeKind::Inside);
+    let size = format!("{}\u{2009}×\u{2009}{}", image.width(), image.height());
+    let picture = |ui: &Ui, frame: Rect| {
+        ui.painter().rect_filled(frame, 4.0, tokens.field);
+        if let Some(texture) = thumbnail {
+            let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            ui.painter()
+                .add(RectShape::filled(frame, 4.0, Color32::WHITE).with_texture(texture, whole));
+        }
+    };
+    let holds = holds(image);
+    framed_row(
+        ui,
+        tokens.hairline,
+        picture,
+        (name, tokens.text),
+        (&holds, &size),
+        details,
+    )
+}
 
-    row.left = picture.max.x + 8.0;
-    row.y = row.rect.center().y - 8.0;
-    row.name(name, tokens.text);
-    row.y = row.rect.center().y + 8.0;
-    let (size, small) = (
-        format!("{}\u{2009}×\u{2009}{}", image.width(), image.height()),
-        FontId::proportional(11.0),
-    );
-    row.right_in(small.clone(), &size, tokens.muted);
-    row.right -= 6.0;
-    row.name_in(small, &holds(image), tokens.muted);
+/// A row with a frame, and beside it a name in a colour above words at both ends.
+fn framed_row(
+    ui: &mut Ui,
+    outline: Color32,
+    in_frame: impl FnOnce(&Ui, Rect),
+    (name, color): (&str, Color32),
+    (words, at_end): (&str, &str),
+    details: &str,
+) -> Response {
+    let (muted, small) = (Tokens::of(ui).muted, FontId::proportional(11.0));
+    let mut row = Row::new(ui, MAP_ROW_HEIGHT);
+    let center = pos2(row.left + THUMBNAIL * 0.5, row.y);
+    let frame = Rect::from_center_size(center, Vec2::splat(THUMBNAIL));
+    in_frame(ui, frame);
+    ui.painter()
+        .rect_stroke(frame, 4.0, Stroke::new(1.0, outline), StrokeKind::Inside);
+    row.left = frame.max.x + 8.0;
+    row.y = center.y - 8.0;
+    row.name(name, color);
+    row.y = center.y + 8.0;
+    if !at_end.is_empty() {
+        row.right_in(small.clone(), at_end, muted);
+        row.right -= 6.0;
+    }
+    row.name_in(small, words, muted);
     hint_beside(row.told(Role::ListItem, details), None, details)
 }
 

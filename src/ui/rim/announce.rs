@@ -8,8 +8,8 @@ use crate::model::JointIndex;
 use crate::scene::{Light, Overlay, Overlays, Projection, ViewMode};
 use crate::session::{CrowdState, QualityMode, Session};
 
-use crate::ui::frame::message::Offer;
 use crate::ui::kit::wording::{counted, grouped};
+use crate::ui::window::message::Offer;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Announcement {

@@ -66,11 +66,11 @@ impl TimeAxis {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct TimeWindow {
+pub struct SeenTime {
     part_secs: Option<[f32; 2]>,
 }
 
-impl TimeWindow {
+impl SeenTime {
     /// Start and end of the visible part.
     pub fn span_secs(&self, whole_secs: [f32; 2]) -> [f32; 2] {
         self.part_secs.unwrap_or(whole_secs)

@@ -11,7 +11,6 @@ pub const MOST_RADIUS: f32 = 4.2;
 const LEAST_RADIUS: f32 = 1.6;
 /// Width of the outline of a hollow mark.
 const LINE_WIDTH: f32 = 1.2;
-/// The least radius of a hollow mark.
 const LEAST_HOLLOW_RADIUS: f32 = 2.4;
 const BAR_RADIUS: f32 = 1.5;
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::axis::TimeWindow;
+use super::axis::SeenTime;
 use super::curves::Curves;
 use super::loop_gap::LoopGapReading;
 use crate::model::{Clip, JointIndex};
@@ -33,7 +33,7 @@ pub(in crate::ui) struct TimelineState {
     pub(super) open: bool,
     pub(super) dragged_height: Option<f32>,
     pub(super) tab: SheetTab,
-    pub(super) window: TimeWindow,
+    pub(super) seen: SeenTime,
     pub(super) rows: Rows,
     pub(super) curves: Curves,
     pub(super) key_box: Option<KeyBox>,
@@ -61,12 +61,31 @@ impl TimelineState {
         };
         let of = Some((session.clips_revision(), index));
         if self.of != of {
-            self.window.show_all();
+            self.seen.show_all();
             self.key_box = None;
             self.cursor = None;
             self.of = of;
         }
         self.follow(session, clip);
+    }
+
+    /// With Shift the keys between where the cell was and where it is are chosen, from where it was when Shift began. Without they are let
+    /// go. `chose`: Shift had chosen some before.
+    pub(super) fn choose_keys<'a>(
+        &mut self,
+        (shift, chose): (bool, bool),
+        [from, to]: [Corner; 2],
+        joints_of: impl Fn(usize) -> Option<&'a [JointIndex]>,
+    ) {
+        if shift {
+            let key_box = match &mut self.key_box {
+                Some(key_box) if chose => key_box,
+                key_box => key_box.insert(KeyBox::at(from)),
+            };
+            key_box.stretch(to, joints_of);
+        } else {
+            self.key_box = None;
+        }
     }
 
     /// Notes that the dope sheet is shown in a frame. Returns whether it was opened in it.
@@ -82,7 +101,7 @@ impl TimelineState {
     fn follow(&mut self, session: &Session, clip: &Clip) {
         let time_secs = session.playback().time_secs();
         let whole_secs = [clip.start_secs, clip.end_secs];
-        let [start_secs, end_secs] = self.window.span_secs(whole_secs);
+        let [start_secs, end_secs] = self.seen.span_secs(whole_secs);
         let seen = (start_secs..=end_secs).contains(&time_secs);
         if !seen && self.head_was_seen && session.is_animating() {
             let length_secs = end_secs - start_secs;
@@ -92,7 +111,7 @@ impl TimelineState {
                 time_secs
             };
             let frame_secs = 1.0 / clip.keys_per_sec;
-            self.window
+            self.seen
                 .show(whole_secs, frame_secs, [start_secs, start_secs + length_secs]);
         } else {
             self.head_was_seen = seen;
@@ -134,11 +153,14 @@ impl TimelineState {
     }
 }
 
+/// A time, and a row with its fraction.
+pub(super) type Corner = (f32, f32);
+
 /// A time span, and the joints whose keys in it are chosen.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct KeyBox {
-    /// Where the drag began: a time, and a row with its fraction.
-    pub(super) from: (f32, f32),
+    /// Where the drag began.
+    pub(super) from: Corner,
     /// Start and end, in order.
     pub(super) span_secs: [f32; 2],
     /// The joints of the rows that it covers.
@@ -146,8 +168,7 @@ pub(super) struct KeyBox {
 }
 
 impl KeyBox {
-    /// An empty box at a time and a row with its fraction.
-    pub(super) fn at(from: (f32, f32)) -> Self {
+    pub(super) fn at(from: Corner) -> Self {
         Self {
             from,
             span_secs: [from.0; 2],
@@ -157,7 +178,7 @@ impl KeyBox {
 
     pub(super) fn stretch<'a>(
         &mut self,
-        (time_secs, row): (f32, f32),
+        (time_secs, row): Corner,
         joints_of: impl Fn(usize) -> Option<&'a [JointIndex]>,
     ) {
         let (from_secs, from_row) = self.from;

@@ -2,20 +2,121 @@
 
 use egui::{Align2, FontId, Key, PointerButton, Rangef, Rect, Response, Sense, Stroke, Ui, UiBuilder, pos2, vec2};
 
-use super::axis::TimeAxis;
+use super::axis::{END_ROOM, TimeAxis};
 use super::state::{KeyBox, TimelineState};
 use crate::anim::Direction;
 use crate::model::Clip;
-use crate::session::{Command, PlayCommand, Session};
+use crate::session::{Command, OpenModel, PlayCommand, Session};
 use crate::ui::cx::Cx;
-use crate::ui::kit::theme::Tokens;
-use crate::ui::kit::{SliderNode, by_finger, control_size, focus_ring, focused_keys, is_touch, segmented};
+use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};
+use crate::ui::kit::{SliderNode, by_finger, choose, control_size, focus_ring, focused_keys, is_touch};
 
 pub(super) const RULER_HEIGHT: f32 = 24.0;
 /// Width of a label with the gap to the next one.
 const LABEL_SPACING: f32 = 92.0;
 /// The least distance of ticks of single frames.
 const TICK_SPACING: f32 = 5.0;
+
+/// Where dope sheet and curves are: a ruler over times, right of a column of names.
+pub(super) struct TimeArea<'a> {
+    pub(super) session: &'a Session,
+    pub(super) open: &'a OpenModel,
+    pub(super) clip_index: usize,
+    pub(super) clip: &'a Clip,
+    pub(super) whole: Rect,
+    /// All of it but the names.
+    pub(super) times: Rect,
+    pub(super) ruler: Rect,
+    pub(super) axis: TimeAxis,
+}
+
+impl<'a> TimeArea<'a> {
+    /// The rest of what is available, with its ground. None without a clip.
+    pub(super) fn new(ui: &Ui, cx: &Cx<'a, TimelineState>) -> Option<Self> {
+        let (session, clip) = (cx.session, cx.session.clip()?);
+        let whole = ui.available_rect_before_wrap();
+        let names = if whole.width() < 600.0 { 124.0 } else { 196.0 };
+        let times = whole.with_min_x(whole.min.x + names);
+        let span_secs = cx.state.seen.span_secs([clip.start_secs, clip.end_secs]);
+        ui.painter().rect_filled(times, CONTROL_RADIUS, Tokens::of(ui).field);
+        Some(Self {
+            session,
+            open: session.open_model()?,
+            clip_index: session.clip_index()?,
+            clip,
+            whole,
+            times,
+            ruler: times.with_max_y(times.min.y + RULER_HEIGHT),
+            axis: TimeAxis::new(times.x_range(), END_ROOM, span_secs),
+        })
+    }
+
+    /// The ruler as a control: a press or drag moves the time.
+    pub(super) fn show_ruler(&self, ui: &Ui, cx: &mut Cx<'_, TimelineState>) -> Response {
+        let response = ui.interact(self.ruler, ui.scope_id().with("ruler"), Sense::click_and_drag());
+        scrub(&response, &self.axis, cx.commands);
+        time_slider(ui, cx, self.clip, "Ruler", &response);
+        focus_ring(ui, self.ruler, &response);
+        response
+    }
+
+    /// The time span of chosen keys, on the ruler.
+    pub(super) fn paint_chosen(&self, ui: &Ui, key_box: &KeyBox) {
+        let x = key_box
+            .span_secs
+            .map(|secs| self.axis.points().clamp(self.axis.x_of(secs)));
+        let band = Rect::from_x_y_ranges(x[0]..=x[1], self.ruler.y_range());
+        ui.painter().rect_filled(band, 0.0, Tokens::of(ui).accent_ground);
+    }
+
+    /// The play head with a handle in the ruler.
+    pub(super) fn paint_head(&self, ui: &Ui) {
+        let top = self.ruler.max.y - 6.0;
+        paint_head(ui, self.session, &self.axis, Rangef::new(top, self.times.max.y));
+        let x = self.axis.x_of(self.session.playback().time_secs());
+        if self.axis.points().expand(1.0).contains(x) {
+            let handle = Rect::from_center_size(pos2(x, top), vec2(9.0, 9.0));
+            ui.painter().rect_filled(handle, 2.5, Tokens::of(ui).accent);
+        }
+    }
+
+    /// Draws ticks and labels, and faint lines down to the end of the area.
+    pub(super) fn paint_ruler(&self, ui: &Ui) {
+        let Self {
+            clip,
+            axis,
+            times,
+            ruler: rect,
+            ..
+        } = self;
+        let (tokens, bottom) = (Tokens::of(ui), times.max.y);
+        let painter = ui.painter().with_clip_rect(*times);
+        let last_frame = clip.last_frame();
+        let points_per_frame = axis.points_per_sec() / clip.keys_per_sec;
+        if points_per_frame >= TICK_SPACING {
+            for frame in seen_frames(clip, axis, 1) {
+                let x = axis.x_of(clip.time_of_frame(frame));
+                painter.vline(x, rect.max.y - 4.0..=rect.max.y, Stroke::new(1.0, tokens.hairline));
+            }
+        }
+        let step = label_step(
+            clip.keys_per_sec,
+            LABEL_SPACING / points_per_frame.max(f32::MIN_POSITIVE),
+            last_frame,
+        );
+        for frame in seen_frames(clip, axis, step) {
+            let time_secs = clip.time_of_frame(frame);
+            let x = axis.x_of(time_secs);
+            painter.vline(x, rect.max.y - 7.0..=rect.max.y, Stroke::new(1.0, tokens.faint));
+            painter.vline(x, rect.max.y..=bottom, Stroke::new(1.0, tokens.hairline));
+            let at = pos2(x + 4.0, rect.center().y - 1.0);
+            let secs = format!("{} s", seconds(time_secs));
+            let drawn = painter.text(at, Align2::LEFT_CENTER, secs, FontId::proportional(11.0), tokens.muted);
+            let at = pos2(drawn.max.x + 6.0, at.y);
+            painter.text(at, Align2::LEFT_CENTER, frame, FontId::proportional(11.0), tokens.faint);
+        }
+    }
+}
 
 /// Moves the time with a drag. Two fingers pan and zoom instead.
 pub(super) fn scrub(response: &Response, axis: &TimeAxis, commands: &mut Vec<Command>) {
@@ -51,34 +152,6 @@ pub(super) fn paint_head(ui: &Ui, session: &Session, axis: &TimeAxis, height: Ra
     if axis.points().expand(1.0).contains(x) {
         ui.painter().vline(x, height, Stroke::new(2.0, Tokens::of(ui).accent));
     }
-}
-
-/// The play head with a handle in the ruler.
-pub(super) fn paint_head_below_ruler(ui: &Ui, session: &Session, axis: &TimeAxis, ruler: Rect, bottom: f32) {
-    paint_head(ui, session, axis, Rangef::new(ruler.max.y - 6.0, bottom));
-    let x = axis.x_of(session.playback().time_secs());
-    if axis.points().expand(1.0).contains(x) {
-        let handle = Rect::from_center_size(pos2(x, ruler.max.y - 6.0), vec2(9.0, 9.0));
-        ui.painter().rect_filled(handle, 2.5, Tokens::of(ui).accent);
-    }
-}
-
-/// The time span of chosen keys, on the ruler.
-pub(super) fn paint_chosen(ui: &Ui, key_box: &KeyBox, axis: &TimeAxis, ruler: Rect) {
-    let [start, end] = key_box.span_secs.map(|secs| axis.points().clamp(axis.x_of(secs)));
-    let band = Rect::from_x_y_ranges(start..=end, ruler.y_range());
-    ui.painter().rect_filled(band, 0.0, Tokens::of(ui).accent_ground);
-}
-
-/// The ruler as a control: a press or drag moves the time.
-pub(super) fn ruler(ui: &Ui, cx: &mut Cx<'_, TimelineState>, axis: &TimeAxis, rect: Rect) -> Response {
-    let response = ui.interact(rect, ui.scope_id().with("ruler"), Sense::click_and_drag());
-    scrub(&response, axis, cx.commands);
-    if let Some(clip) = cx.session.clip() {
-        time_slider(ui, cx, clip, "Ruler", &response);
-    }
-    focus_ring(ui, rect, &response);
-    response
 }
 
 /// The time as a slider for keyboards and screen readers: arrows go by a frame, with Shift by ten; Page Up and Page Down from key to key.
@@ -145,13 +218,13 @@ pub(super) fn navigate(
         let (zoom, scroll) = ui.input(|input| (input.zoom_delta(), input.smooth_scroll_delta().x));
         if zoom != 1.0 {
             let around_secs = axis.seen_time_at(pointer.x);
-            state.window.zoom(whole_secs, frame_secs, zoom, around_secs);
+            state.seen.zoom(whole_secs, frame_secs, zoom, around_secs);
         }
         pan_points += scroll;
     }
     if pan_points != 0.0 && axis.points_per_sec() > 0.0 {
         let by_secs = -pan_points / axis.points_per_sec();
-        state.window.pan(whole_secs, frame_secs, by_secs);
+        state.seen.pan(whole_secs, frame_secs, by_secs);
     }
 }
 
@@ -174,10 +247,10 @@ pub(super) const SLIDER_KEYS: &[Key] = GRID_KEYS.split_at(8).0;
 /// Pans so that a time is seen.
 pub(super) fn bring_into_view(clip: &Clip, secs: f32, state: &mut TimelineState) {
     let whole_secs = [clip.start_secs, clip.end_secs];
-    let [start_secs, end_secs] = state.window.span_secs(whole_secs);
+    let [start_secs, end_secs] = state.seen.span_secs(whole_secs);
     let by_secs = (secs - end_secs).max(0.0) + (secs - start_secs).min(0.0);
     if by_secs != 0.0 {
-        state.window.pan(whole_secs, 1.0 / clip.keys_per_sec, by_secs);
+        state.seen.pan(whole_secs, 1.0 / clip.keys_per_sec, by_secs);
     }
 }
 
@@ -187,49 +260,11 @@ pub(super) fn segmented_of_width<T: Copy + PartialEq>(
     width: f32,
     name: &str,
     choices: &[(T, &str)],
-    in_force: T,
-) -> Option<T> {
+    value: &mut T,
+) {
     let (rect, _) = ui.allocate_exact_size(vec2(width, control_size(ui)), Sense::hover());
     let mut child = ui.new_child(UiBuilder::new().max_rect(rect).id_salt(name));
-    segmented(&mut child, name, choices, Some(in_force))
-}
-
-/// The x where names end and time begins.
-pub(super) fn split_x(area: Rect) -> f32 {
-    let names = if area.width() < 600.0 { 124.0 } else { 196.0 };
-    area.min.x + names
-}
-
-/// Draws ticks and labels in `rect`, and faint lines down to `bottom`.
-pub(super) fn paint_ruler(ui: &Ui, clip: &Clip, axis: &TimeAxis, rect: Rect, bottom: f32) {
-    let tokens = Tokens::of(ui);
-    let painter = ui
-        .painter()
-        .with_clip_rect(Rect::from_x_y_ranges(rect.x_range(), rect.min.y..=bottom));
-    let last_frame = clip.last_frame();
-    let points_per_frame = axis.points_per_sec() / clip.keys_per_sec;
-    if points_per_frame >= TICK_SPACING {
-        for frame in seen_frames(clip, axis, 1) {
-            let x = axis.x_of(clip.time_of_frame(frame));
-            painter.vline(x, rect.max.y - 4.0..=rect.max.y, Stroke::new(1.0, tokens.hairline));
-        }
-    }
-    let step = label_step(
-        clip.keys_per_sec,
-        LABEL_SPACING / points_per_frame.max(f32::MIN_POSITIVE),
-        last_frame,
-    );
-    for frame in seen_frames(clip, axis, step) {
-        let time_secs = clip.time_of_frame(frame);
-        let x = axis.x_of(time_secs);
-        painter.vline(x, rect.max.y - 7.0..=rect.max.y, Stroke::new(1.0, tokens.faint));
-        painter.vline(x, rect.max.y..=bottom, Stroke::new(1.0, tokens.hairline));
-        let at = pos2(x + 4.0, rect.center().y - 1.0);
-        let secs = format!("{} s", seconds(time_secs));
-        let drawn = painter.text(at, Align2::LEFT_CENTER, secs, FontId::proportional(11.0), tokens.muted);
-        let at = pos2(drawn.max.x + 6.0, at.y);
-        painter.text(at, Align2::LEFT_CENTER, frame, FontId::proportional(11.0), tokens.faint);
-    }
+    choose(&mut child, name, choices, value);
 }
 
 /// Every `step`th frame in view, and one more on the left whose label reaches into view.

@@ -1,6 +1,6 @@
 //! Time along a width.
 
-use bindpose::ui::for_tests::{END_ROOM, TimeAxis, TimeWindow};
+use bindpose::ui::for_tests::{END_ROOM, SeenTime, TimeAxis};
 use egui::Rangef;
 
 const WHOLE: [f32; 2] = [0.5, 10.5];
@@ -28,9 +28,9 @@ fn a_stretch_without_length_and_a_width_without_room_are_a_place() {
 
 #[test]
 fn zooming_keeps_the_time_under_the_pointer_and_ends_at_both_ends() {
-    let mut window = TimeWindow::default();
+    let mut window = SeenTime::default();
     let width = Rangef::new(0.0, 1000.0);
-    let axis = |window: &TimeWindow| TimeAxis::new(width, END_ROOM, window.span_secs(WHOLE));
+    let axis = |window: &SeenTime| TimeAxis::new(width, END_ROOM, window.span_secs(WHOLE));
     let before = axis(&window).x_of(4.0);
     window.zoom(WHOLE, FRAME, 5.0, 4.0);
     assert!(window.is_part());
@@ -46,7 +46,7 @@ fn zooming_keeps_the_time_under_the_pointer_and_ends_at_both_ends() {
 
 #[test]
 fn panning_stays_inside_and_the_whole_cannot_be_panned() {
-    let mut window = TimeWindow::default();
+    let mut window = SeenTime::default();
     window.pan(WHOLE, FRAME, 1.0);
     assert_eq!(window.span_secs(WHOLE), WHOLE);
     window.show(WHOLE, FRAME, [2.0, 4.0]);

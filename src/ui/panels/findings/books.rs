@@ -15,6 +15,7 @@ use crate::ui::kit::theme::Tokens;
 use crate::ui::kit::wording::counted;
 use crate::ui::kit::{TextButton, hint_beside, paint_fold_mark, paint_row_ground, pressed_row_height, tell_open};
 use crate::ui::panels::error_card::show_excerpt;
+use crate::ui::panels::export;
 use crate::ui::state::{Request, UiState};
 
 /// The row of the model panel: what the demo of the file's own book does. That the other book's reads no such file is no news. It opens the
@@ -71,6 +72,7 @@ fn wrapped_row(ui: &mut Ui, job: LayoutJob) -> (Rect, Response, Arc<Galley>, f32
 
 /// A line for each book, and below it what one sees and why while it is unfolded.
 pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState) {
+    let mut exported_for = None;
     for (verdict, lines) in session.verdicts().iter().zip(&mut state.findings.books).rev() {
         let response = line(ui, verdict, lines.is_some());
         if tell_fold(ui, &response, lines.is_some()) {
@@ -88,16 +90,19 @@ pub(super) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut
                     ui.add_space(8.0);
                     let name = format!("Export for this book: {}", verdict.book.label());
                     if TextButton::new("Export for this book", &name).show(ui).clicked() {
-                        state.export.options.format = match verdict.book {
-                            Book::D3d11 => ExportFormat::D3d11,
-                            Book::D3d12 => ExportFormat::D3d12,
-                        };
-                        state.export.options.for_book = true;
-                        state.wants_export = true;
+                        exported_for = Some(verdict.book);
                     }
                 }
             });
         }
+    }
+    if let Some(book) = exported_for {
+        state.export.options.format = match book {
+            Book::D3d11 => ExportFormat::D3d11,
+            Book::D3d12 => ExportFormat::D3d12,
+        };
+        state.export.options.for_book = true;
+        export::open(ui, state);
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::diagnostic::{Moment, Subject};
-use crate::model::JointIndex;
+use crate::model::Submesh;
 use crate::session::{Command, JointCommand, OpenModel, PlayCommand, Session, SubmeshCommand, named_maps};
 use crate::ui::cx::Cx;
 use crate::ui::kit::wording::grouped;
@@ -22,73 +22,58 @@ pub struct Goal {
 impl Goal {
     /// How to show a subject, and of a clip the moment. None if the model lacks it, or if no submesh has this material.
     pub fn of(session: &Session, open: &OpenModel, subject: Subject, moment: Moment) -> Option<Self> {
-        let mesh = &open.model.mesh;
+        let (model, mesh) = (&open.model, &open.model.mesh);
+        let goal = |words, page, commands| Some(Self { words, commands, page });
         match subject {
-            Subject::Bone(bone) => Some(Self::bone(session, joint_of(open, bone)?)),
-            Subject::Vertex(vertex) => ((vertex as usize) < mesh.vertex_count()).then(|| Self::vertex(vertex)),
-            Subject::Triangle(triangle) => mesh.triangle(triangle).map(|_| Self {
-                words: format!("Triangle {}", grouped(triangle as usize)),
-                commands: vec![JointCommand::SelectTriangle(triangle).into()],
-                page: None,
-            }),
+            Subject::Bone(bone) => {
+                let joint = *model.skeleton.joint_of_bone().get(bone as usize)?;
+                let select = JointCommand::Select(Some(joint)).into();
+                let commands = vec![JointCommand::SelectVertex(None).into(), select];
+                goal(session.joint_label(joint), Some(SidePage::Skeleton), commands)
+            }
+            Subject::Vertex(vertex) if (vertex as usize) < mesh.vertex_count() => {
+                let select = JointCommand::SelectVertex(Some(vertex)).into();
+                let commands = vec![JointCommand::Select(None).into(), select];
+                goal(format!("Vertex {}", grouped(vertex as usize)), None, commands)
+            }
+            Subject::Vertex(_) => None,
+            Subject::Triangle(triangle) => {
+                mesh.triangle(triangle)?;
+                let commands = vec![JointCommand::SelectTriangle(triangle).into()];
+                goal(format!("Triangle {}", grouped(triangle as usize)), None, commands)
+            }
             Subject::Subset(submesh) => {
-                let submesh = submesh as usize;
-                (submesh < mesh.submeshes.len()).then(|| Self::submesh(session, submesh, format!("Subset {submesh}")))
+                mesh.submeshes.get(submesh as usize)?;
+                Some(Self::submesh(session, submesh as usize, format!("Subset {submesh}")))
             }
             Subject::Material(material) => {
-                let has_it = |submesh: &crate::model::Submesh| submesh.material == material;
+                let has_it = |submesh: &Submesh| submesh.material == material;
                 let submesh = mesh.submeshes.iter().position(has_it)?;
-                let name = &open.model.materials.get(material as usize)?.name;
+                let name = &model.materials.get(material as usize)?.name;
                 Some(Self::submesh(session, submesh, format!("Material {name}")))
             }
             Subject::Map(map) => {
-                let (material, ..) = named_maps(&open.model.materials).nth(map as usize)?;
+                let (material, ..) = named_maps(&model.materials).nth(map as usize)?;
                 Self::of(session, open, Subject::Material(material as u32), moment)
             }
             Subject::Clip(clip) => {
-                let name = &open.model.clips.get(clip as usize)?.name;
-                let mut goal = Self {
-                    words: format!("Clip {name}"),
-                    // The timeline shows it.
-                    commands: vec![PlayCommand::SelectClip(clip as usize).into()],
-                    page: None,
-                };
+                let name = &model.clips.get(clip as usize)?.name;
+                // The timeline shows it.
+                let commands = vec![PlayCommand::SelectClip(clip as usize).into()];
+                let mut goal = goal(format!("Clip {name}"), None, commands)?;
                 if let Some(time_secs) = moment.time_secs {
                     write!(goal.words, " at {time_secs:.2} s").ok()?;
                     goal.commands.push(PlayCommand::Pause.into());
                     goal.commands.push(PlayCommand::Seek { time_secs }.into());
                 }
-                if let Some(joint) = moment.bone.and_then(|bone| joint_of(open, bone)) {
-                    let bone = Self::bone(session, joint);
+                let bone = moment.bone.map(Subject::Bone);
+                if let Some(bone) = bone.and_then(|bone| Self::of(session, open, bone, moment)) {
                     write!(goal.words, ", {}", bone.words).ok()?;
                     goal.commands.extend(bone.commands);
                     goal.page = bone.page;
                 }
                 Some(goal)
             }
-        }
-    }
-
-    fn bone(session: &Session, joint: JointIndex) -> Self {
-        Self {
-            words: session.joint_label(joint),
-            commands: vec![
-                JointCommand::SelectVertex(None).into(),
-                // While bones are hidden it is drawn alone.
-                JointCommand::Select(Some(joint)).into(),
-            ],
-            page: Some(SidePage::Skeleton),
-        }
-    }
-
-    fn vertex(vertex: u32) -> Self {
-        Self {
-            words: format!("Vertex {}", grouped(vertex as usize)),
-            commands: vec![
-                JointCommand::Select(None).into(),
-                JointCommand::SelectVertex(Some(vertex)).into(),
-            ],
-            page: None,
         }
     }
 
@@ -115,9 +100,4 @@ impl Goal {
         }
         cx.commands.extend(self.commands);
     }
-}
-
-/// The joint of a bone of the file.
-fn joint_of(open: &OpenModel, bone: u32) -> Option<JointIndex> {
-    open.model.skeleton.joint_of_bone().get(bone as usize).copied()
 }

@@ -10,17 +10,19 @@ pub(in crate::ui) mod state;
 pub(in crate::ui) use books::show_row as show_books_row;
 
 use std::cmp::Reverse;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 
 use egui::{RichText, Ui};
 
 use crate::diagnostic::Diagnostic;
 use crate::session::{OpenModel, Session};
 use crate::ui::cx::Cx;
-use crate::ui::frame::panel::scrolled;
 use crate::ui::kit::theme::{MARGIN, Tokens};
 use crate::ui::kit::wording::{counted, counted_vertices};
 use crate::ui::kit::{RowList, TextButton, closable_heading, control_size, is_touch, rule};
-use crate::ui::state::{Request, SheetPage, UiState};
+use crate::ui::state::{DrawerPage, Request, UiState};
+use crate::ui::window::arrangement::Arrangement;
+use crate::ui::window::panel::scrolled;
 use row::{FindingRow, row_height};
 
 /// Gap between the parts of the panel.
@@ -30,12 +32,13 @@ const LEAST_SCROLLED: f32 = 60.0;
 /// Rows are laid out this far out of view, so that Tab and the arrow keys find the next ones.
 const BEYOND_VIEW: f32 = 400.0;
 
-/// Shows or hides them; in a narrow window in the sheet.
-pub(in crate::ui) fn toggle(state: &mut UiState, is_wide: bool) {
-    let in_sheet = matches!(state.sheet, Some(SheetPage::Model | SheetPage::Selection));
-    state.diagnostics_open = !(state.diagnostics_open && (is_wide || in_sheet));
+/// Shows or hides them; in a narrow window in the drawer.
+pub(in crate::ui) fn toggle(ui: &Ui, state: &mut UiState) {
+    let is_wide = Arrangement::here(ui) == Arrangement::Wide;
+    let in_drawer = state.drawer.is_some_and(DrawerPage::is_tab);
+    state.diagnostics_open = !(state.diagnostics_open && (is_wide || in_drawer));
     if !is_wide {
-        state.sheet = state.diagnostics_open.then_some(SheetPage::Model);
+        state.drawer = state.diagnostics_open.then_some(DrawerPage::Model);
     }
 }
 
@@ -106,8 +109,15 @@ fn nothing_found(ui: &mut Ui, session: &Session, open: &OpenModel) {
 
 /// The rows, of which only those near the view are laid out.
 fn rows(ui: &mut Ui, cx: &mut Cx<'_, UiState>, open: &OpenModel, listed: &[&Diagnostic]) {
-    let height_of = |diagnostic: &Diagnostic| row_height(ui, cx.session, open, diagnostic);
-    let heights = cx.state.findings.heights.take_of(ui, listed, height_of);
+    let mut hasher = DefaultHasher::new();
+    ui.available_width().to_bits().hash(&mut hasher);
+    for diagnostic in listed {
+        (diagnostic.code, diagnostic.position, diagnostic.message.as_str()).hash(&mut hasher);
+    }
+    let height_of = |diagnostic: &&Diagnostic| row_height(ui, cx.session, open, diagnostic);
+    // Finding them lays out the words of all.
+    let mut kept = std::mem::take(&mut cx.state.findings.heights);
+    let heights = kept.of(hasher.finish(), || listed.iter().map(height_of).collect());
     let seen = ui.clip_rect().y_range();
     RowList::show(ui, "Findings", |ui, list| {
         let (mut y, mut skipped) = (ui.cursor().min.y, 0.0);
@@ -131,7 +141,7 @@ fn rows(ui: &mut Ui, cx: &mut Cx<'_, UiState>, open: &OpenModel, listed: &[&Diag
         }
         ui.add_space(skipped);
     });
-    cx.state.findings.heights.put_back(heights);
+    cx.state.findings.heights = kept;
 }
 
 /// Buttons that copy and save all of it.

@@ -1,6 +1,5 @@
 //! The row of a finding: a click unfolds the lines of the file, how to mend it and all its places, and goes to what it is about.
 
-use egui::accesskit::Action;
 use egui::text::{LayoutJob, TextFormat};
 use egui::{CursorIcon, FontId, Response, RichText, Role, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
@@ -13,15 +12,15 @@ use crate::session::{Command, MaterialCommand, OpenModel, Session};
 use crate::ui::cx::Cx;
 use crate::ui::kit::theme::{self, Tokens};
 use crate::ui::kit::wording::grouped;
-use crate::ui::kit::{Row, RowList, TextButton, paint_elided, paint_row_ground, tell_node};
+use crate::ui::kit::{Row, RowList, TextButton, paint_elided, paint_row_ground, tell_folds, tell_node};
 use crate::ui::panels::error_card::{expected_and_found, show_excerpt};
+use crate::ui::panels::export;
 use crate::ui::state::{Request, UiState};
 
 /// Where the words of a line begin, behind its dot.
 pub(super) const INDENT: f32 = 16.0;
 const AROUND: f32 = 12.0;
 
-/// A row of the list.
 pub(super) struct FindingRow<'a> {
     pub(super) diagnostic: &'a Diagnostic,
     /// Its index, and how many there are.
@@ -219,7 +218,7 @@ fn permanence(ui: &mut Ui, code: &Code, state: &mut UiState) {
     ui.add_space(4.0);
     let button = TextButton::new(actions::EXPORT.label, "Export the model as it is mended");
     if button.show(ui).on_hover_text(actions::EXPORT.hint()).clicked() {
-        state.wants_export = true;
+        export::open(ui, state);
     }
 }
 
@@ -248,12 +247,8 @@ fn about(ui: &mut Ui, words: Option<&str>, code: &'static str, requests: &mut Ve
 
 /// Tells programs that read the screen whether something is unfolded. Returns whether the person wants it to be otherwise.
 pub(super) fn tell_fold(ui: &Ui, response: &Response, is_open: bool) -> bool {
-    let action = if is_open { Action::Collapse } else { Action::Expand };
-    tell_node(response, |node| {
-        // A row of a list is drawn as the chosen one too.
-        node.clear_selected();
-        node.set_expanded(is_open);
-        node.add_action(action);
-    });
-    response.clicked() || ui.input(|input| input.has_accesskit_action_request(response.id, action))
+    // A row of a list is drawn as the chosen one too.
+    tell_node(response, |node| node.clear_selected());
+    let asked = tell_folds(ui, response.id, is_open);
+    response.clicked() || asked
 }

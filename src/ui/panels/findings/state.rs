@@ -1,14 +1,11 @@
 //! What of the findings is open, chosen and typed.
 
-use std::hash::{DefaultHasher, Hash as _, Hasher as _};
-
-use egui::Ui;
-
 use super::filter::Filter;
 use crate::check::book::Verdict;
 use crate::diagnostic::Diagnostic;
 use crate::format::Excerpt;
 use crate::session::{OpenModel, Session};
+use crate::ui::kit::Kept;
 
 /// Of one model.
 #[derive(Debug, Default)]
@@ -17,7 +14,8 @@ pub(in crate::ui) struct FindingsState {
     /// Books whose lines are unfolded, in the order of the verdicts, with the lines of the file.
     pub(super) books: [Option<BookLines>; 2],
     pub(super) shown: Option<ShownDiagnostic>,
-    pub(super) heights: Heights,
+    /// Heights of the rows in some width, by a hash of it and of their words.
+    pub(super) heights: Kept<u64, Vec<f32>>,
 }
 
 /// The lines of the file around the place at which a book's program goes wrong.
@@ -91,38 +89,5 @@ impl FindingsState {
     pub(super) fn unfolded_height_of(&self, diagnostic: &Diagnostic) -> f32 {
         let shown = self.shown.as_ref().filter(|_| self.is_shown(diagnostic));
         shown.map_or(0.0, |shown| shown.height)
-    }
-}
-
-/// Heights of the rows. They are kept, since finding them lays out the words of all.
-#[derive(Debug, Default)]
-pub(super) struct Heights {
-    of: u64,
-    all: Vec<f32>,
-}
-
-impl Heights {
-    /// The heights of the rows of these diagnostics in the width that is available; [`Heights::put_back`] keeps them.
-    pub(super) fn take_of(
-        &mut self,
-        ui: &Ui,
-        listed: &[&Diagnostic],
-        height_of: impl Fn(&Diagnostic) -> f32,
-    ) -> Vec<f32> {
-        let mut hasher = DefaultHasher::new();
-        ui.available_width().to_bits().hash(&mut hasher);
-        for diagnostic in listed {
-            (diagnostic.code, diagnostic.position, diagnostic.message.as_str()).hash(&mut hasher);
-        }
-        let of = hasher.finish();
-        if self.of != of || self.all.len() != listed.len() {
-            self.of = of;
-            self.all = listed.iter().map(|diagnostic| height_of(diagnostic)).collect();
-        }
-        std::mem::take(&mut self.all)
-    }
-
-    pub(super) fn put_back(&mut self, all: Vec<f32>) {
-        self.all = all;
     }
 }

@@ -94,8 +94,7 @@ pub(in crate::ui) fn show_legend(
         }
         LegendShape::Strip => strip(ui, view, &title),
     }
-    let wide = Rangef::point(ui.available_width());
-    offers && choose_bone(ui, wide)
+    offers && choose_bone(ui, Rangef::point(ui.available_width()))
 }
 
 fn choose_bone(ui: &mut Ui, width: Rangef) -> bool {

@@ -1,12 +1,11 @@
 //! The selected joint: its parent and children, its transform now, its matrices and keys. Above it the selected vertex.
 
 use egui::style::ScrollAnimation;
-use egui::{Align, Align2, FontId, Id, Rangef, Rect, Response, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align, Align2, FontId, Id, Rect, Response, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::numbers::{FINAL_EXPLAINED, OFFSET_EXPLAINED, fitted, show_matrix, show_meaning, show_parts};
 use super::state::{KeyList, KeyPart, SkeletonState, Space};
 use super::vertex_panel;
-use super::walk::{focus_row, labelled, row_sense, tell_row};
 use crate::actions;
 use crate::anim::{JointReadout, KeyRow, key_rows, key_table};
 use crate::check::book::MOST_BONES;
@@ -16,14 +15,14 @@ use crate::ui::cx::Cx;
 use crate::ui::kit::theme::{self, CONTROL_RADIUS, MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::kit::wording::{counted, counted_vertices, grouped};
 use crate::ui::kit::{
-    Row, TextButton, explained, explained_section, explained_segmented, focus_ring, is_touch, paint_name,
-    paint_row_ground, pressed_row_height, rule, section_with_action, section_with_labelled_action, segmented,
-    selected_heading, switch_row, value_row, walked,
+    DrawnRows, Row, TextButton, choose, explained, explained_section, explained_segmented, focus_ring, focus_row,
+    is_touch, labelled, paint_name, paint_row_ground, pressed_row_height, row_sense, rule, section_with_action,
+    section_with_labelled_action, selected_heading, switch_row, tell_row, value_row, walked,
 };
 
-/// Keys listed before the list scrolls. By touch the list has this fraction of what is seen of the sheet.
+/// Keys listed before the list scrolls. By touch the list has this fraction of what is seen of the drawer.
 const ROWS: f32 = 8.0;
-const SHEET_FRACTION: f32 = 0.6;
+const DRAWER_FRACTION: f32 = 0.6;
 /// Right ends of the columns of frame and time.
 const FRAME_END: f32 = 34.0;
 const TIME_END: f32 = 86.0;
@@ -123,8 +122,7 @@ fn show_joint(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, readout: &JointReadou
     }
     ui.add_space(8.0);
     let all = TextButton::new("Copy all numbers", "Copy all numbers of the bone");
-    let wide = Rangef::point(ui.available_width());
-    if all.width(wide).show(ui).clicked() {
+    if all.show_wide(ui).clicked() {
         ui.ctx().copy_text(readout.to_text());
     }
     rule(ui, MARGIN);
@@ -250,13 +248,11 @@ fn key_list(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, joint: JointIndex) {
         (KeyPart::Rotation, "Euler"),
         (KeyPart::Scale, "Scale"),
     ];
-    if let Some(chosen) = segmented(ui, "Keys", &parts, Some(cx.state.key_part)) {
-        cx.state.key_part = chosen;
-    }
+    choose(ui, "Keys", &parts, &mut cx.state.key_part);
     ui.add_space(4.0);
     let height = pressed_row_height(ui);
     let most = if is_touch(ui) {
-        SHEET_FRACTION * ui.clip_rect().height()
+        DRAWER_FRACTION * ui.clip_rect().height()
     } else {
         ROWS * height
     };
@@ -282,28 +278,16 @@ fn key_list(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, joint: JointIndex) {
     let part = cx.state.key_part;
     list.show_rows(ui, height, count, |ui, range| {
         labelled(ui, Role::ListBox, "Keys of the bone", count, |ui| {
-            let size = vec2(ui.available_width(), range.len() as f32 * height);
-            let (drawn, _) = ui.allocate_exact_size(size, Sense::hover());
-            let rect_of = |key: usize| {
-                let y = drawn.min.y + (key as f32 - range.start as f32) * height;
-                Rect::from_x_y_ranges(drawn.x_range(), y..=y + height)
-            };
-            let page = range.len().saturating_sub(2).max(1);
             let layer = ui.layer_id();
             let id_of = |key: usize| Id::unique("key row").with((layer, joint.0, key));
-            let mut walks_to = None;
             let stop = cx.state.keys.stop.or(in_force).unwrap_or_default().min(count - 1);
-            let has_focus = ui.memory(|memory| memory.has_focus(id_of(stop)));
-            // A row keeps the focus when it is scrolled out of view. Otherwise Tab stops at the nearest row in view.
-            let out_of_view = has_focus && !range.contains(&stop);
-            let in_view = stop.min(range.end.saturating_sub(1)).max(range.start);
-            let tab_stop = if has_focus { stop } else { in_view };
-            let in_view = rows.skip(range.start).take(range.len());
-            let out_of_view = key_rows(clip, track).skip(stop).take(usize::from(out_of_view));
+            let drawn = DrawnRows::new(ui, range, height, (stop, id_of(stop)));
+            let mut walks_to = None;
+            let in_view = rows.skip(drawn.in_view.start).take(drawn.in_view.len());
+            let out_of_view = drawn.out_of_view.and_then(|key| key_rows(clip, track).nth(key));
             for row in in_view.chain(out_of_view) {
                 let key = row.key;
-                let is_stop = key == tab_stop;
-                let response = ui.interact(rect_of(key), id_of(key), row_sense(is_stop));
+                let response = ui.interact(drawn.rect_of(key), id_of(key), row_sense(key == drawn.tab_stop));
                 if key_row(ui, &response, &row, part, in_force == Some(key)) {
                     cx.state.keys.stop = Some(key);
                     focus_row(ui, response.id, response.rect);
@@ -312,12 +296,12 @@ fn key_list(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, joint: JointIndex) {
                     cx.pause_at(row.time_secs);
                     cx.state.keys.stop = Some(key);
                 }
-                walks_to = walks_to.or(walked(ui, response.id, key, count, page));
+                walks_to = walks_to.or(walked(ui, response.id, key, count, drawn.page));
             }
             // Only now: a row that is no stop yet would lose the focus when it is drawn.
             if let Some(to) = walks_to {
                 cx.state.keys.stop = Some(to);
-                focus_row(ui, id_of(to), rect_of(to));
+                focus_row(ui, id_of(to), drawn.rect_of(to));
             }
         });
     });

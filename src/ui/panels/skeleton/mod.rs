@@ -7,7 +7,6 @@ pub(in crate::ui) mod numbers;
 pub(in crate::ui) mod state;
 mod tree;
 mod vertex_panel;
-mod walk;
 mod width;
 
 pub(in crate::ui) use in_view::{LegendShape, STRIP_MARGIN, colored_view, show_legend, show_marks};

@@ -1,15 +1,13 @@
 //! Naming joints: a field in the row, and names proposed for the other side.
 
-use egui::text::{CCursor, CCursorRange};
-use egui::text_edit::TextEditState;
 use egui::{FontId, Id, Key, Rangef, Rect, Role, TextEdit, Ui, Vec2, WidgetInfo, vec2};
 
 use crate::model::{Handedness, JointIndex, UpAxis};
 use crate::session::{Command, NameCommand, Session};
 use crate::ui::cx::Cx;
-use crate::ui::frame::panel::scrolled;
 use crate::ui::kit::theme::{ROW_HEIGHT, Tokens};
-use crate::ui::kit::{Row, TextButton, control_size, section_name};
+use crate::ui::kit::{Kept, Row, TextButton, control_size, section_name, select_all};
+use crate::ui::window::panel::scrolled;
 
 /// Naming waits so long for its row to scroll into view, in seconds …
 const LONGEST_WAIT_SECS: f64 = 1.0;
@@ -25,34 +23,12 @@ pub(super) struct Naming {
     by_key: bool,
     /// The list of proposed names stands in place of the tree.
     pub(super) proposing: bool,
-    proposed: Proposed,
+    /// The names proposed last, by bone.
+    proposed: Kept<ProposedFor, Vec<(usize, String)>>,
 }
 
-/// The names proposed last, by bone. They are kept, since finding them searches the whole skeleton.
-#[derive(Debug, Default)]
-struct Proposed {
-    /// The model, names and axes that they belong to.
-    of: Option<(u64, u64, Handedness, UpAxis)>,
-    names: Vec<(usize, String)>,
-}
-
-impl Proposed {
-    fn of(&mut self, session: &Session) -> &[(usize, String)] {
-        let of = (
-            session.model_revision(),
-            session.joint_names_revision(),
-            session.handedness(),
-            session.up_axis(),
-        );
-        if self.of != Some(of) {
-            *self = Self {
-                of: Some(of),
-                names: session.proposed_names().into_iter().collect(),
-            };
-        }
-        &self.names
-    }
-}
+/// A model, its names and its axes.
+type ProposedFor = (u64, u64, Handedness, UpAxis);
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Stage {
@@ -65,7 +41,6 @@ enum Stage {
 }
 
 impl Naming {
-    /// Begins to name a joint.
     pub(super) fn begin(&mut self, ui: &Ui, session: &Session, joint: JointIndex) {
         *self = Self {
             of: Some(joint),
@@ -130,7 +105,7 @@ pub(super) fn show_field(ui: &mut Ui, cx: &mut Cx<'_, Naming>, name: Rect, unnam
     let naming = &mut *cx.state;
     let begins = naming.awaits_field();
     if begins {
-        select_all(ui, &naming.text);
+        select_all(ui, field_id(), &naming.text);
     }
     let place = name.expand2(vec2(FIELD_MARGIN.x, -1.0));
     let field = TextEdit::singleline(&mut naming.text)
@@ -165,22 +140,19 @@ pub(super) fn show_field(ui: &mut Ui, cx: &mut Cx<'_, Naming>, name: Rect, unnam
     false
 }
 
-/// Selects the old name in the field, so that typing replaces it.
-fn select_all(ui: &Ui, text: &str) {
-    let mut field = TextEditState::load(ui.ctx(), field_id()).unwrap_or_default();
-    let end = CCursor::new(text.chars().count());
-    let all = CCursorRange::two(CCursor::default(), end);
-    field.cursor.set_char_range(Some(all));
-    field.store(ui.ctx(), field_id());
-}
-
 /// Gap between the proposed names and the buttons below them.
 const BUTTONS_GAP: f32 = 10.0;
 
 /// The names proposed for mirrored joints, to accept or refuse.
 pub(super) fn show_proposals(ui: &mut Ui, cx: &mut Cx<'_, Naming>) {
     let tokens = Tokens::of(ui);
-    let proposed = cx.state.proposed.of(cx.session);
+    let session = cx.session;
+    let (model, names) = (session.model_revision(), session.joint_names_revision());
+    let of = (model, names, session.handedness(), session.up_axis());
+    let proposed = cx
+        .state
+        .proposed
+        .of(of, || session.proposed_names().into_iter().collect());
     section_name(ui, "Mirrored names");
     if proposed.is_empty() {
         let words = if cx.session.joint_names().is_empty() {

@@ -4,11 +4,10 @@
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Align, Align2, Color32, FontId, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
-use super::walk::labelled;
 use crate::anim::{RowMatrix, TransformParts};
 use crate::model::Aabb;
 use crate::ui::kit::theme::{self, ROW_HEIGHT, Tokens};
-use crate::ui::kit::{Row, tell_node};
+use crate::ui::kit::{Row, labelled, tell_node};
 
 /// Characters of a number: sign, digits, point.
 const NUMBER_CHARS: usize = 9;

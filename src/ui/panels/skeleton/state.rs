@@ -9,7 +9,8 @@ use crate::anim::{JointReadout, SkinView, VertexExplanation};
 use crate::model::{Handedness, JointIndex, MirrorPair, UpAxis};
 use crate::scene::{LabelPlace, joint_colors};
 use crate::session::{Command, JointCommand, JointRow, LookCommand, Session};
-use crate::ui::frame::viewport::in_picture;
+use crate::ui::kit::Kept;
+use crate::ui::window::viewport::in_picture;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::ui) enum SidePage {
@@ -163,8 +164,8 @@ pub(super) struct TreeState {
     /// The joint whose row has the keyboard in this pass.
     pub(super) focused: Option<JointIndex>,
     pub(super) typed: Typed,
-    /// The selected joint to which the tree has scrolled.
-    shown: Option<JointIndex>,
+    /// The selected joint to which the tree has scrolled. Without it, it does again.
+    pub(super) shown: Option<JointIndex>,
     /// Height that the rows had in the last pass.
     pub(super) room: Option<f32>,
 }
@@ -224,11 +225,6 @@ impl TreeState {
         self.stop.and_then(place).or(selected.and_then(place)).unwrap_or(0)
     }
 
-    /// Scrolls to the selected joint once more.
-    pub(super) fn show_again(&mut self) {
-        self.shown = None;
-    }
-
     /// The index of the selected joint's row, once after each selection.
     pub(super) fn row_to_show(&mut self, selected: Option<JointIndex>) -> Option<usize> {
         if self.shown == selected {
@@ -258,25 +254,16 @@ pub(super) enum KeyPart {
     Scale,
 }
 
-/// Which joints mirror each other. It is kept, since finding them searches the whole skeleton.
+/// Which joints mirror each other, for a model and its axes.
 #[derive(Debug, Default)]
-pub(super) struct Mirrored {
-    /// The model and the axes that the pairs belong to.
-    of: Option<(u64, Handedness, UpAxis)>,
-    pairs: Vec<MirrorPair>,
-}
+pub(super) struct Mirrored(Kept<(u64, Handedness, UpAxis), Vec<MirrorPair>>);
 
 impl Mirrored {
     /// The joint that mirrors another one in the bind pose.
     pub(super) fn partner(&mut self, session: &Session, joint: JointIndex) -> Option<JointIndex> {
         let of = (session.model_revision(), session.handedness(), session.up_axis());
-        if self.of != Some(of) {
-            *self = Self {
-                of: Some(of),
-                pairs: session.mirror_pairs(),
-            };
-        }
-        self.pairs.iter().find_map(|pair| match joint {
+        let pairs = self.0.of(of, || session.mirror_pairs());
+        pairs.iter().find_map(|pair| match joint {
             joint if joint == pair.left => Some(pair.right),
             joint if joint == pair.right => Some(pair.left),
             _ => None,

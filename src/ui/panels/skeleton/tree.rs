@@ -1,6 +1,6 @@
 //! The tree of joints: searched, folded, named. Only the rows in view are laid out.
 
-use egui::accesskit::{Action, HasPopup};
+use egui::accesskit::HasPopup;
 use egui::{
     Align2, Color32, Event, FontId, Id, Key, Popup, Pos2, Rangef, Rect, Response, Role, ScrollArea, Sense, Stroke, Ui,
     UiBuilder, WidgetInfo, pos2, vec2,
@@ -8,7 +8,6 @@ use egui::{
 
 use super::naming::{show_field, show_proposals};
 use super::state::{SkeletonState, TreeState, Typed};
-use super::walk::{asks, focus_row, labelled, row_sense, tell_row};
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, JointRow, NameCommand, Session};
 use crate::ui::cx::Cx;
@@ -16,8 +15,9 @@ use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::{self, Tokens};
 use crate::ui::kit::wording::{counted_vertices, grouped};
 use crate::ui::kit::{
-    MenuLine, control_size, is_touch, menu_item, paint_fold_mark, paint_name, paint_row_ground, pressed_row_height,
-    push_button, retain_plain_keys, search_field, tell_node, tell_popup, walked,
+    DrawnRows, MenuLine, control_size, focus_row, is_touch, labelled, menu_item, paint_fold_mark, paint_name,
+    paint_row_ground, pressed_row_height, push_button, retain_plain_keys, row_sense, search_field, tell_folds,
+    tell_node, tell_popup, tell_row, walked,
 };
 
 /// The fewest rows in view, however low the window is.
@@ -47,7 +47,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
     let most = ui.available_height().max(LEAST_ROWS * height);
     if cx.state.tree.room.replace(most) != Some(most) {
         // What was in view may not be any more.
-        cx.state.tree.show_again();
+        cx.state.tree.shown = None;
     }
     let to_show = cx.state.tree.row_to_show(cx.session.joints().selected());
     let rows = std::mem::take(&mut cx.state.tree.rows);
@@ -58,31 +58,21 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
         .auto_shrink([false, true])
         .show_rows(ui, height, rows.len(), |ui, range| {
             labelled(ui, Role::Tree, "Bones", rows.len(), |ui| {
-                let size = vec2(ui.available_width(), range.len() as f32 * height);
-                let (drawn, _) = ui.allocate_exact_size(size, Sense::hover());
-                let top = drawn.min.y - range.start as f32 * height;
-                let rect_of = |place: usize| {
-                    let y = top + place as f32 * height;
-                    Rect::from_x_y_ranges(drawn.x_range(), y..=y + height)
-                };
+                let stop = cx.state.tree.stop(&rows, cx.session.joints().selected());
+                let stop = (stop, row_id(ui, rows[stop].joint));
+                let drawn = DrawnRows::new(ui, range, height, stop);
+                let first = drawn.rect_of(0);
                 if let Some(place) = to_show {
                     // Two neighbours on each side come into view too.
-                    let rows = rect_of(place).expand2(vec2(0.0, 2.0 * height));
-                    ui.scroll_to_rect(rows.intersect(Rect::everything_below(top)), None);
+                    let rows = drawn.rect_of(place).expand2(vec2(0.0, 2.0 * height));
+                    ui.scroll_to_rect(rows.intersect(Rect::everything_below(first.min.y)), None);
                 }
-                let stop = cx.state.tree.stop(&rows, cx.session.joints().selected());
-                let has_focus = ui.memory(|memory| memory.has_focus(row_id(ui, rows[stop].joint)));
-                // A row keeps the focus when it is scrolled out of view. Otherwise Tab stops at the nearest row in view.
-                let out_of_view = Some(stop).filter(|stop| has_focus && !range.contains(stop));
-                let in_view = stop.min(range.end.saturating_sub(1)).max(range.start);
-                let stop = if has_focus { stop } else { in_view };
-                let indent = Indent::new(ui, cx.session, drawn);
+                let indent = Indent::new(ui, cx.session, first.x_range());
                 let mut walks_to = None;
-                for place in range.clone().chain(out_of_view) {
-                    let row = TreeRow::new(cx.session, cx.state, &rows[place], place, stop == place);
-                    let response = row.show(ui, rect_of(place), &indent, cx);
-                    let page = range.len().saturating_sub(2).max(1);
-                    let to = row.walk(ui, &response, (&rows, page), cx);
+                for place in drawn.in_view.clone().chain(drawn.out_of_view) {
+                    let row = TreeRow::new(cx.session, cx.state, &rows[place], place, place == drawn.tab_stop);
+                    let response = row.show(ui, drawn.rect_of(place), &indent, cx);
+                    let to = row.walk(ui, &response, (&rows, drawn.page), cx);
                     walks_to = walks_to.or(to);
                     if response.gained_focus() {
                         ui.scroll_to_rect(response.rect, None);
@@ -92,7 +82,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
                 if let Some(to) = walks_to {
                     let joint = rows[to].joint;
                     cx.state.tree.stop = Some(joint);
-                    focus_row(ui, row_id(ui, joint), rect_of(to));
+                    focus_row(ui, row_id(ui, joint), drawn.rect_of(to));
                 }
             });
         });
@@ -130,7 +120,6 @@ const INDENT: f32 = 9.0;
 /// Room for `Bone 999`, and for the count behind it.
 const LEAST_LABEL: f32 = 62.0;
 const COUNT_WIDTH: f32 = 46.0;
-/// Gap between the number and the tree.
 const NUMBER_GAP: f32 = 3.0;
 /// The least distance between two guide lines.
 const BETWEEN_GUIDES: f32 = 6.0;
@@ -148,17 +137,17 @@ struct Indent {
 }
 
 impl Indent {
-    fn new(ui: &Ui, session: &Session, rows: Rect) -> Self {
+    fn new(ui: &Ui, session: &Session, rows: Rangef) -> Self {
         let joints = session.joints();
         let digits = joints.count().to_string().len() as f32;
         let tree = joints.tree();
         let deepest = tree.order().iter().map(|&joint| tree.depth(joint)).max();
-        let width = rows.width().min(ui.clip_rect().width());
+        let width = rows.span().min(ui.clip_rect().width());
         let number = digits * DIGIT_WIDTH;
         let others = number + NUMBER_GAP + CHEVRON_WIDTH + LEAST_LABEL + COUNT_WIDTH;
         let room = (0.5 * width).min(width - others).max(0.0);
         Self {
-            number: rows.min.x + number,
+            number: rows.min + number,
             step: INDENT.min(room / deepest.unwrap_or_default().max(1) as f32),
         }
     }
@@ -185,7 +174,6 @@ fn row_id(ui: &Ui, joint: JointIndex) -> Id {
     Id::unique("joint row").with((ui.layer_id(), joint.0))
 }
 
-/// What a row shows.
 struct TreeRow<'a> {
     row: &'a JointRow,
     place: usize,
@@ -289,20 +277,9 @@ impl<'a> TreeRow<'a> {
             cx.state.tree.stop = Some(self.row.joint);
             focus_row(ui, response.id, response.rect);
         }
-        let (folds, asked) = if self.row.folded {
-            (false, Action::Expand)
-        } else {
-            (true, Action::Collapse)
-        };
-        tell_node(response, |node| {
-            node.set_level(self.row.depth as usize);
-            if self.row.has_children {
-                node.set_expanded(folds);
-                node.add_action(asked);
-            }
-        });
-        if self.row.has_children && asks(ui, response.id, asked) {
-            self.fold(folds, cx.commands);
+        tell_node(response, |node| node.set_level(self.row.depth as usize));
+        if self.row.has_children && tell_folds(ui, response.id, !self.row.folded) {
+            self.fold(!self.row.folded, cx.commands);
         }
     }
 

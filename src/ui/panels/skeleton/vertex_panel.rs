@@ -9,15 +9,14 @@ use super::numbers::{
     rule_over_numbers, show_line, show_matrix, show_meaning, show_spoken,
 };
 use super::state::SkeletonState;
-use super::walk::{focus_row, labelled, tell_row};
 use crate::anim::{ExplainedInfluence, VertexExplanation};
 use crate::session::{JointCommand, Session};
 use crate::ui::cx::Cx;
 use crate::ui::kit::theme::{self, MARGIN, Tokens};
 use crate::ui::kit::wording::grouped;
 use crate::ui::kit::{
-    Row, elided_name, explained, is_touch, paint_fold_mark, paint_row_ground, pressed_row_height, rule, section_name,
-    section_with_labelled_action, selected_heading, walked,
+    Row, elided_name, explained, focus_row, is_touch, labelled, paint_fold_mark, paint_row_ground, pressed_row_height,
+    rule, section_name, section_with_labelled_action, selected_heading, tell_row, walked,
 };
 
 /// Font size of formulas before numbers, and of the one above all.

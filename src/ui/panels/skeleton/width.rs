@@ -3,9 +3,8 @@
 use egui::accesskit::{Action, Orientation};
 use egui::{CursorIcon, Rangef, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2};
 
-use super::walk::asks;
 use crate::ui::kit::theme::Tokens;
-use crate::ui::kit::{arrow_steps, is_touch, tell_node};
+use crate::ui::kit::{arrow_steps, asks, is_touch, tell_node};
 
 /// The greatest width of the panel, in points and as a fraction of the window.
 const MOST: f32 = 520.0;

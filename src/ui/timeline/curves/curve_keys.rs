@@ -12,7 +12,7 @@ use crate::ui::kit::{focused_keys, tell_node};
 use crate::ui::timeline::axis::TimeAxis;
 use crate::ui::timeline::curves::Curves;
 use crate::ui::timeline::sheet::rows::RowKeys;
-use crate::ui::timeline::state::{KeyBox, KeyCursor, TimelineState};
+use crate::ui::timeline::state::{KeyCursor, TimelineState};
 use crate::ui::timeline::time_area::{self, GRID_KEYS};
 
 /// Tells of the curves as a grid, in which the key that the keyboard is on is the only cell. The legend has the values at the time.
@@ -63,16 +63,10 @@ pub(in crate::ui::timeline) fn read(
             _ => keys.last(),
         };
         let to_secs = to_secs.unwrap_or(before_secs);
-        if shift {
-            let key_box = match &mut cx.state.key_box {
-                Some(key_box) if chooses => key_box,
-                key_box => key_box.insert(KeyBox::at((before_secs, 0.5))),
-            };
-            let joints = [joint];
-            key_box.stretch((to_secs, 0.5), |row| (row == 0).then_some(&joints[..]));
-        } else {
-            cx.state.key_box = None;
-        }
+        let joints = [joint];
+        let corners = [before_secs, to_secs].map(|secs| (secs, 0.5));
+        cx.state
+            .choose_keys((shift, chooses), corners, |row| (row == 0).then_some(&joints[..]));
         chooses = shift;
         secs = Some(to_secs);
         time_area::bring_into_view(clip, to_secs, cx.state);

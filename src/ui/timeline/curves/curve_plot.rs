@@ -12,11 +12,11 @@ use crate::session::{Command, JointCommand};
 use crate::ui::cx::Cx;
 use crate::ui::kit::theme::{self, CONTROL_RADIUS, Tokens};
 use crate::ui::kit::{Row, TextButton, control_size, focus_ring, is_touch, paint_name, tell_node};
-use crate::ui::timeline::axis::{END_ROOM, TimeAxis};
+use crate::ui::timeline::axis::TimeAxis;
 use crate::ui::timeline::curves::{CurveOf, Curves, Part, RotationAs, SampledOf};
 use crate::ui::timeline::marks::MERGE_POINTS;
 use crate::ui::timeline::state::TimelineState;
-use crate::ui::timeline::time_area::{self, RULER_HEIGHT, segmented_of_width, split_x};
+use crate::ui::timeline::time_area::{self, TimeArea, segmented_of_width};
 
 const SAMPLE_SPACING: f32 = 2.0;
 /// The most samples, more than any screen needs.
@@ -30,38 +30,25 @@ pub(in crate::ui::timeline) fn controls(ui: &mut Ui, curves: &mut Curves) {
         (Part::Rotation, "Rotation"),
         (Part::Scale, "Scale"),
     ];
-    if let Some(part) = segmented_of_width(ui, 246.0, "Part", &parts, curves.part) {
-        curves.part = part;
-    }
+    segmented_of_width(ui, 246.0, "Part", &parts, &mut curves.part);
     if curves.part == Part::Rotation {
         let kinds = [(RotationAs::Quaternion, "Quaternion"), (RotationAs::Euler, "Euler")];
-        if let Some(kind) = segmented_of_width(ui, 164.0, "Rotation as", &kinds, curves.rotation) {
-            curves.rotation = kind;
-        }
+        segmented_of_width(ui, 164.0, "Rotation as", &kinds, &mut curves.rotation);
     }
     let spaces = [(CurveSpace::Local, "Local"), (CurveSpace::Model, "Model")];
-    if let Some(space) = segmented_of_width(ui, 124.0, "Space", &spaces, curves.space) {
-        curves.space = space;
-    }
+    segmented_of_width(ui, 124.0, "Space", &spaces, &mut curves.space);
 }
 
 /// The curves. Fills the rest of the sheet.
 pub(in crate::ui::timeline) fn show(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>) {
-    let (Some(open), Some(clip_index), Some(clip)) =
-        (cx.session.open_model(), cx.session.clip_index(), cx.session.clip())
-    else {
-        return;
-    };
-    let area = ui.available_rect_before_wrap();
-    let split = split_x(area);
-    let plot = Rect::from_min_max(pos2(split, area.min.y), area.max);
-    ui.painter().rect_filled(plot, CONTROL_RADIUS, Tokens::of(ui).field);
+    let Some(time) = TimeArea::new(ui, cx) else { return };
+    let (open, clip_index) = (time.open, time.clip_index);
     let Some(joint) = cx.session.joints().selected() else {
-        offer_joint(ui, plot, open.activity(clip_index).unwrap_or_default(), cx.commands);
+        let activity = open.activity(clip_index).unwrap_or_default();
+        offer_joint(ui, time.times, activity, cx.commands);
         return;
     };
-    let span_secs = cx.state.window.span_secs([clip.start_secs, clip.end_secs]);
-    let axis = TimeAxis::new(plot.x_range(), END_ROOM, span_secs);
+    let TimeArea { clip, axis, .. } = time;
     let count = (axis.points().span() / SAMPLE_SPACING).ceil().max(1.0) as usize + 1;
     let of = SampledOf {
         curve: CurveOf {
@@ -70,22 +57,16 @@ pub(in crate::ui::timeline) fn show(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>)
             joint,
             space: cx.state.curves.space,
         },
-        span_secs,
+        span_secs: cx.state.seen.span_secs([clip.start_secs, clip.end_secs]),
         count: count.min(MOST_SAMPLES),
     };
     cx.state.curves.sample(cx.session, open, of);
 
-    let ruler_rect = Rect::from_min_max(plot.min, pos2(plot.max.x, plot.min.y + RULER_HEIGHT));
-    time_area::paint_ruler(ui, clip, &axis, ruler_rect, plot.max.y);
-    let lines_rect = Rect::from_min_max(pos2(plot.min.x, ruler_rect.max.y), plot.max);
-    let values = paint_lines(ui, &cx.state.curves, &axis, lines_rect, area.min.x);
-    paint_keys(
-        ui,
-        &cx.state.curves,
-        open.key_times(clip_index, Some(joint)),
-        &axis,
-        &values,
-    );
+    time.paint_ruler(ui);
+    let lines_rect = time.times.with_min_y(time.ruler.max.y);
+    let values = paint_lines(ui, &cx.state.curves, &axis, lines_rect, time.whole.min.x);
+    let key_times = open.key_times(clip_index, Some(joint));
+    paint_keys(ui, &cx.state.curves, key_times, &axis, &values);
 
     let response = ui.interact(lines_rect, ui.scope_id().with("curves"), Sense::click_and_drag());
     curve_keys::tell(&response, cx.session, &cx.state.curves, joint);
@@ -93,20 +74,20 @@ pub(in crate::ui::timeline) fn show(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>)
     curve_keys::read(ui, &response, cx, clip, joint);
     let chosen = cx.state.key_box.as_ref();
     if let Some(key_box) = chosen.filter(|key_box| key_box.joints.contains(&joint)) {
-        time_area::paint_chosen(ui, key_box, &axis, ruler_rect);
+        time.paint_chosen(ui, key_box);
     }
     curve_keys::show_cursor(ui, cx, &response, joint, (&axis, &values));
     time_area::scrub(&response, &axis, cx.commands);
-    let ruler = time_area::ruler(ui, cx, &axis, ruler_rect);
+    let ruler = time.show_ruler(ui, cx);
     let read_secs = response
         .hover_pos()
         .filter(|_| !response.dragged())
         .map_or(cx.session.playback().time_secs(), |at| axis.seen_time_at(at.x));
     let read = cx.state.curves.point_at(cx.session, open, read_secs);
     let name = cx.session.joint_label(joint);
-    paint_legend(ui, &mut cx.state.curves, &name, &read, area, split);
+    paint_legend(ui, &mut cx.state.curves, &name, &read, &time);
     time_area::paint_pointer(ui, &response, &axis, lines_rect.y_range());
-    time_area::paint_head_below_ruler(ui, cx.session, &axis, ruler_rect, plot.max.y);
+    time.paint_head(ui);
     time_area::navigate(ui, &response, clip, &axis, cx.state, false);
     time_area::navigate(ui, &ruler, clip, &axis, cx.state, false);
 }
@@ -123,7 +104,6 @@ fn channel_color(ui: &Ui, channel: usize) -> Color32 {
     tokens.axes.get(channel).copied().unwrap_or(tokens.muted)
 }
 
-/// Words while no joint is selected.
 /// Says what to do without a selected joint, and offers the one that moves most.
 fn offer_joint(ui: &mut Ui, plot: Rect, activity: &[JointActivity], commands: &mut Vec<Command>) {
     let (font, color) = (FontId::proportional(13.0), Tokens::of(ui).muted);
@@ -210,12 +190,11 @@ fn paint_keys(ui: &Ui, curves: &Curves, times_secs: &[f32], axis: &TimeAxis, val
 }
 
 /// The joint and its values at a time, left of the lines.
-fn paint_legend(ui: &Ui, curves: &mut Curves, joint_name: &str, read: &CurvePoint, area: Rect, split: f32) {
+fn paint_legend(ui: &Ui, curves: &mut Curves, joint_name: &str, read: &CurvePoint, time: &TimeArea<'_>) {
     let tokens = Tokens::of(ui);
     let painter = ui.painter();
-    let left = area.min.x + 6.0;
-    let middle = area.min.y + 0.5 * RULER_HEIGHT;
-    let at = pos2(left, middle);
+    let (left, split, top) = (time.whole.min.x + 6.0, time.times.min.x, time.ruler.max.y);
+    let at = pos2(left, time.ruler.center().y);
     paint_name(
         painter,
         at,
@@ -225,17 +204,17 @@ fn paint_legend(ui: &Ui, curves: &mut Curves, joint_name: &str, read: &CurvePoin
         split - 4.0 - left,
     );
     let most = if is_touch(ui) { TOUCH_LEGEND_STEP } else { LEGEND_STEP };
-    let step = most.min((area.height() - RULER_HEIGHT) / 5.5);
+    let step = most.min((time.whole.max.y - top) / 5.5);
     let end = (left + LEGEND_WIDTH).min(split - 4.0);
     let font = || theme::mono(12.0);
-    let y_of = |row: usize| area.min.y + RULER_HEIGHT + (row as f32 + 0.6) * step;
-    let time = format!("{:.3} s", read.time_secs);
+    let y_of = |row: usize| top + (row as f32 + 0.6) * step;
+    let secs = format!("{:.3} s", read.time_secs);
     let time_row = Rect::from_x_y_ranges(left..=end, y_of(0) - 0.5 * step..=y_of(0) + 0.5 * step);
     let response = ui.interact(time_row, ui.scope_id().with("time"), Sense::hover());
     let mut row = Row::of(ui, time_row, response);
     row.left_in(font(), "t", tokens.muted);
-    row.right_in(font(), &time, tokens.text);
-    row.told(Role::Label, format!("t {time}"));
+    row.right_in(font(), &secs, tokens.text);
+    row.told(Role::Label, format!("t {secs}"));
     let part = curves.part_name();
     for (channel, name) in curves.channels().iter().enumerate() {
         let (y, shown) = (y_of(channel + 1), !curves.hidden[channel]);

@@ -1,22 +1,22 @@
 //! The keys of all joints, a row for each. Only rows in view are laid out. Clicks and drags over them.
 
 use egui::{
-    Align2, CursorIcon, FontId, PointerButton, Pos2, Rangef, Rect, Response, Role, ScrollArea, Sense, Stroke,
-    StrokeKind, Ui, UiBuilder, pos2, vec2,
+    Align2, CursorIcon, FontId, PointerButton, Pos2, Rect, Response, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui,
+    UiBuilder, pos2, vec2,
 };
 
 use super::rows::{Row, Rows};
 use crate::anim::JointActivity;
-use crate::model::{Clip, JointIndex};
-use crate::session::{JointCommand, OpenModel, Session};
+use crate::model::JointIndex;
+use crate::session::JointCommand;
 use crate::ui::cx::Cx;
-use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};
+use crate::ui::kit::theme::Tokens;
 use crate::ui::kit::wording::counted;
 use crate::ui::kit::{by_finger, is_touch, pressed_row_height};
-use crate::ui::timeline::axis::{END_ROOM, TimeAxis};
+use crate::ui::timeline::axis::END_ROOM;
 use crate::ui::timeline::marks::MarkShape;
 use crate::ui::timeline::state::{KeyBox, KeyCursor, TimelineState};
-use crate::ui::timeline::time_area::{self, RULER_HEIGHT, split_x};
+use crate::ui::timeline::time_area::{self, TimeArea};
 
 /// How far from a key a click still hits it.
 const REACH: f32 = 6.0;
@@ -24,14 +24,8 @@ const TOUCH_REACH: f32 = 16.0;
 
 /// What all rows share.
 pub(in crate::ui::timeline) struct Sheet<'a> {
-    pub(in crate::ui::timeline) session: &'a Session,
-    pub(in crate::ui::timeline) open: &'a OpenModel,
-    pub(in crate::ui::timeline) clip_index: usize,
-    pub(in crate::ui::timeline) clip: &'a Clip,
+    pub(in crate::ui::timeline) time: TimeArea<'a>,
     pub(in crate::ui::timeline) activity: &'a [JointActivity],
-    pub(in crate::ui::timeline) axis: TimeAxis,
-    pub(in crate::ui::timeline) area: Rect,
-    pub(in crate::ui::timeline) split: f32,
     pub(in crate::ui::timeline) row_height: f32,
     /// Rows are sorted by motion. Without a tree nothing folds.
     pub(in crate::ui::timeline) by_motion: bool,
@@ -39,23 +33,10 @@ pub(in crate::ui::timeline) struct Sheet<'a> {
 
 /// The dope sheet. Fills the rest of the sheet.
 pub(in crate::ui::timeline) fn show(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>) {
-    let (Some(open), Some(clip_index), Some(clip)) =
-        (cx.session.open_model(), cx.session.clip_index(), cx.session.clip())
-    else {
-        return;
-    };
-    let area = ui.available_rect_before_wrap();
-    let split = split_x(area);
-    let span_secs = cx.state.window.span_secs([clip.start_secs, clip.end_secs]);
+    let Some(time) = TimeArea::new(ui, cx) else { return };
     let sheet = Sheet {
-        session: cx.session,
-        open,
-        clip_index,
-        clip,
-        activity: open.activity(clip_index).unwrap_or_default(),
-        axis: TimeAxis::new(Rangef::new(split, area.max.x), END_ROOM, span_secs),
-        area,
-        split,
+        activity: time.open.activity(time.clip_index).unwrap_or_default(),
+        time,
         row_height: pressed_row_height(ui),
         by_motion: cx.state.rows.by_motion,
     };
@@ -64,37 +45,32 @@ pub(in crate::ui::timeline) fn show(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>)
 
 impl Sheet<'_> {
     fn show(&self, ui: &mut Ui, cx: &mut Cx<'_, TimelineState>) {
-        let tokens = Tokens::of(ui);
-        let area = self.area;
-        let ruler_rect = Rect::from_min_max(
-            pos2(self.split, area.min.y),
-            pos2(area.max.x, area.min.y + RULER_HEIGHT),
-        );
-        let time_rect = Rect::from_min_max(ruler_rect.min, area.max);
-        ui.painter().rect_filled(time_rect, CONTROL_RADIUS, tokens.field);
-        let count = counted(self.open.model.skeleton.joint_count(), "bone");
-        let at = pos2(area.min.x + 6.0, ruler_rect.center().y);
+        let TimeArea {
+            whole, times, ruler, ..
+        } = self.time;
+        let count = counted(self.time.open.model.skeleton.joint_count(), "bone");
+        let (at, color) = (pos2(whole.min.x + 6.0, ruler.center().y), Tokens::of(ui).faint);
         ui.painter()
-            .text(at, Align2::LEFT_CENTER, count, FontId::proportional(11.0), tokens.faint);
+            .text(at, Align2::LEFT_CENTER, count, FontId::proportional(11.0), color);
         if let Some(key_box) = &cx.state.key_box {
-            time_area::paint_chosen(ui, key_box, &self.axis, ruler_rect);
+            self.time.paint_chosen(ui, key_box);
         }
-        time_area::paint_ruler(ui, self.clip, &self.axis, ruler_rect, area.max.y);
-        let response = time_area::ruler(ui, cx, &self.axis, ruler_rect);
-        time_area::navigate(ui, &response, self.clip, &self.axis, cx.state, false);
+        self.time.paint_ruler(ui);
+        let response = self.time.show_ruler(ui, cx);
+        time_area::navigate(ui, &response, self.time.clip, &self.time.axis, cx.state, false);
 
-        let body = Rect::from_min_max(pos2(area.min.x, ruler_rect.max.y), area.max);
+        let body = whole.with_min_y(ruler.max.y);
         self.show_rows(ui, body, cx);
         let over = ui.painter().clip_rect();
-        ui.set_clip_rect(over.intersect(time_rect));
-        self.paint_range_ends(ui, ruler_rect);
-        time_area::paint_head_below_ruler(ui, self.session, &self.axis, ruler_rect, area.max.y);
+        ui.set_clip_rect(over.intersect(times));
+        self.paint_range_ends(ui);
+        self.time.paint_head(ui);
         ui.set_clip_rect(over);
     }
 
     fn show_rows(&self, ui: &mut Ui, body: Rect, cx: &mut Cx<'_, TimelineState>) {
         let mut rows = std::mem::take(&mut cx.state.rows);
-        rows.update(self.session, self.open, self.clip_index);
+        rows.update(self.time.session, self.time.open, self.time.clip_index);
         let count = rows.all().len();
         let mut ui = ui.new_child(UiBuilder::new().max_rect(body).id_salt("rows"));
         // The scroll bar stands in the panel's margin.
@@ -111,19 +87,19 @@ impl Sheet<'_> {
         {
             // At once, so that no other rows are seen before.
             area = area.vertical_scroll_offset(offset);
-            cx.state.revealed = self.session.joints().selected();
+            cx.state.revealed = self.time.session.joints().selected();
         }
         area.show_rows(&mut ui, self.row_height, count, |ui, seen| {
-            rows.merge_folded(seen.clone(), self.session, self.open, self.clip_index);
+            rows.merge_folded(seen.clone(), self.time.session, self.time.open, self.time.clip_index);
             let top = ui.max_rect().min.y - seen.start as f32 * self.row_height;
-            let keys = Rect::from_x_y_ranges(self.split..=body.max.x, body.y_range());
+            let keys = Rect::from_x_y_ranges(self.time.times.min.x..=body.max.x, body.y_range());
             let response = ui.interact(keys, ui.scope_id().with("keys"), Sense::click_and_drag());
             self.tell_grid(&response, count);
             let mut shape = MarkShape::new(ui);
             self.reveal(ui, rows.all(), top, cx.state);
             self.read_keys(ui, &response, &mut rows, top, cx);
             for (index, row) in seen.clone().zip(rows.seen(seen)) {
-                let size = vec2(self.area.width(), self.row_height);
+                let size = vec2(self.time.whole.width(), self.row_height);
                 let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
                 let place = UiBuilder::new().max_rect(rect).id_salt(("row", row.row.joint.0));
                 let mut ui = ui.new_child(place.accessibility_parent(response.id).accessibility_role(Role::Row));
@@ -134,33 +110,33 @@ impl Sheet<'_> {
             }
             shape.paint(&ui.painter().with_clip_rect(keys.intersect(ui.clip_rect())));
             self.press_keys(ui, &response, &rows, top, cx);
-            time_area::navigate(ui, &response, self.clip, &self.axis, cx.state, true);
+            time_area::navigate(ui, &response, self.time.clip, &self.time.axis, cx.state, true);
             if by_finger(ui) && response.dragged() {
                 ui.scroll_with_delta(vec2(0.0, response.drag_delta().y));
             }
             self.row_tooltip(&response, &rows, top);
             if !response.dragged() {
-                time_area::paint_pointer(ui, &response, &self.axis, keys.y_range());
+                time_area::paint_pointer(ui, &response, &self.time.axis, keys.y_range());
             }
         });
         cx.state.rows = rows;
     }
 
     pub(in crate::ui::timeline) fn key_times(&self, joint: JointIndex) -> &[f32] {
-        self.open.key_times(self.clip_index, Some(joint))
+        self.time.open.key_times(self.time.clip_index, Some(joint))
     }
 
     /// Lines where the range begins and ends.
-    fn paint_range_ends(&self, ui: &Ui, ruler_rect: Rect) {
-        let Some(range_secs) = self.session.playback().range_secs() else {
+    fn paint_range_ends(&self, ui: &Ui) {
+        let Some(range_secs) = self.time.session.playback().range_secs() else {
             return;
         };
         let color = Tokens::of(ui).accent.gamma_multiply(0.55);
         for secs in range_secs {
-            let x = self.axis.x_of(secs);
-            if self.axis.points().expand(END_ROOM).contains(x) {
+            let x = self.time.axis.x_of(secs);
+            if self.time.axis.points().expand(END_ROOM).contains(x) {
                 ui.painter()
-                    .vline(x, ruler_rect.min.y..=self.area.max.y, Stroke::new(1.0, color));
+                    .vline(x, self.time.times.y_range(), Stroke::new(1.0, color));
             }
         }
     }
@@ -170,7 +146,7 @@ impl Sheet<'_> {
     /// A click goes to a key; a drag draws a box.
     fn press_keys(&self, ui: &Ui, response: &Response, rows: &Rows, top: f32, cx: &mut Cx<'_, TimelineState>) {
         let row_at = |at: Pos2| (at.y - top) / self.row_height;
-        let corner = |at: Pos2| (self.axis.seen_time_at(at.x), row_at(at));
+        let corner = |at: Pos2| (self.time.axis.seen_time_at(at.x), row_at(at));
         let pointer = response.interact_pointer_pos();
         let boxes = !by_finger(ui);
         if response.drag_started_by(PointerButton::Primary)
@@ -183,8 +159,11 @@ impl Sheet<'_> {
             && let (true, Some(pointer), Some(key_box)) = (boxes, pointer, &mut cx.state.key_box)
         {
             let pointer = pointer.clamp(response.rect.min, response.rect.max);
-            key_box.stretch(corner(pointer), |row| rows.joints_of(self.session, row));
-            let from = pos2(self.axis.x_of(key_box.from.0), top + key_box.from.1 * self.row_height);
+            key_box.stretch(corner(pointer), |row| rows.joints_of(self.time.session, row));
+            let from = pos2(
+                self.time.axis.x_of(key_box.from.0),
+                top + key_box.from.1 * self.row_height,
+            );
             let drawn = Rect::from_two_pos(from, pointer);
             let tokens = Tokens::of(ui);
             ui.painter().rect_filled(drawn, 2.0, tokens.accent_ground);
@@ -217,7 +196,7 @@ impl Sheet<'_> {
         let reach = if is_touch(ui) { TOUCH_REACH } else { REACH };
         let folded = rows.folded_below(row).map_or(&[][..], |branch| &branch.times_secs);
         let nearest = [self.key_times(row.joint), folded].map(|times_secs| self.nearest_key(times_secs, x));
-        let away = |secs: &f32| (self.axis.x_of(*secs) - x).abs();
+        let away = |secs: &f32| (self.time.axis.x_of(*secs) - x).abs();
         // Of two keys equally near, `min_by` takes the first, the joint's own.
         let nearest = nearest
             .into_iter()
@@ -227,9 +206,9 @@ impl Sheet<'_> {
     }
 
     fn nearest_key(&self, times_secs: &[f32], x: f32) -> Option<f32> {
-        let next = times_secs.partition_point(|&secs| self.axis.x_of(secs) < x);
+        let next = times_secs.partition_point(|&secs| self.time.axis.x_of(secs) < x);
         let around = &times_secs[next.saturating_sub(1)..times_secs.len().min(next + 1)];
-        let away = |secs: &f32| (self.axis.x_of(*secs) - x).abs();
+        let away = |secs: &f32| (self.time.axis.x_of(*secs) - x).abs();
         around.iter().copied().min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 }

@@ -1,6 +1,7 @@
 //! One row of the dope sheet: a joint's name and its keys.
 
-use egui::accesskit::Action;
+use std::ops::Range;
+
 use egui::{FontId, Rangef, Rect, RectAlign, Response, Role, Sense, Tooltip, Ui, UiBuilder, WidgetInfo, vec2};
 
 use super::dope_sheet::Sheet;
@@ -36,21 +37,21 @@ fn percent(fraction: f32) -> String {
 impl Sheet<'_> {
     /// Scrolls to the row of a joint that was selected elsewhere.
     pub(in crate::ui::timeline) fn reveal(&self, ui: &Ui, rows: &[Row], top: f32, state: &mut TimelineState) {
-        let selected = self.session.joints().selected();
+        let selected = self.time.session.joints().selected();
         if state.revealed == selected {
             return;
         }
         state.revealed = selected;
         if let Some(index) = rows.iter().position(|row| Some(row.joint) == selected) {
             let y = top + index as f32 * self.row_height;
-            let row = Rect::from_x_y_ranges(self.area.x_range(), y..=y + self.row_height);
+            let row = Rect::from_x_y_ranges(self.time.whole.x_range(), y..=y + self.row_height);
             ui.scroll_to_rect(row, None);
         }
     }
 
     /// How far the sheet is scrolled with the row of the selected joint in its middle.
     pub(in crate::ui::timeline) fn offset_of_selected(&self, rows: &[Row], height: f32) -> Option<f32> {
-        let selected = self.session.joints().selected()?;
+        let selected = self.time.session.joints().selected()?;
         let index = rows.iter().position(|row| row.joint == selected)?;
         let most = (rows.len() as f32 * self.row_height - height).max(0.0);
         let middle = (index as f32 + 0.5) * self.row_height;
@@ -69,14 +70,14 @@ impl Sheet<'_> {
 
     fn tooltip(&self, response: &Response, words: &str) {
         let mut tooltip = Tooltip::for_enabled(response);
-        let above = Rect::from_min_size(self.area.min, vec2(self.area.width(), 0.0));
+        let above = Rect::from_min_size(self.time.whole.min, vec2(self.time.whole.width(), 0.0));
         tooltip.popup = tooltip.popup.anchor(above).align(RectAlign::TOP_END);
         tooltip.show(|ui| ui.label(words));
     }
 
     /// How much the bone of a row moves in the clip, and what that has to do with its tint.
     fn motion_words(&self, row: &Row, folded: Option<&FoldedBranch>) -> String {
-        let name = self.session.joint_label(row.joint);
+        let name = self.time.session.joint_label(row.joint);
         let activity = self.activity_of(row.joint);
         let amounts = [
             (activity.path > 0.0).then(|| format!("moves by {}", measured(activity.path))),
@@ -115,8 +116,8 @@ impl Sheet<'_> {
         shape: &mut MarkShape,
     ) -> Response {
         let (tokens, rect) = (Tokens::of(ui), ui.max_rect());
-        let name_rect = Rect::from_x_y_ranges(rect.min.x..=self.split - 4.0, rect.y_range());
-        let time_rect = Rect::from_x_y_ranges(self.split..=rect.max.x, rect.y_range());
+        let name_rect = Rect::from_x_y_ranges(rect.min.x..=self.time.times.min.x - 4.0, rect.y_range());
+        let time_rect = Rect::from_x_y_ranges(self.time.times.min.x..=rect.max.x, rect.y_range());
         let activity = self.activity_of(row.joint);
         let fraction = folded.map_or(activity.fraction, |branch| branch.most_motion.max(activity.fraction));
         let tint = MOST_TINT * fraction;
@@ -128,14 +129,21 @@ impl Sheet<'_> {
         if pointed {
             cx.state.hovered = Some(row.joint);
         }
-        if self.session.joints().hovered() == Some(row.joint) {
+        if self.time.session.joints().hovered() == Some(row.joint) {
             ui.painter().rect_filled(time_rect, 0.0, tokens.field);
         }
         let name = self.name_cell(ui, row, folded, name_rect, cx);
+        let (key_box, y) = (cx.state.key_box.as_ref(), rect.center().y);
         if let Some(branch) = folded {
-            self.add_folded_marks(row.joint, branch, rect.center().y, cx.state, &tokens, shape);
+            let (times_secs, tree) = (&branch.times_secs, self.time.session.joints().tree());
+            let is_below = |below| below != row.joint && tree.is_in_branch(below, row.joint);
+            let chosen = key_box.map_or(0..0, |key_box| key_box.part_of_any(is_below, times_secs));
+            self.add_marks(times_secs, chosen, (branch.constant, true), y, &tokens, shape);
         }
-        self.add_marks(row.joint, activity, rect.center().y, cx.state, &tokens, shape);
+        let times_secs = self.key_times(row.joint);
+        let chosen = key_box.map_or(0..0, |key_box| key_box.part_of(row.joint, times_secs));
+        let constant = activity.constant && times_secs.len() > 1;
+        self.add_marks(times_secs, chosen, (constant, false), y, &tokens, shape);
         name
     }
 
@@ -152,13 +160,13 @@ impl Sheet<'_> {
         let id = ui.scope_id().with(("row", row.joint.0));
         // Tab goes to the sheet as a whole, whose arrow keys come here.
         let response = ui.interact(rect, id, Sense::CLICK);
-        let joints = self.session.joints();
+        let joints = self.time.session.joints();
         let selected = joints.selected() == Some(row.joint);
         if response.contains_pointer() && !is_touch(ui) {
             cx.state.hovered = Some(row.joint);
         }
         paint_list_ground(ui, rect, selected, joints.hovered() == Some(row.joint));
-        let name = self.session.joint_label(row.joint);
+        let name = self.time.session.joint_label(row.joint);
         response.widget_info(|| {
             let mut label = format!("{name}, {}", counted(self.key_times(row.joint).len(), "key"));
             if let Some(branch) = folded {
@@ -171,17 +179,9 @@ impl Sheet<'_> {
             }
             WidgetInfo::labeled(Role::RowHeader, true, label)
         });
-        ui.ctx().accesskit_node_builder(id, |node| {
-            node.set_selected(selected);
-            if row.below > 0 {
-                node.set_expanded(!row.folded);
-                node.add_action(if row.folded { Action::Expand } else { Action::Collapse });
-            }
-        });
-        let asks_for = |action| ui.input(|input| input.has_accesskit_action_request(id, action));
-        let (joint, folded_now) = (row.joint, row.folded);
-        if row.below > 0 && asks_for(if folded_now { Action::Expand } else { Action::Collapse }) {
-            let folded = !folded_now;
+        ui.ctx().accesskit_node_builder(id, |node| node.set_selected(selected));
+        if row.below > 0 && kit::tell_folds(ui, id, !row.folded) {
+            let (joint, folded) = (row.joint, !row.folded);
             cx.push(JointCommand::SetFolded { joint, folded });
         }
         if response.clicked() {
@@ -218,8 +218,8 @@ impl Sheet<'_> {
     fn fold(&self, ui: &Ui, row: &Row, name: &str, place: Rect, commands: &mut Vec<Command>) {
         let tokens = Tokens::of(ui);
         let target = if is_touch(ui) {
-            let right = place.max.x.max(self.area.min.x + 44.0);
-            Rect::from_x_y_ranges(self.area.min.x..=right, place.y_range())
+            let right = place.max.x.max(self.time.whole.min.x + 44.0);
+            Rect::from_x_y_ranges(self.time.whole.min.x..=right, place.y_range())
         } else {
             place
         };
@@ -234,71 +234,40 @@ impl Sheet<'_> {
         }
     }
 
-    /// Keys of folded joints: hollow, smaller than the joint's own and below them.
-    fn add_folded_marks(
-        &self,
-        joint: JointIndex,
-        branch: &FoldedBranch,
-        y: f32,
-        state: &TimelineState,
-        tokens: &Tokens,
-        shape: &mut MarkShape,
-    ) {
-        let times_secs = &branch.times_secs[..];
-        let (Some(&first), Some(&last)) = (times_secs.first(), times_secs.last()) else {
-            return;
-        };
-        let tree = self.session.joints().tree();
-        let is_below = |below| below != joint && tree.is_in_branch(below, joint);
-        let chosen = state
-            .key_box
-            .as_ref()
-            .map_or(0..0, |key_box| key_box.part_of_any(is_below, times_secs));
-        let radius = FOLDED_SIZE * mark_radius(self.axis.points_per_sec() / self.clip.keys_per_sec);
-        if branch.constant {
-            shape.bar(self.seen_points(first, last), y, 1.0, tokens.faint.gamma_multiply(0.6));
-        } else {
-            for times_secs in [&times_secs[..chosen.start], &times_secs[chosen.end..]] {
-                shape.add_hollow(times_secs, &self.axis, y, radius, tokens.muted.gamma_multiply(0.85));
-            }
-        }
-        shape.add_hollow(&times_secs[chosen], &self.axis, y, radius, tokens.accent);
-    }
-
-    /// The visible part of a time span.
-    fn seen_points(&self, first_secs: f32, last_secs: f32) -> Rangef {
-        let seen = self.axis.points().expand(END_ROOM);
-        Rangef::new(
-            seen.clamp(self.axis.x_of(first_secs)),
-            seen.clamp(self.axis.x_of(last_secs)),
-        )
-    }
-
+    /// Marks of the keys of a row, or a bar where nothing moves, and over them those that are chosen. `folded`: keys of joints folded
+    /// below it, hollow and smaller.
     fn add_marks(
         &self,
-        joint: JointIndex,
-        activity: JointActivity,
+        times_secs: &[f32],
+        chosen: Range<usize>,
+        (constant, folded): (bool, bool),
         y: f32,
-        state: &TimelineState,
         tokens: &Tokens,
         shape: &mut MarkShape,
     ) {
-        let times_secs = self.key_times(joint);
         let (Some(&first), Some(&last)) = (times_secs.first(), times_secs.last()) else {
             return;
         };
-        let chosen = state
-            .key_box
-            .as_ref()
-            .map_or(0..0, |key_box| key_box.part_of(joint, times_secs));
-        if activity.constant && times_secs.len() > 1 {
-            shape.bar(self.seen_points(first, last), y, 1.0, tokens.faint.gamma_multiply(0.6));
+        let radius = mark_radius(self.time.axis.points_per_sec() / self.time.clip.keys_per_sec);
+        let (radius, chosen_radius, color) = if folded {
+            let radius = FOLDED_SIZE * radius;
+            (radius, radius, tokens.muted.gamma_multiply(0.85))
         } else {
-            let radius = mark_radius(self.axis.points_per_sec() / self.clip.keys_per_sec);
-            shape.add(&times_secs[..chosen.start], &self.axis, y, radius, tokens.muted);
-            shape.add(&times_secs[chosen.end..], &self.axis, y, radius, tokens.muted);
+            (radius, radius + 0.6, tokens.muted)
+        };
+        if constant {
+            let seen = self.time.axis.points().expand(END_ROOM);
+            let [first, last] = [first, last].map(|secs| seen.clamp(self.time.axis.x_of(secs)));
+            shape.bar(Rangef::new(first, last), y, 1.0, tokens.faint.gamma_multiply(0.6));
         }
-        let radius = mark_radius(self.axis.points_per_sec() / self.clip.keys_per_sec) + 0.6;
-        shape.add(&times_secs[chosen], &self.axis, y, radius, tokens.accent);
+        let mut add = |times_secs: &[f32], radius, color| match folded {
+            true => shape.add_hollow(times_secs, &self.time.axis, y, radius, color),
+            false => shape.add(times_secs, &self.time.axis, y, radius, color),
+        };
+        if !constant {
+            add(&times_secs[..chosen.start], radius, color);
+            add(&times_secs[chosen.end..], radius, color);
+        }
+        add(&times_secs[chosen], chosen_radius, tokens.accent);
     }
 }

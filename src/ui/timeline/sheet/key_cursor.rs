@@ -12,7 +12,7 @@ use crate::ui::cx::Cx;
 use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::kit::wording::counted;
 use crate::ui::kit::{focused_keys, tell_node};
-use crate::ui::timeline::state::{KeyBox, KeyCursor, TimelineState};
+use crate::ui::timeline::state::{KeyCursor, TimelineState};
 use crate::ui::timeline::time_area::{self, GRID_KEYS};
 
 /// Rows that the page keys go by.
@@ -44,10 +44,10 @@ impl Sheet<'_> {
         let before = cx.state.cursor;
         let place = before.and_then(|cursor| Some((cursor, row_of(rows, cursor.joint)?)));
         let (mut cursor, mut index) = place.unwrap_or_else(|| {
-            let selected = self.session.joints().selected();
+            let selected = self.time.session.joints().selected();
             let index = selected.and_then(|joint| row_of(rows, joint)).unwrap_or(0);
             let joint = rows.all()[index].joint;
-            let now_secs = self.session.playback().time_secs();
+            let now_secs = self.time.session.playback().time_secs();
             let key_secs = RowKeys([self.key_times(joint), &[]]).nearest(now_secs);
             (KeyCursor::at(joint, key_secs), index)
         });
@@ -68,7 +68,12 @@ impl Sheet<'_> {
                 Key::PageDown => index = (index + PAGE as usize).min(last),
                 _ => {}
             }
-            rows.merge_folded(index..index + 1, self.session, self.open, self.clip_index);
+            rows.merge_folded(
+                index..index + 1,
+                self.time.session,
+                self.time.open,
+                self.time.clip_index,
+            );
             let row = rows.all()[index];
             let keys = self.keys_of(rows, &row);
             if index == before.1 {
@@ -99,7 +104,13 @@ impl Sheet<'_> {
                 cursor.joint = row.joint;
                 cursor.key_secs = cursor.wanted_secs.and_then(|secs| keys.nearest(secs));
             }
-            self.choose(shift, before, (&mut cursor, index), rows, cx.state);
+            let corners = [before, (cursor, index)].map(|(cursor, index)| {
+                let secs = cursor.key_secs.or(cursor.wanted_secs);
+                (secs.unwrap_or(self.time.clip.start_secs), index as f32 + 0.5)
+            });
+            let joints_of = |row| rows.joints_of(self.time.session, row);
+            cx.state.choose_keys((shift, before.0.chooses), corners, joints_of);
+            cursor.chooses = shift;
         }
         if moved {
             self.bring_into_view(ui, &cursor, index, top, cx.state);
@@ -122,46 +133,19 @@ impl Sheet<'_> {
                 cx.pause_at(time_secs);
             }
             None => {
-                let selected = self.session.joints().selected() == joint;
+                let selected = self.time.session.joints().selected() == joint;
                 cx.push(JointCommand::Select(joint.filter(|_| !selected)));
             }
         }
     }
 
-    /// With Shift the keys between where the cell was and where it is are chosen. Without they are let go.
-    fn choose(
-        &self,
-        shift: bool,
-        (before, before_index): (KeyCursor, usize),
-        (cursor, index): (&mut KeyCursor, usize),
-        rows: &Rows,
-        state: &mut TimelineState,
-    ) {
-        if !shift {
-            cursor.chooses = false;
-            state.key_box = None;
-            return;
-        }
-        let corner = |cursor: &KeyCursor, index: usize| {
-            let secs = cursor.key_secs.or(cursor.wanted_secs).unwrap_or(self.clip.start_secs);
-            (secs, index as f32 + 0.5)
-        };
-        let from = corner(&before, before_index);
-        let key_box = match &mut state.key_box {
-            Some(key_box) if before.chooses => key_box,
-            key_box => key_box.insert(KeyBox::at(from)),
-        };
-        key_box.stretch(corner(cursor, index), |row| rows.joints_of(self.session, row));
-        cursor.chooses = true;
-    }
-
     /// Scrolls to its row, and its key into what is seen of the time.
     fn bring_into_view(&self, ui: &Ui, cursor: &KeyCursor, index: usize, top: f32, state: &mut TimelineState) {
         let y = top + index as f32 * self.row_height;
-        let row = Rect::from_x_y_ranges(self.area.x_range(), y..=y + self.row_height);
+        let row = Rect::from_x_y_ranges(self.time.whole.x_range(), y..=y + self.row_height);
         ui.scroll_to_rect(row, None);
         if let Some(secs) = cursor.key_secs {
-            time_area::bring_into_view(self.clip, secs, state);
+            time_area::bring_into_view(self.time.clip, secs, state);
         }
     }
 
@@ -184,7 +168,7 @@ impl Sheet<'_> {
         let cell = match cursor.key_secs {
             Some(secs) => {
                 let side = self.row_height.min(20.0) - 2.0;
-                let center = pos2(self.axis.x_of(secs), name.rect.center().y);
+                let center = pos2(self.time.axis.x_of(secs), name.rect.center().y);
                 // A cell of its own for each key, so that a screen reader hears of each.
                 let id = name.id.with(secs.to_bits());
                 let cell = ui.interact(Rect::from_center_size(center, vec2(side, side)), id, Sense::hover());
@@ -200,7 +184,7 @@ impl Sheet<'_> {
     }
 
     fn cell_words(&self, rows: &Rows, row: &Row, secs: f32) -> String {
-        let name = self.session.joint_label(row.joint);
+        let name = self.time.session.joint_label(row.joint);
         let times = self.key_times(row.joint);
         let own = times.iter().position(|&key| key == secs);
         let number = match own {
@@ -210,6 +194,6 @@ impl Sheet<'_> {
                 format!("key of {} folded away", counted(folded, "bone"))
             }
         };
-        format!("{number}, frame {}, {secs:.2} s, {name}", self.clip.frame_at(secs))
+        format!("{number}, frame {}, {secs:.2} s, {name}", self.time.clip.frame_at(secs))
     }
 }

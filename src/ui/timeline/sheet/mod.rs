@@ -36,7 +36,7 @@ pub(in crate::ui) fn page(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     let (rect, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     let mut child = ui.new_child(UiBuilder::new().max_rect(rect).id_salt("sheet"));
     if rect.height() >= WITH_TRANSPORT {
-        controls::all_steps(&mut child, cx.session, cx.commands);
+        controls::all_steps(&mut child, cx);
         child.add_space(GAP);
     }
     contents(&mut child, &mut cx.part(|state| &mut state.timeline));
@@ -46,16 +46,14 @@ fn contents(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(GAP, 4.0);
         let tabs = [(SheetTab::Keys, "Dope sheet"), (SheetTab::Curves, "Curves")];
-        if let Some(tab) = segmented_of_width(ui, 172.0, "Sheet", &tabs, cx.state.tab) {
-            cx.state.tab = tab;
-        }
+        segmented_of_width(ui, 172.0, "Sheet", &tabs, &mut cx.state.tab);
         match cx.state.tab {
             SheetTab::Keys => keys_controls(ui, cx),
             SheetTab::Curves => curve_plot::controls(ui, &mut cx.state.curves),
         }
         chosen_keys(ui, cx);
-        if cx.state.window.is_part() && push_button(ui, Icon::Frame, "All of the time").clicked() {
-            cx.state.window.show_all();
+        if cx.state.seen.is_part() && push_button(ui, Icon::Frame, "All of the time").clicked() {
+            cx.state.seen.show_all();
         }
     });
     ui.add_space(GAP);

@@ -67,7 +67,6 @@ impl Rows {
         }
     }
 
-    /// The rows in order.
     pub(in crate::ui::timeline) fn all(&self) -> &[Row] {
         &self.rows
     }

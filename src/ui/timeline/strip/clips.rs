@@ -6,7 +6,6 @@ use super::controls::tell_choice;
 use crate::actions;
 use crate::session::{ClipSummary, Command, DEFAULT_CROSSFADE_SECS, OpenModel, PlayCommand};
 use crate::ui::cx::Cx;
-use crate::ui::frame::panel::{popover_above, popover_gap, scrolled};
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::Tokens;
 use crate::ui::kit::wording::{counted, trimmed};
@@ -15,6 +14,7 @@ use crate::ui::kit::{
     row_icon, section_name, section_with_action, tell_node, tell_push,
 };
 use crate::ui::state::{Request, UiState};
+use crate::ui::window::panel::{popover_above, popover_gap, scrolled};
 
 const WIDTH: f32 = 320.0;
 /// Clips listed before the list scrolls.

@@ -6,7 +6,6 @@ use super::typed::{self, Unit};
 use crate::actions;
 use crate::anim::Direction;
 use crate::model::Clip;
-use crate::session::{Command, Session};
 use crate::ui::cx::Cx;
 use crate::ui::kit::icons::{self, Icon};
 use crate::ui::kit::theme::{self, Tokens};
@@ -14,8 +13,8 @@ use crate::ui::kit::wording::trimmed;
 use crate::ui::kit::{TypedValue, action_button, control_size, hint_of_name, push_action, push_button, tell_node};
 
 /// The round button that plays and pauses.
-pub(in crate::ui::timeline) fn play_button(ui: &mut Ui, session: &Session, diameter: f32, commands: &mut Vec<Command>) {
-    let playing = session.playback().is_playing();
+pub(in crate::ui::timeline) fn play_button<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, diameter: f32) {
+    let playing = cx.session.playback().is_playing();
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(diameter), Sense::click());
     let (tokens, painter, center) = (Tokens::of(ui), ui.painter(), rect.center());
     let lift = if response.hovered() { 1.0 } else { 0.92 };
@@ -32,82 +31,67 @@ pub(in crate::ui::timeline) fn play_button(ui: &mut Ui, session: &Session, diame
     };
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
     if hint_of_name(response, &label).clicked() {
-        commands.extend(actions::PLAY.command(session));
+        cx.act(&actions::PLAY);
     }
 }
 
-pub(in crate::ui::timeline) fn backward_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    action_button(ui, session, &actions::PLAY_BACKWARD, Icon::PlayBackward, commands);
+/// How far a button goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::ui::timeline) enum Step {
+    /// By one frame. With Shift, or by a long touch, by ten.
+    Frame,
+    /// To the next key of the selected joint, or of any.
+    Key,
+    /// To an end of the range that plays.
+    End,
 }
 
-/// Goes to an end of the range that plays.
-pub(in crate::ui::timeline) fn end_button(
-    ui: &mut Ui,
-    session: &Session,
-    direction: Direction,
-    commands: &mut Vec<Command>,
-) {
-    let (icon, action) = match direction {
-        Direction::Backward => (Icon::SkipStart, &actions::FIRST_FRAME),
-        Direction::Forward => (Icon::SkipEnd, &actions::LAST_FRAME),
+/// A button that moves the time.
+pub(in crate::ui::timeline) fn step_button<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, step: Step, direction: Direction) {
+    let (icon, action) = match (step, direction) {
+        (Step::Frame, Direction::Backward) => (Icon::StepBack, &actions::FRAME_BACK),
+        (Step::Frame, Direction::Forward) => (Icon::StepForward, &actions::FRAME_ON),
+        (Step::Key, Direction::Backward) => (Icon::KeyBack, &actions::PREVIOUS_KEY),
+        (Step::Key, Direction::Forward) => (Icon::KeyForward, &actions::NEXT_KEY),
+        (Step::End, Direction::Backward) => (Icon::SkipStart, &actions::FIRST_FRAME),
+        (Step::End, Direction::Forward) => (Icon::SkipEnd, &actions::LAST_FRAME),
     };
-    push_action(ui, session, action, icon, commands);
-}
-
-/// Steps by one frame. With Shift, or by a long touch, by ten.
-pub(in crate::ui::timeline) fn frame_button(
-    ui: &mut Ui,
-    session: &Session,
-    direction: Direction,
-    commands: &mut Vec<Command>,
-) {
-    let (icon, one, ten) = match direction {
-        Direction::Backward => (Icon::StepBack, &actions::FRAME_BACK, &actions::TEN_FRAMES_BACK),
-        Direction::Forward => (Icon::StepForward, &actions::FRAME_ON, &actions::TEN_FRAMES_ON),
-    };
-    let label = format!("{} ({}, with Shift ten)", one.label, one.key());
+    if step != Step::Frame {
+        push_action(ui, cx, action, icon);
+        return;
+    }
+    let label = format!("{} ({}, with Shift ten)", action.label, action.key());
     let response = push_button(ui, icon, &label);
     // A long touch stands for Shift.
     let long = response.long_touched();
     if response.clicked() || long {
         let many = long || ui.input(|input| input.modifiers.shift);
-        let action = if many { ten } else { one };
-        commands.extend(action.command(session));
+        cx.act(match direction {
+            _ if !many => action,
+            Direction::Backward => &actions::TEN_FRAMES_BACK,
+            Direction::Forward => &actions::TEN_FRAMES_ON,
+        });
     }
 }
 
-/// Goes to the next key of the selected joint, or of any.
-pub(in crate::ui::timeline) fn key_button(
-    ui: &mut Ui,
-    session: &Session,
-    direction: Direction,
-    commands: &mut Vec<Command>,
-) {
-    let (icon, action) = match direction {
-        Direction::Backward => (Icon::KeyBack, &actions::PREVIOUS_KEY),
-        Direction::Forward => (Icon::KeyForward, &actions::NEXT_KEY),
-    };
-    push_action(ui, session, action, icon, commands);
-}
-
 /// All buttons that move the time but play, spread over the width. For where the strip has no room for them.
-pub(in crate::ui::timeline) fn all_steps(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+pub(in crate::ui::timeline) fn all_steps<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
     // The slimmest phones have no buttons for the ends, only the bar.
-    let with_ends = ui.available_width() >= 7.0 * control_size(ui);
-    let count = if with_ends { 7.0 } else { 5.0 };
+    let steps: &[Step] = if ui.available_width() >= 7.0 * control_size(ui) {
+        &[Step::Frame, Step::Key, Step::End]
+    } else {
+        &[Step::Frame, Step::Key]
+    };
+    let count = 1.0 + 2.0 * steps.len() as f32;
     ui.horizontal(|ui| {
         let free = ui.available_width() - count * control_size(ui);
         ui.spacing_mut().item_spacing.x = (free / (count - 1.0)).clamp(0.0, 24.0);
-        if with_ends {
-            end_button(ui, session, Direction::Backward, commands);
+        for &step in steps.iter().rev() {
+            step_button(ui, cx, step, Direction::Backward);
         }
-        key_button(ui, session, Direction::Backward, commands);
-        frame_button(ui, session, Direction::Backward, commands);
-        backward_button(ui, session, commands);
-        frame_button(ui, session, Direction::Forward, commands);
-        key_button(ui, session, Direction::Forward, commands);
-        if with_ends {
-            end_button(ui, session, Direction::Forward, commands);
+        action_button(ui, cx, &actions::PLAY_BACKWARD, Icon::PlayBackward);
+        for &step in steps {
+            step_button(ui, cx, step, Direction::Forward);
         }
     });
 }

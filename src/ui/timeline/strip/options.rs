@@ -7,9 +7,8 @@ use super::typed::{self, Unit};
 use crate::actions::speed_label;
 use crate::anim::{LoopMode, WrapMode};
 use crate::model::JointIndex;
-use crate::session::{Command, JointCommand, PlayCommand, SPEEDS, Session};
+use crate::session::{JointCommand, PlayCommand, SPEEDS};
 use crate::ui::cx::Cx;
-use crate::ui::frame::panel::{popover_gap, scrolled};
 use crate::ui::kit::theme::{self, MARGIN, Tokens};
 use crate::ui::kit::wording::trimmed;
 use crate::ui::kit::{
@@ -19,6 +18,7 @@ use crate::ui::kit::{
 use crate::ui::timeline::loop_gap::{LoopGapReading, angle, scale};
 use crate::ui::timeline::state::TimelineState;
 use crate::ui::timeline::time_area::seconds;
+use crate::ui::window::panel::{popover_gap, scrolled};
 
 /// Rows before the list scrolls.
 const ROWS: f32 = 6.0;
@@ -37,14 +37,14 @@ const FIELD_WIDTH: f32 = 78.0;
 pub(in crate::ui::timeline) fn show(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>, with_steps: bool) {
     ui.spacing_mut().item_spacing.y = 4.0;
     if with_steps {
-        controls::all_steps(ui, cx.session, cx.commands);
+        controls::all_steps(ui, cx);
         popover_gap(ui);
     }
-    speed(ui, cx.session, cx.commands);
+    speed(ui, cx);
     popover_gap(ui);
-    at_the_end(ui, cx.session, cx.commands);
+    at_the_end(ui, cx);
     popover_gap(ui);
-    range(ui, cx.session, cx.commands);
+    range(ui, cx);
     if cx.state.loop_gap.could_loop() {
         popover_gap(ui);
         let loops = cx.state.loop_gap.loops();
@@ -52,38 +52,38 @@ pub(in crate::ui::timeline) fn show(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>,
     }
 }
 
-fn speed(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let speed = session.playback().speed();
+fn speed<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
+    let speed = cx.session.playback().speed();
     section_name(ui, "Speed");
     let text = speed_label(speed);
     let typed = trimmed(speed);
     let field = TypedValue::new(ui, "Times as fast", &text, &typed).width(FIELD_WIDTH);
     let typed = ui.horizontal(|ui| field.row(ui, 0.0, ("", "Click to type"), typed::speed));
     if let Some(speed) = typed.inner {
-        commands.push(PlayCommand::SetSpeed(speed).into());
+        cx.push(PlayCommand::SetSpeed(speed));
     }
     let labels = SPEEDS.map(speed_label);
     let choices: Vec<(f32, &str)> = SPEEDS.into_iter().zip(labels.iter().map(String::as_str)).collect();
     let in_force = SPEEDS.into_iter().find(|choice| (choice - speed).abs() < 1e-4);
     for row in choices.chunks(IN_A_ROW) {
         if let Some(speed) = segmented(ui, "Speed", row, in_force) {
-            commands.push(PlayCommand::SetSpeed(speed).into());
+            cx.push(PlayCommand::SetSpeed(speed));
         }
     }
 }
 
-fn at_the_end(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let playback = session.playback();
+fn at_the_end<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
+    let playback = cx.session.playback();
     section_name(ui, "At the end");
     let modes = LoopMode::ALL.map(|mode| (mode, mode.label()));
     if let Some(mode) = segmented(ui, "At the end", &modes, Some(playback.loop_mode())) {
-        commands.push(PlayCommand::SetLoopMode(mode).into());
+        cx.push(PlayCommand::SetLoopMode(mode));
     }
     // What is about loops alone stays, so that nothing moves.
     ui.add_enabled_ui(playback.loop_mode() == LoopMode::Loop, |ui| {
         let modes = WrapMode::ALL.map(|mode| (mode, mode.label()));
         if let Some(mode) = segmented(ui, "Loop", &modes, Some(playback.wrap_mode())) {
-            commands.push(PlayCommand::SetWrapMode(mode).into());
+            cx.push(PlayCommand::SetWrapMode(mode));
         }
         wrap_explained(ui, playback.wrap_mode());
     });
@@ -114,12 +114,12 @@ fn wrap_explained(ui: &mut Ui, mode: WrapMode) {
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words_of(mode)));
 }
 
-fn range(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let Some(clip) = session.clip() else { return };
-    let playback = session.playback();
+fn range<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
+    let Some(clip) = cx.session.clip() else { return };
+    let playback = cx.session.playback();
     let action = playback.range_secs().map(|_| "Clear");
     if section_with_action(ui, "Range", action) {
-        commands.push(PlayCommand::ClearRange.into());
+        cx.push(PlayCommand::ClearRange);
     }
     let [start_secs, end_secs] = playback.played_secs();
     for (name, secs) in [("In", start_secs), ("Out", end_secs)] {
@@ -140,10 +140,10 @@ fn range(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         let field = TypedValue::new(ui, name, &text, &typed).width(FIELD_WIDTH);
         let hint = "Click to type seconds, 0.33, or a frame, f20";
         if let Some(secs) = ui.horizontal(|ui| field.row(ui, 0.0, (&frame, hint), read)).inner {
-            commands.push(if begins {
-                PlayCommand::SetRangeStart(Some(secs)).into()
+            cx.push(if begins {
+                PlayCommand::SetRangeStart(Some(secs))
             } else {
-                PlayCommand::SetRangeEnd(Some(secs)).into()
+                PlayCommand::SetRangeEnd(Some(secs))
             });
         }
     }

@@ -2,24 +2,22 @@
 
 use egui::{Align2, FontId, Rangef, Role, Sense, Ui, WidgetInfo, vec2};
 
-use super::controls::ReadoutWidths;
+use super::controls::{ReadoutWidths, Step};
 use super::{bar, clips, controls, options};
 use crate::actions;
 use crate::anim::{Direction, LoopMode};
 use crate::model::Clip;
-use crate::session::{Command, Session};
 use crate::ui::cx::Cx;
-use crate::ui::frame::panel::{mark_transport, popover_above};
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};
-use crate::ui::kit::{control_size, focus_ring, icon_button, push_button, tell_open};
-use crate::ui::state::{SheetPage, UiState};
+use crate::ui::kit::{action_button, control_size, focus_ring, icon_button, push_button, tell_open};
+use crate::ui::state::{DrawerPage, UiState};
 use crate::ui::timeline::sheet;
 use crate::ui::timeline::state::TimelineState;
+use crate::ui::window::panel::{mark_transport, popover_above};
 
 /// Side of the button that plays, in a wide window.
 const PLAY_SIZE: f32 = 34.0;
-/// Gap between sheet and transport.
 const SHEET_GAP: f32 = 8.0;
 /// The least width of the clip's name on a phone.
 const CLIP_WIDTH_NARROW: f32 = 84.0;
@@ -49,20 +47,21 @@ fn strip(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     let row = ui.allocate_ui_with_layout(row, egui::Layout::left_to_right(egui::Align::Center), |ui| {
         let with_keys = ui.available_width() >= KEY_BUTTONS_WIDTH;
         ui.spacing_mut().item_spacing.x = 2.0;
-        controls::end_button(ui, cx.session, Direction::Backward, cx.commands);
-        if with_keys {
-            controls::key_button(ui, cx.session, Direction::Backward, cx.commands);
+        let steps: &[Step] = if with_keys {
+            &[Step::Frame, Step::Key, Step::End]
+        } else {
+            &[Step::Frame, Step::End]
+        };
+        for &step in steps.iter().rev() {
+            controls::step_button(ui, cx, step, Direction::Backward);
         }
-        controls::frame_button(ui, cx.session, Direction::Backward, cx.commands);
-        controls::backward_button(ui, cx.session, cx.commands);
+        action_button(ui, cx, &actions::PLAY_BACKWARD, Icon::PlayBackward);
         ui.add_space(3.0);
-        controls::play_button(ui, cx.session, PLAY_SIZE, cx.commands);
+        controls::play_button(ui, cx, PLAY_SIZE);
         ui.add_space(3.0);
-        controls::frame_button(ui, cx.session, Direction::Forward, cx.commands);
-        if with_keys {
-            controls::key_button(ui, cx.session, Direction::Forward, cx.commands);
+        for &step in steps {
+            controls::step_button(ui, cx, step, Direction::Forward);
         }
-        controls::end_button(ui, cx.session, Direction::Forward, cx.commands);
         ui.spacing_mut().item_spacing.x = SPACING;
         ui.add_space(4.0);
         clips::button(ui, cx, Rangef::new(92.0, 200.0));
@@ -75,7 +74,7 @@ fn strip(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
         controls::time_readout(ui, cx, clip, (widths.time_of_end, true));
         controls::frame_readout(ui, cx, clip, widths.frame);
         speed_button(ui, &mut cx.part(|state| &mut state.timeline), 48.0, !with_keys);
-        loop_button(ui, cx.session, cx.commands);
+        loop_button(ui, cx);
         if sheet_button(ui, cx.state.timeline.open) {
             cx.state.timeline.open = !cx.state.timeline.open;
         }
@@ -94,11 +93,11 @@ pub(in crate::ui) fn narrow(ui: &mut Ui, cx: &mut Cx<'_, UiState>, low: bool) {
         let others = 44.0 + CLIP_WIDTH_NARROW + end.width + 4.0 * button;
         let with_frames = low && ui.available_width() - others >= LEAST_BAR_WITH_FRAMES;
         if with_frames {
-            controls::frame_button(ui, cx.session, Direction::Backward, cx.commands);
+            controls::step_button(ui, cx, Step::Frame, Direction::Backward);
         }
-        controls::play_button(ui, cx.session, 44.0, cx.commands);
+        controls::play_button(ui, cx, 44.0);
         if with_frames {
-            controls::frame_button(ui, cx.session, Direction::Forward, cx.commands);
+            controls::step_button(ui, cx, Step::Frame, Direction::Forward);
         }
         let mut bar_width = ui.available_width() - button;
         if low {
@@ -110,9 +109,9 @@ pub(in crate::ui) fn narrow(ui: &mut Ui, cx: &mut Cx<'_, UiState>, low: bool) {
         if low {
             ui.scope(|ui| end.show(ui, &mut cx.part(|state| &mut state.timeline), clip));
         }
-        let open = cx.state.sheet == Some(SheetPage::Timeline);
+        let open = cx.state.drawer == Some(DrawerPage::Timeline);
         if sheet_button(ui, open) {
-            cx.state.sheet = (!open).then_some(SheetPage::Timeline);
+            cx.state.drawer = (!open).then_some(DrawerPage::Timeline);
         }
     });
     if low {
@@ -174,7 +173,7 @@ impl EndOfStrip {
             controls::frame_readout(ui, cx, clip, self.frame);
         }
         speed_button(ui, cx, SPEED_WIDTH_NARROW, self.with_steps);
-        loop_button(ui, cx.session, cx.commands);
+        loop_button(ui, cx);
     }
 }
 
@@ -221,8 +220,8 @@ fn sheet_button(ui: &mut Ui, open: bool) -> bool {
     button.clicked()
 }
 
-fn loop_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let (icon, label) = match session.playback().loop_mode() {
+fn loop_button<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
+    let (icon, label) = match cx.session.playback().loop_mode() {
         LoopMode::Once => (Icon::Once, "Plays once"),
         LoopMode::Loop => (Icon::Loop, "Loops"),
         LoopMode::PingPong => (Icon::PingPong, "Plays there and back"),
@@ -232,6 +231,6 @@ fn loop_button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let spoken = format!("At the end: {}", label.to_lowercase());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &spoken));
     if response.clicked() {
-        commands.extend(action.command(session));
+        cx.act(action);
     }
 }

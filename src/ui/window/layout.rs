@@ -1,30 +1,30 @@
-//! Where the panels are: around the view in a wide window, a bar and a sheet in a narrow one. In a low window, such as a phone on its
+//! Where the panels are: around the view in a wide window, a bar and a drawer in a narrow one. In a low window, such as a phone on its
 //! side, what was opened stands beside the model instead of below it.
 //!
 //! One pass goes from the edges inwards. Each panel gets the room that the panels before it left, and what all of them leave is where
 //! the model is framed.
 
-use egui::{Align, Align2, Id, Layout, Margin, Rangef, Rect, RichText, Role, Sense, Ui, UiBuilder, Vec2, pos2, vec2};
+use egui::{Align, Align2, Layout, Margin, Rangef, Rect, Role, Sense, Ui, UiBuilder, Vec2, pos2, vec2};
 
+use super::arrangement::Arrangement;
+use super::drawer::Heights;
 use super::panel::{self, Free, LEAST_ROOM, Panel, mark_transport, scrolled};
-use super::sheet::Heights;
-use super::{focus, toolbar};
+use super::{pages, toolbar};
 use crate::actions;
 use crate::session::{Command, LoadError, Session};
 use crate::ui::cx::Cx;
 use crate::ui::kit::TextButton;
 use crate::ui::kit::icons::Icon;
-use crate::ui::kit::theme::{LOW_HEIGHT, LOW_WIDTH, MARGIN, NARROW_WIDTH, Tokens};
+use crate::ui::kit::theme::{MARGIN, Tokens};
 use crate::ui::kit::wording::grouped;
-use crate::ui::panels::skeleton::state::{SidePage, has_joints, is_inspected};
+use crate::ui::panels::skeleton::state::{SidePage, is_inspected};
 use crate::ui::panels::skeleton::{self, LegendShape};
-use crate::ui::panels::{error_card, export, findings, help, inspector, light, model_panel, overlays, picture};
-use crate::ui::state::{SheetPage, UiState};
+use crate::ui::panels::{error_card, findings, help, inspector, model_panel};
+use crate::ui::state::{DrawerPage, UiState};
 use crate::ui::{kit, timeline};
 
 /// Width of the panel on the left.
 const SIDE_WIDTH: f32 = 246.0;
-/// Width of the inspector on the right.
 const INSPECTOR_WIDTH: f32 = 288.0;
 /// Width of the list of diagnostics, where there is room for it.
 const DIAGNOSTICS_WIDTH: f32 = 456.0;
@@ -32,10 +32,6 @@ const DIAGNOSTICS_WIDTH: f32 = 456.0;
 const ERROR_WIDTH: f32 = 562.0;
 /// Height of the middle of that card, as a fraction of the window.
 const ERROR_AT: f32 = 0.38;
-/// Fraction of a low window's width that a page beside the model has, and one with keys over time; and the greatest width.
-const BESIDE_FRACTION: f32 = 0.44;
-const TIMELINE_BESIDE_FRACTION: f32 = 0.62;
-const MOST_BESIDE: f32 = 560.0;
 /// In a narrow window a figure in the middle reaches about so far to either side.
 const FIGURE_REACH: f32 = 80.0;
 /// The least width beside the diagnostics in which something of a model is seen.
@@ -50,32 +46,6 @@ const BESIDE_SELECTION: f32 = 110.0;
 const LEAST_WITH_CARD: f32 = 220.0;
 const LEAST_BESIDE_CARD: f32 = 80.0;
 const LEAST_WITH_STRIP: f32 = 180.0;
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Arrangement {
-    Wide,
-    /// A bar above, below a sheet with the timeline and with what was opened.
-    Narrow,
-    /// A bar above, the timeline in one row below, and between them what was opened, beside the model.
-    Low,
-}
-
-impl Arrangement {
-    fn of(window: Rect) -> Self {
-        if window.height() < LOW_HEIGHT && window.width() >= LOW_WIDTH {
-            Self::Low
-        } else if window.width() >= NARROW_WIDTH {
-            Self::Wide
-        } else {
-            Self::Narrow
-        }
-    }
-}
-
-/// Whether the panels stand around the view.
-pub(in crate::ui) fn is_wide(window: Rect) -> bool {
-    Arrangement::of(window) == Arrangement::Wide
-}
 
 /// Shows all panels. Returns what they leave free for the model, and what of that no panel covers.
 pub(in crate::ui) fn show(ui: &Ui, cx: &mut Cx<'_, UiState>) -> (Rect, Rect) {
@@ -124,10 +94,10 @@ fn wide(ui: &Ui, cx: &mut Cx<'_, UiState>, mut free: Free) -> (Free, Free) {
             column.cut_bottom(legend);
         }
         let width = skeleton::side_width(ui, cx.state.side_width.unwrap_or(SIDE_WIDTH), SIDE_WIDTH);
-        let side = Panel::new("model", side_label(cx.state), Align2::LEFT_TOP)
+        let side = Panel::new("model", pages::side_label(cx.state), Align2::LEFT_TOP)
             .width(width)
             .show(ui, column.room(), |ui| {
-                side_panel(ui, "model", cx);
+                pages::side_panel(ui, "model", cx);
             });
         if let Some(width) = skeleton::show_width_handle(ui, side, SIDE_WIDTH) {
             cx.state.side_width = Some(width);
@@ -171,65 +141,7 @@ fn wide(ui: &Ui, cx: &mut Cx<'_, UiState>, mut free: Free) -> (Free, Free) {
     (free, beside)
 }
 
-/// What the panel on the left shows.
-fn side_label(state: &UiState) -> &'static str {
-    match state.skeleton.page {
-        SidePage::Model => "Model",
-        SidePage::Skeleton => "Skeleton",
-    }
-}
-
-/// Facts or the tree of joints below the switch between them; each scrolls by itself.
-fn side_panel(ui: &mut Ui, id: &'static str, cx: &mut Cx<'_, UiState>) {
-    if has_joints(cx.session) {
-        show_tabs(ui, cx.session, cx.state, false);
-        ui.add_space(8.0);
-    }
-    side_page(ui, id, cx);
-}
-
-/// The switch between the pages of the panel on the left, and in the sheet what is selected.
-fn show_tabs(ui: &mut Ui, session: &Session, state: &mut UiState, in_sheet: bool) {
-    let tabs = [
-        (Some(SidePage::Model), "Model"),
-        (Some(SidePage::Skeleton), "Skeleton"),
-        (None, "Selection"),
-    ];
-    let is_there = |tab: &(Option<SidePage>, _)| match tab.0 {
-        Some(page) => page == SidePage::Model || has_joints(session),
-        None => in_sheet,
-    };
-    let tabs: Vec<_> = tabs.into_iter().filter(is_there).collect();
-    let shown = if in_sheet {
-        side_tab(state)
-    } else {
-        Some(state.skeleton.page)
-    };
-    match kit::segmented(ui, "Panel", &tabs, Some(shown)) {
-        Some(Some(page)) => {
-            state.skeleton.page = page;
-            state.sheet = state.sheet.map(|_| SheetPage::Model);
-        }
-        Some(None) => state.sheet = Some(SheetPage::Selection),
-        None => {}
-    }
-}
-
-/// The tab of the sheet: a page of the panel on the left, or none for what is selected. A bone is named in the tree.
-fn side_tab(state: &UiState) -> Option<SidePage> {
-    let selection = state.sheet == Some(SheetPage::Selection) && !state.skeleton.is_naming();
-    (!selection).then_some(state.skeleton.page)
-}
-
-fn side_page(ui: &mut Ui, id: &'static str, cx: &mut Cx<'_, UiState>) {
-    if cx.state.skeleton.page == SidePage::Skeleton {
-        skeleton::show_tree(ui, &mut cx.part(|state| &mut state.skeleton));
-    } else {
-        scrolled(id, ui.available_height()).show(ui, |ui| model_panel::show(ui, cx));
-    }
-}
-
-/// Phones, slim and low windows: one bar above, one sheet below; in a low window what is opened stands between them. Returns the same as
+/// Phones, slim and low windows: one bar above, one drawer below; in a low window what is opened stands between them. Returns the same as
 /// [`wide`].
 fn narrow(ui: &Ui, cx: &mut Cx<'_, UiState>, mut free: Free, low: bool) -> (Free, Free) {
     let room = free.room();
@@ -251,19 +163,19 @@ fn narrow(ui: &Ui, cx: &mut Cx<'_, UiState>, mut free: Free, low: bool) -> (Free
         });
     cx.commands.append(&mut opens);
     free.cut_top(bar);
-    if cx.session.open_model().is_some() || !matches!(cx.state.sheet, None | Some(SheetPage::Model)) {
-        let sheet = sheet(ui, cx, &free, low);
-        free.cut_bottom(sheet);
-        if let Some(page) = cx.state.sheet.filter(|_| low) {
+    if cx.session.open_model().is_some() || !matches!(cx.state.drawer, None | Some(DrawerPage::Model)) {
+        let drawer = drawer(ui, cx, &free, low);
+        free.cut_bottom(drawer);
+        if let Some(page) = cx.state.drawer.filter(|_| low) {
             let room = free.room();
-            let label = page_title(page, cx.state);
+            let label = pages::page_title(page, cx.state);
             let page = Panel::new("page", label, Align2::RIGHT_TOP)
-                .width(page_width(page, ui.max_rect()))
-                .show(ui, room, |ui| show_page(ui, page, cx));
+                .width(pages::page_width(page, ui.max_rect()))
+                .show(ui, room, |ui| pages::show_page(ui, page, cx));
             free.cut_right(page);
         }
     }
-    if cx.state.sheet.is_none()
+    if cx.state.drawer.is_none()
         && let Some(greeting) = help::greet(ui, cx.state, free.room())
     {
         free.cut_bottom(greeting);
@@ -310,14 +222,14 @@ fn show_legend(ui: &Ui, session: &Session, state: &mut UiState, room: Rect, shap
     Some(panel.show(ui, room, |ui| {
         if skeleton::show_legend(ui, session, view, shape, tree_shown) {
             state.skeleton.show_page(session, SidePage::Skeleton);
-            state.sheet = Some(SheetPage::Model);
+            state.drawer = Some(DrawerPage::Model);
         }
     }))
 }
 
 /// The timeline at the window's lower edge, and above it what was opened, unless it stands beside the model. The transport stays in its
 /// place whatever opens. Returns the rect that it has at rest.
-fn sheet(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free, low: bool) -> Rect {
+fn drawer(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free, low: bool) -> Rect {
     let window = ui.max_rect();
     let margin = Margin {
         left: 14,
@@ -325,47 +237,47 @@ fn sheet(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free, low: bool) -> Rect {
         top: 0,
         bottom: 14,
     };
-    // How much higher the sheet will be when it comes to rest.
+    // How much higher the drawer will be when it comes to rest.
     let mut rises = 0.0;
     let rect = Panel::new("sheet", "Sheet", Align2::LEFT_BOTTOM)
-        .sheet()
+        .drawer()
         .margin(margin)
         .width(window.width())
         .show(ui, window.with_min_y(free.room().min.y), |ui| {
-            let shows_facts = !cx.state.diagnostics_open && side_tab(cx.state) == Some(SidePage::Model);
-            let label = match cx.state.sheet {
+            let shows_facts = !cx.state.diagnostics_open && pages::side_tab(cx.state) == Some(SidePage::Model);
+            let label = match cx.state.drawer {
                 Some(_) => "Close the sheet",
                 None if shows_facts => "Model facts",
-                None => page_title(SheetPage::Model, cx.state),
+                None => pages::page_title(DrawerPage::Model, cx.state),
             };
-            let handle = kit::sheet_handle(ui, label);
+            let handle = kit::drawer_handle(ui, label);
             if handle.clicked() {
-                cx.state.sheet = cx.state.sheet.is_none().then_some(SheetPage::Model);
+                cx.state.drawer = cx.state.drawer.is_none().then_some(DrawerPage::Model);
             }
             if !low {
-                let most = ui.available_height() - cx.state.sheet_height.strip;
-                let of_timeline = cx.state.sheet == Some(SheetPage::Timeline);
+                let most = ui.available_height() - cx.state.drawer_height.strip;
+                let of_timeline = cx.state.drawer == Some(DrawerPage::Timeline);
                 let heights = Heights::new(of_timeline, window.height(), most);
-                let (height, page) = (&mut cx.state.sheet_height, cx.state.sheet);
+                let (height, page) = (&mut cx.state.drawer_height, cx.state.drawer);
                 let open = height.drag(ui, &handle, heights, page.is_some());
-                cx.state.sheet = open.then(|| page.unwrap_or(SheetPage::Model));
-                match cx.state.sheet {
+                cx.state.drawer = open.then(|| page.unwrap_or(DrawerPage::Model));
+                match cx.state.drawer {
                     Some(page) => {
                         let still = cx.session.reduced_motion();
-                        let (height, at_rest) = cx.state.sheet_height.now(ui.ctx(), heights, still);
-                        let label = page_title(page, cx.state);
+                        let (height, at_rest) = cx.state.drawer_height.now(ui.ctx(), heights, still);
+                        let label = pages::page_title(page, cx.state);
                         let region = UiBuilder::new()
                             .accessibility_role(Role::Region)
                             .accessibility_label(label);
                         let shown = ui.scope_builder(region, |ui| {
                             ui.set_max_height(height);
-                            show_page(ui, page, cx);
+                            pages::show_page(ui, page, cx);
                         });
                         if shown.response.rect.height() >= height - 0.5 {
                             rises = at_rest - height;
                         }
                     }
-                    None => cx.state.sheet_height.shut(ui.ctx()),
+                    None => cx.state.drawer_height.shut(ui.ctx()),
                 }
             }
             // Whole points above it, so that the strip stays where it is.
@@ -373,7 +285,7 @@ fn sheet(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free, low: bool) -> Rect {
             ui.add_space(above.ceil() - above);
             let top = ui.cursor().min.y;
             if cx.session.clip().is_some() {
-                if cx.state.sheet.is_some() && !low {
+                if cx.state.drawer.is_some() && !low {
                     ui.add_space(10.0);
                 }
                 let region = UiBuilder::new()
@@ -382,117 +294,19 @@ fn sheet(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free, low: bool) -> Rect {
                 let strip = ui.scope_builder(region, |ui| timeline::narrow(ui, cx, low));
                 mark_transport(ui, strip.response.rect);
             }
-            cx.state.sheet_height.strip = ui.min_rect().max.y - top;
+            cx.state.drawer_height.strip = ui.min_rect().max.y - top;
         });
     rect.with_min_y(rect.min.y - rises)
 }
 
-/// Whether a sheet lies over the view. A tap on the view shuts it.
-pub(in crate::ui) fn sheet_covers_view(window: Rect, state: &UiState) -> bool {
-    Arrangement::of(window) == Arrangement::Narrow && state.sheet.is_some()
+/// Whether a drawer lies over the view. A tap on the view shuts it.
+pub(in crate::ui) fn drawer_covers_view(window: Rect, state: &UiState) -> bool {
+    Arrangement::of(window) == Arrangement::Narrow && state.drawer.is_some()
 }
 
 /// Whether facts or the tree of joints are seen.
 pub(in crate::ui) fn shows_side_page(window: Rect, state: &UiState) -> bool {
-    is_wide(window) || state.sheet == Some(SheetPage::Model)
-}
-
-/// Width of a page beside the model.
-fn page_width(page: SheetPage, window: Rect) -> f32 {
-    let fraction = if page == SheetPage::Timeline {
-        TIMELINE_BESIDE_FRACTION
-    } else {
-        BESIDE_FRACTION
-    };
-    (fraction * window.width()).min(MOST_BESIDE)
-}
-
-fn page_title(page: SheetPage, state: &UiState) -> &'static str {
-    match page {
-        SheetPage::Model | SheetPage::Selection if state.diagnostics_open => "Findings",
-        SheetPage::Model | SheetPage::Selection => match side_tab(state) {
-            Some(_) => side_label(state),
-            None => "Inspector",
-        },
-        SheetPage::ViewMode => "View mode",
-        SheetPage::Light => "Light and background",
-        SheetPage::Overlays => "Lines over the model",
-        SheetPage::ViewFrom => "View from",
-        SheetPage::Picture => "Picture",
-        SheetPage::Export => "Export",
-        SheetPage::Timeline => "Timeline",
-    }
-}
-
-/// A page of the sheet below its title, no higher than what is available.
-fn show_page(ui: &mut Ui, page: SheetPage, cx: &mut Cx<'_, UiState>) {
-    let is_tab = matches!(page, SheetPage::Model | SheetPage::Selection);
-    if is_tab && cx.state.diagnostics_open {
-        findings::show(ui, cx);
-        return;
-    }
-    let title = page_title(page, cx.state);
-    let close = if is_tab {
-        // The switch between the pages is their title.
-        ui.horizontal(|ui| {
-            let size = vec2(
-                ui.available_width() - kit::control_size(ui) - 6.0,
-                kit::control_size(ui),
-            );
-            ui.allocate_ui(size, |ui| show_tabs(ui, cx.session, cx.state, true));
-            kit::push_button(ui, Icon::Close, "Close")
-        })
-        .inner
-    } else {
-        kit::heading_with_close(ui, title)
-    };
-    ui.add_space(4.0);
-    focus::note_page(ui, Id::unique(("page", page)), close.id);
-    if close.clicked() {
-        cx.state.sheet = None;
-    }
-    if is_tab && side_tab(cx.state).is_some() {
-        side_page(ui, "sheet", cx);
-        return;
-    }
-    if page == SheetPage::Timeline {
-        timeline::page(ui, cx);
-        return;
-    }
-    if page == SheetPage::Export {
-        export::show(ui, ui.available_height(), cx);
-        return;
-    }
-    // Each page begins at its top, and so does what is inspected next.
-    let joints = cx.session.joints();
-    let inspected = (
-        joints.selected(),
-        joints.selected_vertex().map(|selected| selected.vertex),
-        cx.session.submeshes().selected(),
-    );
-    let area = scrolled("sheet", ui.available_height()).id_salt(("sheet", page as u8, inspected));
-    area.show(ui, |ui| match page {
-        SheetPage::Selection if cx.session.submeshes().selected().is_some() => {
-            inspector::show(ui, cx);
-        }
-        SheetPage::Selection if is_inspected(cx.session) => {
-            skeleton::show_inspector(ui, &mut cx.part(|state| &mut state.skeleton));
-        }
-        SheetPage::Selection => {
-            let words = "Nothing is selected. Tap a part of the model, or choose a bone under Skeleton.";
-            ui.label(RichText::new(words).color(Tokens::of(ui).muted));
-        }
-        SheetPage::ViewMode => {
-            kit::choices(ui, title, |ui| toolbar::view_mode_items(ui, cx.session, cx.commands));
-        }
-        SheetPage::Light => light::show(ui, cx.session, &mut cx.state.cost, cx.commands),
-        SheetPage::Overlays => overlays::show(ui, &mut cx.part(|state| &mut state.skeleton)),
-        SheetPage::ViewFrom => {
-            toolbar::view_from_items(ui, cx.session, cx.commands);
-        }
-        SheetPage::Picture => picture::show(ui, cx.session, cx.state),
-        SheetPage::Model | SheetPage::Export | SheetPage::Timeline => {}
-    });
+    Arrangement::of(window) == Arrangement::Wide || state.drawer == Some(DrawerPage::Model)
 }
 
 /// Help and the error card: over other panels, but not over the bars, the panel on the left and the timeline.
@@ -500,7 +314,7 @@ fn show_on_top(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free) {
     let window = ui.max_rect();
     if cx.state.help_open {
         let room = free.room();
-        // A phone's sheet may leave too little.
+        // A phone's drawer may leave too little.
         let room = if room.height() < LEAST_ROOM {
             room.with_max_y(window.max.y - MARGIN)
         } else {
@@ -528,15 +342,15 @@ fn frame_button(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free) {
             let action = &actions::FRAME_MODEL;
             let button = kit::TextButton::new("Frame", action.label).icon(Icon::Frame);
             if button.show(ui).on_hover_text(action.hint()).clicked() {
-                cx.commands.extend(action.command(cx.session));
+                cx.act(action);
             }
         });
 }
 
-/// While the sheet is shut: how many findings there are, and what is selected. Each opens its page. A message takes
+/// While the drawer is shut: how many findings there are, and what is selected. Each opens its page. A message takes
 /// their place.
 fn shortcuts(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) -> Option<Rect> {
-    if state.sheet.is_some() {
+    if state.drawer.is_some() {
         return None;
     }
     let joints = session.joints();
@@ -561,7 +375,7 @@ fn shortcuts(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) -> Opt
                     let (count, color) = model_panel::summary(session, &Tokens::of(ui));
                     if toolbar::findings_chip(ui, false, &count, color) {
                         state.diagnostics_open = true;
-                        state.sheet = Some(SheetPage::Model);
+                        state.drawer = Some(DrawerPage::Model);
                     }
                 }
                 let Some(name) = name else { return };
@@ -570,7 +384,7 @@ fn shortcuts(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) -> Opt
                 let width = Rangef::new(LEAST_SELECTION, most);
                 if TextButton::new(&name, &label).width(width).show(ui).clicked() {
                     state.diagnostics_open = false;
-                    state.sheet = Some(SheetPage::Selection);
+                    state.drawer = Some(DrawerPage::Selection);
                 }
             });
         });
@@ -578,7 +392,7 @@ fn shortcuts(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) -> Opt
 }
 
 /// Why a file was not opened: in the middle of the window, or so far to the right that the panel on the left can be read. It scrolls
-/// rather than cover the bars, and covers the page of a sheet rather than be too low, but never the transport.
+/// rather than cover the bars, and covers the page of a drawer rather than be too low, but never the transport.
 fn show_error(ui: &Ui, session: &Session, error: &LoadError, room: Rect, commands: &mut Vec<Command>) {
     let window = ui.max_rect();
     let within = window.shrink(MARGIN);

@@ -61,7 +61,6 @@ impl Messages {
         self.show_next(words.into(), None);
     }
 
-    /// Shows a message with a button.
     pub(in crate::ui) fn offer(&mut self, words: impl Into<String>, offer: Offer) {
         self.show_next(words.into(), Some(offer));
     }
@@ -77,7 +76,6 @@ impl Messages {
         self.offer(format!("Saved {name}, {width} × {height}"), Offer::SavePicture);
     }
 
-    /// Says that a file was saved.
     pub fn say_exported(&mut self, file: &ExportedFile) {
         let size = bytes(file.bytes.len() as u64);
         self.say(format!("Saved {}, {size}", file.name));
@@ -93,7 +91,6 @@ impl Messages {
         });
     }
 
-    /// Whether there is one to show.
     pub(in crate::ui) fn is_shown(&self) -> bool {
         self.shown.is_some()
     }

@@ -6,6 +6,7 @@ use egui::{
     WidgetInfo, vec2,
 };
 
+use super::arrangement::Arrangement;
 use super::panel::{popover, popover_menu, unscrolled_popover};
 use crate::actions::{self, Action};
 use crate::anim::SkinView;
@@ -13,7 +14,7 @@ use crate::scene::{Theme, ViewMode, ViewPreset};
 use crate::session::{CameraCommand, Command, File, FileCommand, LookCommand, OpenModel, Session};
 use crate::ui::cx::Cx;
 use crate::ui::kit::icons::{self, Icon};
-use crate::ui::kit::theme::{self, LOW_HEIGHT, LOW_WIDTH, Tokens};
+use crate::ui::kit::theme::{self, Tokens};
 use crate::ui::kit::wording::{bytes, shortened_front};
 use crate::ui::kit::{
     ICON_SIZE, MenuLine, TextButton, action_button, chip, chip_size, control_size, hint_beside, hint_of_name,
@@ -24,7 +25,7 @@ use crate::ui::panels::cost::SteadyCost;
 use crate::ui::panels::model_panel::summary;
 use crate::ui::panels::skeleton::state::{SkeletonState, has_joints};
 use crate::ui::panels::{export, light, overlays, picture};
-use crate::ui::state::{Request, SheetPage, UiState};
+use crate::ui::state::{DrawerPage, Request, UiState};
 
 /// Room between the words of the title.
 const TITLE_SPACING: f32 = 10.0;
@@ -36,7 +37,6 @@ const LIGHT_BUTTON_WIDTH: f32 = 103.0;
 const MENU_WIDTH: f32 = 190.0;
 /// The least room for the program's name beside that of the file.
 const LEAST_WITH_PROGRAM: f32 = 170.0;
-/// Room between buttons.
 const SPACING: f32 = 4.0;
 /// The least width that chips leave to the name of the file.
 const LEAST_NAME: f32 = 90.0;
@@ -63,16 +63,16 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
             let hint = action.hint_of(&label);
             ui.add_enabled_ui(action.ask(cx.session).is_some(), |ui| {
                 if push_button(ui, icon, &hint).clicked() {
-                    cx.commands.extend(action.command(cx.session));
+                    cx.act(action);
                 }
             });
         }
-        view_mode_menu(ui, cx.session, cx.commands);
-        light_button(ui, cx.session, &mut cx.state.cost, cx.commands);
+        view_mode_menu(ui, cx);
+        light_button(ui, &mut cx.part(|state| &mut state.cost));
         overlays_button(ui, &mut cx.part(|state| &mut state.skeleton));
-        view_from_menu(ui, cx.session, cx.commands);
-        push_action(ui, cx.session, &actions::FRAME_MODEL, Icon::Frame, cx.commands);
-        action_button(ui, cx.session, &actions::TURNTABLE, Icon::Turntable, cx.commands);
+        view_from_menu(ui, cx);
+        push_action(ui, cx, &actions::FRAME_MODEL, Icon::Frame);
+        action_button(ui, cx, &actions::TURNTABLE, Icon::Turntable);
         let save = &actions::SAVE_PICTURE;
         let hint = format!("Picture… ({} saves one at once)", save.key());
         let camera = push_button(ui, Icon::Camera, &hint);
@@ -110,40 +110,40 @@ pub(in crate::ui) fn narrow_width(ui: &Ui) -> f32 {
     3.0 * control_size(ui) + 2.0 * SPACING
 }
 
-/// In a narrow window. The rarer buttons are in the menu behind the dots, and open pages of the sheet.
+/// In a narrow window. The rarer buttons are in the menu behind the dots, and open pages of the drawer.
 pub(in crate::ui) fn show_narrow(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     ui.spacing_mut().item_spacing.x = SPACING;
-    let shown = cx.state.sheet == Some(SheetPage::Light);
+    let shown = cx.state.drawer == Some(DrawerPage::Light);
     let lighting = lighting(cx.session);
     let button = untold_icon_button(ui, Icon::Sun, &lighting, shown);
     let icon = button.rect.center();
     let button = light::mark_button(ui, cx.session, button, icon, "Light and background");
     tell_open(&button, shown);
     if button.clicked() {
-        cx.state.sheet = (!shown).then_some(SheetPage::Light);
+        cx.state.drawer = (!shown).then_some(DrawerPage::Light);
     }
     open_button(ui, cx.state);
     let dots = push_button(ui, Icon::Dots, "More");
-    let width = if is_low(ui) { 420.0 } else { 230.0 };
-    popover_menu(ui, &dots, RectAlign::BOTTOM_END, width, |ui| {
-        more_menu(ui, cx);
-    });
+    let is_low = Arrangement::here(ui) == Arrangement::Low;
+    let width = if is_low { 420.0 } else { 230.0 };
+    popover_menu(ui, &dots, RectAlign::BOTTOM_END, width, |ui| more_menu(ui, cx));
     as_toolbar(ui);
 }
 
-fn view_mode_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let mode = actions::view_mode_label(session);
+fn view_mode_menu<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
+    let mode = actions::view_mode_label(cx.session);
     let label = format!("View mode: {mode}");
     let button = TextButton::new(mode, &label).list().show(ui);
     let button = button.on_hover_text(actions::NEXT_VIEW_MODE.hint());
     popover_menu(ui, &button, RectAlign::BOTTOM_START, MENU_WIDTH, |ui| {
-        if view_mode_items(ui, session, commands) {
+        if view_mode_items(ui, cx) {
             ui.close();
         }
     });
 }
 
-fn light_button(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands: &mut Vec<Command>) {
+fn light_button(ui: &mut Ui, cx: &mut Cx<'_, SteadyCost>) {
+    let session = cx.session;
     let button = TextButton::new(light::label(session), &lighting(session))
         .icon(Icon::Sun)
         .list()
@@ -154,7 +154,7 @@ fn light_button(ui: &mut Ui, session: &Session, cost: &mut SteadyCost, commands:
     let icon = button.rect.left_center() + vec2(ui.spacing().button_padding.x + 0.5 * ICON_SIZE, 0.0);
     let button = light::mark_button(ui, session, button, icon, &hint);
     popover(ui, (&button, "Lighting"), LIGHT_WIDTH, |ui| {
-        light::show(ui, session, cost, commands);
+        light::show(ui, cx);
     });
 }
 
@@ -208,40 +208,40 @@ fn theme_button(ui: &mut Ui, state: &mut UiState) {
     }
 }
 
-fn view_from_menu(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+fn view_from_menu<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
     let cube = push_button(ui, Icon::Cube, "View from…");
     popover_menu(ui, &cube, RectAlign::BOTTOM_END, MENU_WIDTH, |ui| {
-        if view_from_items(ui, session, commands) {
+        if view_from_items(ui, cx) {
             ui.close();
         }
     });
 }
 
 /// A line for each direction, and the projection. Returns whether one was chosen.
-pub(in crate::ui) fn view_from_items(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) -> bool {
-    let before = commands.len();
+pub(in crate::ui) fn view_from_items<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) -> bool {
+    let before = cx.commands.len();
     for preset in ViewPreset::ALL {
         let command = CameraCommand::Glide(Box::new(CameraCommand::LookFrom(preset))).into();
         // Resetting the camera gives three quarters.
         let key = match preset {
             ViewPreset::ThreeQuarter => actions::RESET_CAMERA.key(),
-            _ => actions::key_of(session, &command),
+            _ => actions::key_of(cx.session, &command),
         };
         if keyed_menu_item(ui, preset.label(), key, MenuLine::Action).clicked() {
-            commands.push(command);
+            cx.push(command);
         }
     }
     let projection = &actions::ORTHOGRAPHIC;
-    let on = MenuLine::Switch(projection.is_on(session));
+    let on = MenuLine::Switch(projection.is_on(cx.session));
     if keyed_menu_item(ui, projection.label, projection.key(), on).clicked() {
-        commands.extend(projection.command(session));
+        cx.act(projection);
     }
-    commands.len() > before
+    cx.commands.len() > before
 }
 
 /// In one column, or in two in a window too low for one.
 fn more_menu(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
-    if is_low(ui) {
+    if Arrangement::here(ui) == Arrangement::Low {
         ui.columns_const(|[left, right]| {
             page_items(left, cx.session, cx.state);
             action_items(right, cx);
@@ -252,24 +252,18 @@ fn more_menu(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     }
 }
 
-/// Whether the window is too low for all lines of the menu below each other.
-fn is_low(ui: &Ui) -> bool {
-    let window = ui.ctx().content_rect();
-    window.height() < LOW_HEIGHT && window.width() >= LOW_WIDTH
-}
-
 fn page_items(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let pages = [
-        ("View mode", actions::view_mode_label(session), SheetPage::ViewMode),
-        ("Light and background", light::label(session), SheetPage::Light),
-        ("Lines over the model", "", SheetPage::Overlays),
-        ("View from…", "", SheetPage::ViewFrom),
-        ("Picture…", "", SheetPage::Picture),
-        ("Export…", "", SheetPage::Export),
+        ("View mode", actions::view_mode_label(session), DrawerPage::ViewMode),
+        ("Light and background", light::label(session), DrawerPage::Light),
+        ("Lines over the model", "", DrawerPage::Overlays),
+        ("View from…", "", DrawerPage::ViewFrom),
+        ("Picture…", "", DrawerPage::Picture),
+        ("Export…", "", DrawerPage::Export),
     ];
     for (label, in_force, page) in pages {
-        if valued_menu_item(ui, label, in_force, state.sheet == Some(page)).clicked() {
-            state.sheet = Some(page);
+        if valued_menu_item(ui, label, in_force, state.drawer == Some(page)).clicked() {
+            state.drawer = Some(page);
             ui.close();
         }
     }
@@ -287,7 +281,7 @@ fn action_items(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     let turns = MenuLine::Switch(actions::TURNTABLE.is_on(cx.session));
     for (action, line) in [(&actions::FRAME_MODEL, MenuLine::Action), (&actions::TURNTABLE, turns)] {
         if menu_item(ui, action.label, line).clicked() {
-            cx.commands.extend(action.command(cx.session));
+            cx.act(action);
             ui.close();
         }
     }
@@ -303,8 +297,8 @@ fn action_items(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
 }
 
 /// A line for each mode, then one for each view of the skin. Returns whether one was chosen.
-pub(in crate::ui) fn view_mode_items(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) -> bool {
-    let (in_force, skin_view) = (session.look().view_mode, session.look().skin_view);
+pub(in crate::ui) fn view_mode_items<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) -> bool {
+    let (in_force, skin_view) = (cx.session.look().view_mode, cx.session.look().skin_view);
     let mut chosen = false;
     for mode in ViewMode::ALL {
         // The key chooses the next mode. From a view of the skin it goes back to the mode.
@@ -315,20 +309,20 @@ pub(in crate::ui) fn view_mode_items(ui: &mut Ui, session: &Session, commands: &
         };
         let on = mode == in_force && skin_view.is_none();
         if keyed_menu_item(ui, mode.label(), key, MenuLine::Choice(on)).clicked() {
-            commands.push(LookCommand::SetViewMode(mode).into());
-            commands.push(LookCommand::SetSkinView(None).into());
+            cx.push(LookCommand::SetViewMode(mode));
+            cx.push(LookCommand::SetSkinView(None));
             chosen = true;
         }
     }
-    if has_joints(session) {
+    if has_joints(cx.session) {
         ui.add_space(6.0);
         section_name(ui, "Skin");
         for view in SkinView::ALL {
             let on = skin_view == Some(view);
             let command = LookCommand::SetSkinView((!on).then_some(view)).into();
-            let key = actions::key_of(session, &command);
+            let key = actions::key_of(cx.session, &command);
             if keyed_menu_item(ui, view.label(), key, MenuLine::Choice(on)).clicked() {
-                commands.push(command);
+                cx.push(command);
                 chosen = true;
             }
         }
@@ -408,10 +402,8 @@ fn file_line(ui: &mut Ui, file: &File, is_open: bool, commands: &mut Vec<Command
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         let room = ui.available_width() - control_size(ui);
-        let (path, size) = (
-            shortened_front(&file.path, MOST_OF_PATH),
-            bytes(file.bytes.len() as u64),
-        );
+        let path = shortened_front(&file.path, MOST_OF_PATH);
+        let size = bytes(file.bytes.len() as u64);
         let line = ui.scope(|ui| {
             ui.set_max_width(room);
             ui.style_mut().wrap_mode = Some(TextWrapMode::Truncate);
@@ -422,10 +414,8 @@ fn file_line(ui: &mut Ui, file: &File, is_open: bool, commands: &mut Vec<Command
         tell_node(&line, |node| node.set_description(note));
         // It takes no focus, so that arrows go from line to line.
         let (rect, cross) = ui.allocate_exact_size(Vec2::splat(control_size(ui)), Sense::CLICK);
-        let (icon, tokens) = (
-            Rect::from_center_size(rect.center(), Vec2::splat(ICON_SIZE)),
-            Tokens::of(ui),
-        );
+        let icon = Rect::from_center_size(rect.center(), Vec2::splat(ICON_SIZE));
+        let tokens = Tokens::of(ui);
         let color = if cross.hovered() { tokens.text } else { tokens.faint };
         icons::paint(ui.painter(), icon, Icon::Close, color);
         cross.widget_info(|| WidgetInfo::labeled(Role::MenuItem, true, format!("Close {}", file.base_name())));

@@ -1,4 +1,4 @@
-//! The height of the sheet of a narrow window: it follows the finger, and comes to rest at one of three heights or shuts.
+//! The height of the drawer of a narrow window: it follows the finger, and comes to rest at one of three heights or shuts.
 
 use egui::{Context, Id, Response, Ui};
 use glam::Vec2;
@@ -12,12 +12,12 @@ const HALF: f32 = 0.47;
 const HALF_OF_TIMELINE: f32 = 0.56;
 /// The least height of a page while it opens.
 const LEAST_PAGE: f32 = 96.0;
-/// A finger that lets go faster than this flings the sheet, in points a second.
+/// A finger that lets go faster than this flings the drawer, in points a second.
 const FLING_PER_SEC: f32 = 400.0;
-/// How long the sheet takes to come to rest.
+/// How long the drawer takes to come to rest.
 const SETTLE_SECS: f32 = 0.16;
 
-/// Where the sheet rests.
+/// Where the drawer rests.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rest {
     Peek,
@@ -28,7 +28,7 @@ pub enum Rest {
 
 /// The height of the page that is open, in points.
 #[derive(Debug, Default)]
-pub(in crate::ui) struct SheetHeight {
+pub(in crate::ui) struct DrawerHeight {
     rest: Rest,
     /// The height while a finger holds the handle.
     dragged: Option<f32>,
@@ -58,7 +58,7 @@ impl Heights {
     }
 }
 
-impl SheetHeight {
+impl DrawerHeight {
     /// The height that the page has in this pass, and the one at which it rests.
     pub(in crate::ui) fn now(&self, ctx: &Context, heights: Heights, still: bool) -> (f32, f32) {
         let rest = heights.of(self.rest);
@@ -117,7 +117,7 @@ impl SheetHeight {
     }
 }
 
-/// Where a sheet of a height comes to rest when the finger lets go at a speed, in points a second downward. None: it shuts.
+/// Where a drawer of a height comes to rest when the finger lets go at a speed, in points a second downward. None: it shuts.
 pub fn settle(height: f32, rate: f32, heights: Heights) -> Option<Rest> {
     let stops = [None, Some(Rest::Peek), Some(Rest::Half), Some(Rest::Full)];
     let height_of = |stop: Option<Rest>| stop.map_or(0.0, |rest| heights.of(rest));

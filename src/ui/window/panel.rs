@@ -26,22 +26,18 @@ impl Free {
         self.rect.intersect(self.window.shrink(MARGIN))
     }
 
-    /// Cuts a panel at the top.
     pub(in crate::ui) fn cut_top(&mut self, panel: Rect) {
         self.rect.min.y = panel.max.y + MARGIN;
     }
 
-    /// Cuts a panel at the bottom.
     pub(in crate::ui) fn cut_bottom(&mut self, panel: Rect) {
         self.rect.max.y = panel.min.y - MARGIN;
     }
 
-    /// Cuts a panel at the left.
     pub(in crate::ui) fn cut_left(&mut self, panel: Rect) {
         self.rect.min.x = panel.max.x + MARGIN;
     }
 
-    /// Cuts a panel at the right.
     pub(in crate::ui) fn cut_right(&mut self, panel: Rect) {
         self.rect.max.x = panel.min.x - MARGIN;
     }
@@ -126,8 +122,8 @@ impl<'a> Panel<'a> {
         Self { margin, ..self }
     }
 
-    /// A sheet at the bottom: only its upper corners are round.
-    pub(in crate::ui) fn sheet(self) -> Self {
+    /// A drawer at the bottom: only its upper corners are round.
+    pub(in crate::ui) fn drawer(self) -> Self {
         Self {
             corner_radius: CornerRadius {
                 nw: 14,
@@ -204,7 +200,7 @@ const POPOVER_MARGIN: f32 = MARGIN;
 const MENU_GAP: f32 = MARGIN + 4.0;
 /// The least height of a popover.
 const LEAST_HEIGHT: f32 = 120.0;
-/// With less room than this above the sheet of a phone a popover covers the sheet. With less below the bars it covers these.
+/// With less room than this above the drawer of a phone a popover covers the drawer. With less below the bars it covers these.
 pub(in crate::ui) const LEAST_ROOM: f32 = 180.0;
 
 /// The button of a popover, and what the popover is called.
@@ -221,7 +217,7 @@ pub(in crate::ui) fn popover(ui: &Ui, opener: Opener<'_>, width: f32, contents: 
 pub(in crate::ui) fn unscrolled_popover(ui: &Ui, opener: Opener<'_>, width: f32, contents: impl FnOnce(&mut Ui, f32)) {
     let window = ui.ctx().content_rect().shrink(MARGIN);
     let top = below_bars(ui);
-    // A person can move the time while a popover is open. It may cover the sheet above the transport.
+    // A person can move the time while a popover is open. It may cover the drawer above the transport.
     let transport = ui.ctx().read_response(id_of("transport"));
     let bottom = transport.map_or(window.max.y, |transport| transport.rect.min.y - 2.0 * MARGIN);
     let corner = (pos2(window.max.x, top), RectAlign::BOTTOM_END);
@@ -299,15 +295,15 @@ pub(in crate::ui) fn popover_gap(ui: &mut Ui) {
 /// A popover above a button at the window's lower edge, as far from the window's sides as the panels are.
 pub(in crate::ui) fn popover_above(ui: &Ui, opener: Opener<'_>, width: f32, contents: impl FnOnce(&mut Ui)) {
     let window = ui.ctx().content_rect().shrink(MARGIN);
-    // On a phone the strip has two rows. A popover of the lower row is above both, unless the sheet leaves no room there.
+    // On a phone the strip has two rows. A popover of the lower row is above both, unless the drawer leaves no room there.
     let above = |top: f32| top - MARGIN - 4.0;
-    let sheet = shown_rect(ui, "sheet").map(|sheet| above(sheet.min.y));
+    let drawer = shown_rect(ui, "sheet").map(|drawer| above(drawer.min.y));
     let least = window.min.y + LEAST_ROOM;
     let transport = ui.ctx().read_response(id_of("transport"));
     let transport = transport
-        .filter(|_| sheet.is_some())
+        .filter(|_| drawer.is_some())
         .map(|strip| above(strip.rect.min.y));
-    let bottom = [sheet, transport]
+    let bottom = [drawer, transport]
         .into_iter()
         .flatten()
         .find(|&bottom| bottom >= least)

@@ -1,6 +1,6 @@
-//! Where a sheet rests.
+//! Where the drawer rests.
 
-use bindpose::ui::for_tests::{Heights, Rest, settle_sheet};
+use bindpose::ui::for_tests::{Heights, Rest, settle_drawer};
 
 #[test]
 fn a_slow_finger_leaves_the_sheet_at_the_nearest_height_and_a_quick_one_flings_it() {
@@ -17,6 +17,6 @@ fn a_slow_finger_leaves_the_sheet_at_the_nearest_height_and_a_quick_one_flings_i
         (150.0, 900.0, None),
         (600.0, -900.0, Some(Rest::Full)),
     ] {
-        assert_eq!(settle_sheet(height, rate, heights), rest, "{height} at {rate}");
+        assert_eq!(settle_drawer(height, rate, heights), rest, "{height} at {rate}");
     }
 }

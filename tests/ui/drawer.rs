@@ -1,14 +1,14 @@
-//! The sheet of a phone: its handle, its title, what it covers and what stays in its place.
+//! The drawer of a phone: its handle, its title, what it covers and what stays in its place.
 
 use bindpose::anim::SkinView;
 use bindpose::model::JointIndex;
 use bindpose::session::{CameraCommand, FileCommand, JointCommand, LookCommand, SubmeshCommand};
-use bindpose::ui::SheetPage;
+use bindpose::ui::DrawerPage;
 use egui::{Key, Modifiers, Rect, TouchPhase, Vec2, pos2, vec2};
 
 use crate::layout::{panel, shown_panel};
 use crate::models::{broken, moving, still};
-use crate::page::{PHONE, SHEET_PAGES, Window, phone, touch_window};
+use crate::page::{DRAWER_PAGES, PHONE, Window, phone, touch_window};
 use crate::pointer::{fingers, gesture};
 
 fn top(window: &Window) -> f32 {
@@ -26,8 +26,8 @@ fn open() -> Window {
 fn the_transport_stays_where_it_is_whatever_the_sheet_does() {
     let mut window = phone(vec![moving("a.m3d")]);
     let play = window.rect("Play");
-    for page in SHEET_PAGES {
-        window.harness.state_mut().state.sheet = Some(page);
+    for page in DRAWER_PAGES {
+        window.harness.state_mut().state.drawer = Some(page);
         window.pass_on();
         assert_eq!(window.rect("Play"), play, "{page:?}");
         assert!(top(&window) < play.min.y - 100.0, "{page:?} is above it");
@@ -104,7 +104,7 @@ fn the_handle_follows_the_finger_and_rests_at_three_heights() {
     assert!(full < 0.15 * PHONE.y, "nearly full: {full}");
     window.drag_sheet(600.0);
     assert!(window.shows("Model facts"), "all the way down it shuts");
-    assert_eq!(window.harness.state().state.sheet, None);
+    assert_eq!(window.harness.state().state.drawer, None);
 }
 
 #[test]
@@ -113,7 +113,7 @@ fn a_quick_finger_flings_it() {
     let from = window.rect("Model facts").center();
     let up: Vec<_> = (0..5).map(|step| vec![from - vec2(0.0, 15.0 * step as f32)]).collect();
     gesture(&mut window, &up);
-    assert_eq!(window.harness.state().state.sheet, Some(SheetPage::Model));
+    assert_eq!(window.harness.state().state.drawer, Some(DrawerPage::Model));
     let from = window.rect("Close the sheet").center();
     let down: Vec<_> = (0..5).map(|step| vec![from + vec2(0.0, 15.0 * step as f32)]).collect();
     for _ in 0..3 {
@@ -121,7 +121,7 @@ fn a_quick_finger_flings_it() {
             gesture(&mut window, &down);
         }
     }
-    assert_eq!(window.harness.state().state.sheet, None);
+    assert_eq!(window.harness.state().state.drawer, None);
 }
 
 #[test]
@@ -136,28 +136,28 @@ fn arrow_keys_move_the_handle_too() {
     for _ in 0..3 {
         window.press(Modifiers::NONE, Key::ArrowDown);
     }
-    assert_eq!(window.harness.state().state.sheet, None);
+    assert_eq!(window.harness.state().state.drawer, None);
 }
 
 #[test]
 fn every_page_has_a_title_and_is_closed_by_its_button_or_by_a_tap_on_the_view() {
-    for page in SHEET_PAGES {
+    for page in DRAWER_PAGES {
         let mut window = phone(vec![moving("a.m3d")]);
         let show = |window: &mut Window| {
-            window.harness.state_mut().state.sheet = Some(page);
+            window.harness.state_mut().state.drawer = Some(page);
             window.pass_on();
         };
         show(&mut window);
         let close = window.rect("Close");
         assert!(close.width() >= 44.0 && close.height() >= 44.0, "{page:?}: {close}");
         window.click("Close");
-        assert_eq!(window.harness.state().state.sheet, None, "{page:?}");
+        assert_eq!(window.harness.state().state.drawer, None, "{page:?}");
         show(&mut window);
         // In the middle of what is left stands the model.
         let at = pos2(0.5 * PHONE.x, 0.5 * (top(&window) + panel(&window, "title").max.y));
         let camera = *window.session().camera();
         gesture(&mut window, &[vec![at]]);
-        assert_eq!(window.harness.state().state.sheet, None, "{page:?}");
+        assert_eq!(window.harness.state().state.drawer, None, "{page:?}");
         assert_eq!(window.session().submeshes().selected(), None, "and nothing is selected");
         assert_eq!(window.session().joints().selected_vertex(), None);
         assert_eq!(window.session().camera().yaw_radians, camera.yaw_radians);
@@ -174,8 +174,8 @@ fn the_tree_of_bones_can_be_asked_for() {
     window.click("Bone 1, ");
     assert!(window.session().joints().selected().is_some());
     assert_eq!(
-        window.harness.state().state.sheet,
-        Some(SheetPage::Selection),
+        window.harness.state().state.drawer,
+        Some(DrawerPage::Selection),
         "then its numbers"
     );
 }
@@ -202,9 +202,9 @@ fn a_camera_that_was_moved_stays_and_framing_is_offered() {
 #[test]
 fn the_error_card_leaves_the_transport_free_and_shows_the_mark() {
     for size in [PHONE, vec2(844.0, 390.0), vec2(320.0, 568.0)] {
-        for sheet in [None, Some(SheetPage::Light)] {
+        for sheet in [None, Some(DrawerPage::Light)] {
             let mut window = touch_window(size, vec![moving("a.m3d")]);
-            window.harness.state_mut().state.sheet = sheet;
+            window.harness.state_mut().state.drawer = sheet;
             window.apply(FileCommand::Add(vec![broken("b.m3d")]));
             window.pass_on();
             let card = panel(&window, "error");
@@ -278,5 +278,5 @@ fn a_long_press_says_what_a_control_is_and_does_nothing_else() {
     );
     fingers(&mut window, TouchPhase::End, &[at]);
     window.pass_on();
-    assert_eq!(window.harness.state().state.sheet, None);
+    assert_eq!(window.harness.state().state.drawer, None);
 }
