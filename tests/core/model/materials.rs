@@ -112,22 +112,14 @@ fn without_subsets_all_triangles_are_drawn() {
 
 #[test]
 fn ranges_are_cut_to_the_triangles_there_are() {
+    #[rustfmt::skip]
     let ranges = [
-        (
-            subset(0, 5),
-            submesh(0, 2, 0),
-            "Subset 0 asks for 5 triangles from 0 on, but the file has 2; 2 of them are drawn.",
-        ),
-        (
-            subset(7, 1),
-            submesh(2, 0, 0),
-            "Subset 0 asks for 1 triangles from 7 on, but the file has 2; 0 of them are drawn.",
-        ),
-        (
-            subset(1, u32::MAX),
-            submesh(1, 1, 0),
-            "Subset 0 asks for 4294967295 triangles from 1 on, but the file has 2; 1 of them are drawn.",
-        ),
+        (subset(0, 5), submesh(0, 2, 0),
+         "Subset 0 asks for 5 triangles from 0 on, but the file has 2; 2 of them are drawn."),
+        (subset(7, 1), submesh(2, 0, 0),
+         "Subset 0 asks for 1 triangles from 7 on, but the file has 2; 0 of them are drawn."),
+        (subset(1, u32::MAX), submesh(1, 1, 0),
+         "Subset 0 asks for 4294967295 triangles from 1 on, but the file has 2; 1 of them are drawn."),
     ];
     for (stored, drawn, words) in ranges {
         let mut document = quad();

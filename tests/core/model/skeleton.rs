@@ -73,20 +73,13 @@ fn offsets_that_are_no_affine_or_invertible_matrices_are_told() {
     document.bone_offsets[2][5] = f32::NAN;
     let (model, codes) = model_of(&document);
     assert_eq!(codes, ["offset-not-finite", "offset-not-affine", "offset-singular"]);
-    for (code, words) in [
-        (
-            "offset-not-finite",
-            "1 bone offset has a number that is not finite; the identity stands in.",
-        ),
-        (
-            "offset-not-affine",
-            "1 bone offset has a fourth column that is not 0 0 0 1; that column was left out.",
-        ),
-        (
-            "offset-singular",
-            "1 bone offset has no inverse; the bone's place in the bind pose is unknown.",
-        ),
-    ] {
+    #[rustfmt::skip]
+    let cases = [
+        ("offset-not-finite", "1 bone offset has a number that is not finite; the identity stands in."),
+        ("offset-not-affine", "1 bone offset has a fourth column that is not 0 0 0 1; that column was left out."),
+        ("offset-singular", "1 bone offset has no inverse; the bone's place in the bind pose is unknown."),
+    ];
+    for (code, words) in cases {
         assert_eq!(message_of(&document, code), words);
     }
     let skeleton = &model.skeleton;

@@ -11,7 +11,7 @@ use glam::{Affine3A, Vec2, Vec3};
 
 use super::models::{jointed, moving, still};
 use super::{in_picture, on_screen, opened, orbit, zoom};
-use crate::documents::shared_bytes;
+use crate::documents::soldier_bytes;
 
 fn set(session: &mut Session, count: usize, seed: u32) {
     session.apply(CrowdCommand::Set { count, seed });
@@ -741,9 +741,7 @@ fn those_in_sight_come_first_and_buffers_stay_where_they_are() {
 
 #[test]
 fn a_thousand_soldiers_stand_apart_and_are_posed_exactly() {
-    let Some(bytes) = shared_bytes("models/d3d12/soldier.m3d") else {
-        return;
-    };
+    let Some(bytes) = soldier_bytes() else { return };
     let mut session = opened(File::new("soldier.m3d", bytes));
     set(&mut session, MAX_CROWD, 1);
     session.advance(1.0);

@@ -6,7 +6,7 @@ use bindpose::session::{Event, File, FileCommand, PlayCommand, Session};
 
 use super::models::file;
 use super::{models, noted, opened};
-use crate::documents::{key, shared_bytes};
+use crate::documents::{key, soldier_bytes};
 use crate::rigs::{self, JOINT_COUNTS};
 
 fn hero() -> Session {
@@ -99,24 +99,14 @@ fn the_first_difference_is_named() {
     let mut rootless = other.clone();
     rootless.bone_parents[7] = -1;
     let the_same = "clips can only be added from a file with the same bones.";
-    for (refused, difference) in [
-        (
-            file("b.m3d", &rigs::rig(13, clips(13))),
-            "b.m3d has 13 bones and hero.m3d has 12",
-        ),
-        (
-            file("one.m3d", &rigs::rig(1, clips(1))),
-            "one.m3d has 1 bone and hero.m3d has 12",
-        ),
-        (
-            file("b.m3d", &other),
-            "Bone 7 has bone 2 as its parent in b.m3d and bone 6 as its parent in hero.m3d",
-        ),
-        (
-            file("b.m3d", &rootless),
-            "Bone 7 has no parent in b.m3d and bone 6 as its parent in hero.m3d",
-        ),
-    ] {
+    #[rustfmt::skip]
+    let cases = [
+        (file("b.m3d", &rigs::rig(13, clips(13))), "b.m3d has 13 bones and hero.m3d has 12"),
+        (file("one.m3d", &rigs::rig(1, clips(1))), "one.m3d has 1 bone and hero.m3d has 12"),
+        (file("b.m3d", &other), "Bone 7 has bone 2 as its parent in b.m3d and bone 6 as its parent in hero.m3d"),
+        (file("b.m3d", &rootless), "Bone 7 has no parent in b.m3d and bone 6 as its parent in hero.m3d"),
+    ];
+    for (refused, difference) in cases {
         let words = format!("{difference}; {the_same}");
         assert_refused(&mut session, &refused, "clips-bones-differ", &words);
     }
@@ -248,9 +238,7 @@ fn skeletons_of_every_size_are_compared() {
 
 #[test]
 fn a_real_file_joins_itself() {
-    let Some(bytes) = shared_bytes("models/d3d12/soldier.m3d") else {
-        return;
-    };
+    let Some(bytes) = soldier_bytes() else { return };
     let mut session = opened(File::new("soldier.m3d", bytes.clone()));
     let clips = list(&session).len();
     add_clips(&mut session, File::new("again.m3d", bytes));

@@ -14,7 +14,7 @@ use glam::{Affine3A, Vec2, Vec3};
 use super::models::{self, jointed, moving, still};
 use super::{on_screen, opened, viewport, zoom};
 use crate::chains::mirrored;
-use crate::documents::shared_bytes;
+use crate::documents::soldier_bytes;
 
 use JointCommand::{
     Hover, HoverAt, Select, SelectAt, SelectChild, SelectParent, SelectVertex, SetAllFolded, SetFolded,
@@ -525,9 +525,7 @@ fn trails_are_of_the_chosen_joints_through_the_clip_on_show() {
 
 #[test]
 fn the_soldier_is_inspected_explained_and_coloured() {
-    let Some(bytes) = shared_bytes("models/d3d12/soldier.m3d") else {
-        return;
-    };
+    let Some(bytes) = soldier_bytes() else { return };
     let mut session = opened(File::new("soldier.m3d", bytes));
     session.apply(PlayCommand::Seek { time_secs: 0.517 });
     session.apply(SetSkinView(Some(SkinView::Weight)));

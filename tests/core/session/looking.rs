@@ -41,26 +41,13 @@ fn reached_in_picture(session: &mut Session, aspect: f32) -> Vec<Vec3> {
 /// margin that framing leaves, but not out of the free part.
 #[test]
 fn a_framed_model_lies_in_what_panels_leave_free_at_every_time() {
+    #[rustfmt::skip]
     let all_insets = [
         FREE,
-        Insets {
-            top: 0.06,
-            bottom: 0.1,
-            ..FREE
-        },
-        Insets {
-            left: 0.3,
-            top: 0.06,
-            bottom: 0.1,
-            ..FREE
-        },
+        Insets { top: 0.06, bottom: 0.1, ..FREE },
+        Insets { left: 0.3, top: 0.06, bottom: 0.1, ..FREE },
         Insets { right: 0.3, ..FREE },
-        Insets {
-            left: 0.2,
-            right: 0.2,
-            top: 0.2,
-            bottom: 0.3,
-        },
+        Insets { left: 0.2, right: 0.2, top: 0.2, bottom: 0.3 },
     ];
     for file in [moving("a.m3d"), still("a.m3d")] {
         let mut session = opened(file);

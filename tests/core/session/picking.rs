@@ -10,7 +10,7 @@ use glam::{DVec3, Vec2, Vec3};
 use super::models::{self, document, moving};
 use super::submeshes::parted;
 use super::{dropped, on_screen, opened, viewport};
-use crate::documents::shared_bytes;
+use crate::documents::soldier_bytes;
 
 /// The vertices of now, world space.
 fn posed(session: &mut Session) -> Vec<Vec3> {
@@ -232,9 +232,7 @@ fn with_nothing_open_or_no_place_nothing_is_met() {
 
 #[test]
 fn the_running_soldier_is_met_where_it_is_drawn() {
-    let Some(bytes) = shared_bytes("models/d3d12/soldier.m3d") else {
-        return;
-    };
+    let Some(bytes) = soldier_bytes() else { return };
     let mut session = opened(File::new("soldier.m3d", bytes));
     session.apply(PlayCommand::Seek { time_secs: 0.517 });
     let met = check_picks(&mut session, 1.0, 9, 2e-3);

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use super::models::{moving, still};
 use super::random::{command, number};
 use super::{dropped, viewport};
-use crate::documents::shared_bytes;
+use crate::documents::soldier_bytes;
 
 /// A command, or time that goes by.
 #[derive(Clone, Debug, PartialEq)]
@@ -178,9 +178,7 @@ fn another_shape_of_a_crowds_picture_is_told() {
 
 #[test]
 fn a_session_with_a_real_file_plays_again() {
-    let Some(bytes) = shared_bytes("models/d3d12/soldier.m3d") else {
-        return;
-    };
+    let Some(bytes) = soldier_bytes() else { return };
     let soldier = File::new("soldier.m3d", bytes);
     let mut steps = vec![
         Step::Apply(FileCommand::AddClips(vec![soldier.clone()]).into()),
