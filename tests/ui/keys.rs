@@ -5,10 +5,10 @@ use bindpose::anim::LoopMode;
 use bindpose::scene::{Light, Overlay, Projection, ViewMode, ViewPreset};
 use bindpose::session::{CameraCommand, File, FileCommand, JointCommand, PlayCommand, SPEEDS, SubmeshCommand};
 use bindpose::ui::Request;
-use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, vec2};
+use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, vec2};
 
 use crate::models::moving;
-use crate::page::{WIDE, Window, window};
+use crate::page::{WIDE, Window, wheel_event, window};
 use crate::skeleton::tree;
 
 const PLAIN: Modifiers = Modifiers::NONE;
@@ -354,23 +354,20 @@ fn letters_that_are_typed_are_no_keys() {
 #[test]
 fn the_question_mark_shows_the_table_and_escape_takes_it_away() {
     let mut window = open();
-    window.harness.event(egui::Event::Text("?".to_owned()));
-    window.pass_on();
+    window.type_text("?");
     assert!(window.shows("Space: play or pause"));
     window.press(PLAIN, Key::Escape);
     assert!(!window.shows("Space: play or pause"));
     window.click("Help (?)");
     assert!(window.shows("Space: play or pause"));
-    window.harness.event(egui::Event::Text("?".to_owned()));
-    window.pass_on();
+    window.type_text("?");
     assert!(!window.shows("Space: play or pause"));
 }
 
 #[test]
 fn the_table_says_what_is_in_force_now() {
     let mut window = open();
-    window.harness.event(egui::Event::Text("?".to_owned()));
-    window.pass_on();
+    window.type_text("?");
     for (key, off, on) in [
         (Key::Z, "Z: wireframe", "Z: wireframe, now on"),
         (Key::B, "B: bones", "B: bones, now on"),
@@ -612,13 +609,7 @@ fn f2_takes_the_letters_after_it_though_its_row_has_to_be_scrolled_to() {
     window
         .harness
         .hover_at(window.rect("Search bones").center() + vec2(0.0, 100.0));
-    window.frame([Event::MouseWheel {
-        source: egui::MouseWheelSource::Wheel,
-        unit: MouseWheelUnit::Point,
-        delta: vec2(0.0, 1e5),
-        phase: TouchPhase::Move,
-        modifiers: PLAIN,
-    }]);
+    window.frame([wheel_event(MouseWheelUnit::Point, vec2(0.0, 1e5), PLAIN)]);
     window.wait(1.0);
     assert!(
         window.shows("Bone 0, 9 vertices"),
@@ -638,13 +629,7 @@ fn a_name_whose_row_is_scrolled_out_of_sight_is_taken() {
     window.frame(clicks(at, 2));
     window.pass_on();
     window.frame([Event::Text("Spine".to_owned())]);
-    window.frame([Event::MouseWheel {
-        source: egui::MouseWheelSource::Wheel,
-        unit: MouseWheelUnit::Point,
-        delta: vec2(0.0, -1e5),
-        phase: TouchPhase::Move,
-        modifiers: PLAIN,
-    }]);
+    window.frame([wheel_event(MouseWheelUnit::Point, vec2(0.0, -1e5), PLAIN)]);
     window.wait(1.0);
     assert!(!window.shows("Name of the bone"), "the row is out of sight");
     assert_eq!(window.session().joint_names().get(1), Some("Spine"));

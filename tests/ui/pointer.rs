@@ -2,13 +2,12 @@
 
 use bindpose::scene::Camera;
 use egui::{
-    Event, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchDeviceId, TouchId, TouchPhase, Vec2,
-    pos2, vec2,
+    Event, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchDeviceId, TouchId, TouchPhase, Vec2, pos2, vec2,
 };
 use glam::Vec3;
 
 use crate::models::moving;
-use crate::page::{WIDE, Window, phone, touch_window, window};
+use crate::page::{WIDE, Window, phone, touch_window, wheel_event, window};
 
 pub(crate) const START: Pos2 = pos2(800.0, 420.0);
 
@@ -119,13 +118,9 @@ fn the_wheel_comes_nearer_to_what_is_under_the_pointer() {
         let mut window = window(WIDE, vec![moving("a.m3d")]);
         let before = *window.session().camera();
         window.harness.hover_at(START);
-        window.harness.event(Event::MouseWheel {
-            source: egui::MouseWheelSource::Wheel,
-            unit: MouseWheelUnit::Line,
-            delta: vec2(0.0, lines),
-            phase: TouchPhase::Move,
-            modifiers: Modifiers::NONE,
-        });
+        window
+            .harness
+            .event(wheel_event(MouseWheelUnit::Line, vec2(0.0, lines), Modifiers::NONE));
         window.wait(1.0);
         let after = *window.session().camera();
         let ratio = after.distance / before.distance;
@@ -171,13 +166,9 @@ fn what_happens_on_a_panel_does_not_reach_the_view() {
         window.harness.hover_at(pos + vec2(200.0, 30.0));
         window.harness.drop_at(pos + vec2(200.0, 30.0));
         window.harness.hover_at(pos);
-        window.harness.event(Event::MouseWheel {
-            source: egui::MouseWheelSource::Wheel,
-            unit: MouseWheelUnit::Line,
-            delta: vec2(0.0, 3.0),
-            phase: TouchPhase::Move,
-            modifiers: Modifiers::NONE,
-        });
+        window
+            .harness
+            .event(wheel_event(MouseWheelUnit::Line, vec2(0.0, 3.0), Modifiers::NONE));
         window.wait(0.5);
         assert_eq!(window.session().camera(), &before, "{pos:?}");
     }
@@ -406,13 +397,7 @@ fn a_wheel_over_a_panel_never_zooms_the_scene_beneath() {
             covered += 1;
             for delta in [-40.0, 40.0] {
                 window.harness.hover_at(at);
-                window.frame([Event::MouseWheel {
-                    unit: MouseWheelUnit::Point,
-                    delta: vec2(0.0, delta),
-                    phase: TouchPhase::Move,
-                    source: MouseWheelSource::Wheel,
-                    modifiers: Modifiers::NONE,
-                }]);
+                window.frame([wheel_event(MouseWheelUnit::Point, vec2(0.0, delta), Modifiers::NONE)]);
                 window.pass_on();
             }
             assert_eq!(*window.session().camera(), camera, "{opened:?} at {at} of {size}");

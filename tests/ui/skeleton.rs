@@ -145,10 +145,7 @@ fn place_of_vertex(window: &mut Window, vertex: u32) -> egui::Pos2 {
 }
 
 fn click_at(window: &mut Window, at: egui::Pos2) {
-    window.harness.hover_at(at);
-    window.harness.drag_at(at);
-    window.harness.drop_at(at);
-    window.pass_on();
+    window.click_at(at);
 }
 
 #[test]
@@ -179,8 +176,7 @@ fn a_click_in_the_view_means_what_the_panel_is_about() {
     for tab in ["Panel: Model", "Panel: Skeleton"] {
         window.click(tab);
         window.apply(JointCommand::Select(None));
-        window.harness.hover_at(bone);
-        window.pass_on();
+        window.hover_at(bone);
         assert_eq!(window.session().joints().hovered(), Some(JointIndex(1)), "{tab}");
         assert_eq!(
             click(&mut window, bone),
@@ -276,8 +272,7 @@ fn the_panel_with_the_tree_is_dragged_wider_and_stays_so() {
     window.harness.hover_at(handle);
     window.harness.drag_at(handle);
     window.pass_on();
-    window.harness.hover_at(handle + vec2(100.0, 0.0));
-    window.pass_on();
+    window.hover_at(handle + vec2(100.0, 0.0));
     window.harness.drop_at(handle + vec2(100.0, 0.0));
     window.pass_on();
     let wider = width(&window);
@@ -290,8 +285,7 @@ fn the_panel_with_the_tree_is_dragged_wider_and_stays_so() {
     window.harness.drag_at(handle);
     window.pass_on();
     for x in [2_000.0, 0.0] {
-        window.harness.hover_at(egui::pos2(x, handle.y));
-        window.pass_on();
+        window.hover_at(egui::pos2(x, handle.y));
         assert!(
             (before..WIDE.x / 2.0).contains(&width(&window)),
             "{x}: {}",

@@ -111,8 +111,7 @@ fn a_number_that_is_typed_is_one_step_and_the_field_keeps_ctrl_z() {
     window.click("Diffuse: red");
     window.press(CTRL, Key::A);
     for letter in ["0", ".", "7", "5"] {
-        window.harness.event(Event::Text(letter.to_owned()));
-        window.pass_on();
+        window.type_text(letter);
     }
     let before = window.session().history().revision();
     window.press(CTRL, Key::Z);
@@ -123,8 +122,7 @@ fn a_number_that_is_typed_is_one_step_and_the_field_keeps_ctrl_z() {
     );
     window.press(CTRL, Key::A);
     for letter in ["0", ".", "2", "5"] {
-        window.harness.event(Event::Text(letter.to_owned()));
-        window.pass_on();
+        window.type_text(letter);
     }
     window.press(Modifiers::NONE, Key::Enter);
     assert_eq!(window.session().materials()[0].diffuse[0], 0.25);
