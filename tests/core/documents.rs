@@ -77,6 +77,17 @@ pub(crate) fn message_of(document: &Document, code: &str) -> String {
     finding.message
 }
 
+/// Asserts that this is found about a document, in these words, and nothing else.
+#[track_caller]
+pub(crate) fn assert_told(document: &Document, code: &str, words: &str) {
+    let (_, findings) = read(document, &LineMap::default());
+    let told: Vec<_> = findings
+        .iter()
+        .map(|finding| (finding.code, &*finding.message))
+        .collect();
+    assert_eq!(told, [(code, words)]);
+}
+
 /// Whether a message begins as a sentence does, with no small letter, and ends as one.
 pub(crate) fn is_sentence(message: &str) -> bool {
     !message.starts_with(char::is_lowercase) && message.ends_with('.')

@@ -74,7 +74,10 @@ fn every_entry_point_is_valid_and_translates_to_glsl_es_300() {
         "composite: vertex fragment",
         "probe: vertex fragment",
     ];
-    assert_eq!(found, expected);
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        assert_eq!(found, expected);
+    }
 }
 
 /// A struct as offsets of its members and its size.
