@@ -51,8 +51,8 @@ fn json_says_all_of_a_skinned_file() {
 fn note(given: Value) -> Value {
     let mut note = json!({
         "severity": "note", "code": null, "message": null, "line": null, "column": null, "json_pointer": null,
-        "byte_offset": null, "expected": null, "found": null, "subject": null, "time_secs": null, "bone": null, "count": 1,
-        "places": [],
+        "byte_offset": null, "expected": null, "found": null, "subject": null, "time_secs": null, "bone": null,
+        "count": 1, "places": [],
     });
     let Value::Object(given) = given else { panic!("{given}") };
     note.as_object_mut().expect("an object").extend(given);

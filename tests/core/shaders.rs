@@ -51,9 +51,11 @@ fn every_entry_point_is_valid_and_translates_to_glsl_es_300() {
     }
     let expected = [
         "mesh-studio: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth",
-        "mesh-studio-all: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth fragment_opaque_part fragment_blended",
+        "mesh-studio-all: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth fragment_opaque_part \
+            fragment_blended",
         "mesh-book: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth",
-        "mesh-book-all: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth fragment_opaque_part fragment_blended",
+        "mesh-book-all: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth fragment_opaque_part \
+            fragment_blended",
         "mesh-inspect: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth",
         "mesh-inspect-all: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth",
         "skin-view: vertex_static vertex_skinned fragment fragment_cut",
@@ -69,7 +71,8 @@ fn every_entry_point_is_valid_and_translates_to_glsl_es_300() {
         "contact: vertex_static vertex_skinned fragment",
         "contact-blur: vertex fragment_rows fragment_columns",
         "backdrop: vertex fragment",
-        "lines: edge_static edge_skinned normal_static normal_skinned tangent_static tangent_skinned world_vertex fragment",
+        "lines: edge_static edge_skinned normal_static normal_skinned tangent_static tangent_skinned world_vertex \
+            fragment",
         "highlight: vertex_static vertex_skinned fragment",
         "composite: vertex fragment",
         "probe: vertex fragment",

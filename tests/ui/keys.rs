@@ -8,7 +8,7 @@ use bindpose::ui::Request;
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, vec2};
 
 use crate::models::moving;
-use crate::page::{WIDE, Window, wheel_event, window};
+use crate::page::{WIDE, Window, button_event, key_event, wheel_event, window};
 use crate::skeleton::tree;
 
 const PLAIN: Modifiers = Modifiers::NONE;
@@ -72,23 +72,10 @@ fn a_key_that_is_held_steps_on_and_switches_once() {
     let mut window = open();
     let hold = |window: &mut Window, key: Key| {
         for _ in 0..4 {
-            let pressed = true;
-            window.harness.event(egui::Event::Key {
-                key,
-                physical_key: None,
-                pressed,
-                repeat: false,
-                modifiers: PLAIN,
-            });
+            window.harness.event(key_event(key, true));
             window.pass_on();
         }
-        window.harness.event(egui::Event::Key {
-            key,
-            physical_key: None,
-            pressed: false,
-            repeat: false,
-            modifiers: PLAIN,
-        });
+        window.harness.event(key_event(key, false));
         window.pass_on();
     };
     hold(&mut window, Key::ArrowRight);
@@ -458,12 +445,7 @@ fn a_focused_control_keeps_space_for_itself() {
 }
 
 fn clicks(at: Pos2, count: usize) -> Vec<Event> {
-    let button = |pressed| Event::PointerButton {
-        pos: at,
-        button: PointerButton::Primary,
-        pressed,
-        modifiers: PLAIN,
-    };
+    let button = |pressed| button_event(at, PointerButton::Primary, pressed, PLAIN);
     let mut events = vec![Event::PointerMoved(at)];
     events.extend((0..count).flat_map(|_| [button(true), button(false)]));
     events
@@ -471,13 +453,7 @@ fn clicks(at: Pos2, count: usize) -> Vec<Event> {
 
 /// A key as a browser tells of it.
 fn pressed(key: Key, text: Option<&str>) -> Vec<Event> {
-    let event = |pressed| Event::Key {
-        key,
-        physical_key: None,
-        pressed,
-        repeat: false,
-        modifiers: PLAIN,
-    };
+    let event = |pressed| key_event(key, pressed);
     let text = text.map(|text| Event::Text(text.to_owned()));
     text.into_iter().chain([event(true), event(false)]).collect()
 }

@@ -226,12 +226,7 @@ impl Window {
 
     /// Presses a button of the pointer or lets go of it, as the next event.
     pub(crate) fn button(&mut self, pos: Pos2, button: PointerButton, pressed: bool, modifiers: Modifiers) {
-        self.harness.event(Event::PointerButton {
-            pos,
-            button,
-            pressed,
-            modifiers,
-        });
+        self.harness.event(button_event(pos, button, pressed, modifiers));
     }
 
     /// Types into what has the keyboard.
@@ -315,6 +310,27 @@ impl Window {
     pub(crate) fn press(&mut self, modifiers: Modifiers, key: Key) {
         self.harness.key_press_modifiers(modifiers, key);
         self.pass_on();
+    }
+}
+
+/// A button of the pointer that is pressed or let go.
+pub(crate) fn button_event(pos: Pos2, button: PointerButton, pressed: bool, modifiers: Modifiers) -> Event {
+    Event::PointerButton {
+        pos,
+        button,
+        pressed,
+        modifiers,
+    }
+}
+
+/// A key by itself that is pressed or let go.
+pub(crate) fn key_event(key: Key, pressed: bool) -> Event {
+    Event::Key {
+        key,
+        physical_key: None,
+        pressed,
+        repeat: false,
+        modifiers: Modifiers::NONE,
     }
 }
 

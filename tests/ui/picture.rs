@@ -153,7 +153,7 @@ fn compare(name: &str, actual: &RgbaImage) {
     );
 }
 
-/// Draws what a picture's name tells of, and compares it: how large the window is, its theme, and whether it is for fingers.
+/// Draws what a picture's name tells of, and compares it: the window's size, its theme, whether it is for fingers.
 fn shows(name: &str, then: Vec<Command>, clicks: &[&str]) {
     let mut words = name.split('-');
     let (size, coarse_pointer) = match words.next() {

@@ -7,17 +7,12 @@ use egui::{
 use glam::Vec3;
 
 use crate::models::moving;
-use crate::page::{WIDE, Window, phone, touch_window, wheel_event, window};
+use crate::page::{WIDE, Window, button_event, phone, touch_window, wheel_event, window};
 
 pub(crate) const START: Pos2 = pos2(800.0, 420.0);
 
 pub(crate) fn drag(window: &mut Window, button: PointerButton, modifiers: Modifiers, way: Vec2) {
-    let press = |pos, pressed| Event::PointerButton {
-        pos,
-        button,
-        pressed,
-        modifiers,
-    };
+    let press = |pos, pressed| button_event(pos, button, pressed, modifiers);
     window.harness.event(Event::ModifiersChanged(modifiers));
     window.harness.event(Event::PointerMoved(START));
     window.harness.event(press(START, true));
@@ -36,12 +31,7 @@ pub(crate) fn drag(window: &mut Window, button: PointerButton, modifiers: Modifi
 fn a_press_and_its_release_in_two_long_frames_are_a_click() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     let at = window.rect("Export").center();
-    let press = |pressed| Event::PointerButton {
-        pos: at,
-        button: PointerButton::Primary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    };
+    let press = |pressed| button_event(at, PointerButton::Primary, pressed, Modifiers::NONE);
     window.frame([Event::PointerMoved(at)]);
     window.frame([press(true)]);
     let now_secs = window.harness.ctx.input(|input| input.time);
@@ -187,12 +177,7 @@ pub(crate) fn fingers(window: &mut Window, phase: TouchPhase, at: &[Pos2]) {
         });
     }
     if let Some(&pos) = at.first() {
-        let button = |pressed| Event::PointerButton {
-            pos,
-            button: PointerButton::Primary,
-            pressed,
-            modifiers: Modifiers::NONE,
-        };
+        let button = |pressed| button_event(pos, PointerButton::Primary, pressed, Modifiers::NONE);
         window.harness.input_mut().events.extend(match phase {
             TouchPhase::Start => vec![Event::PointerMoved(pos), button(true)],
             TouchPhase::Move => vec![Event::PointerMoved(pos)],
@@ -267,12 +252,7 @@ fn two_fingers_that_part_come_nearer() {
 }
 
 fn button(pos: Pos2, pressed: bool) -> Event {
-    Event::PointerButton {
-        pos,
-        button: PointerButton::Primary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    }
+    button_event(pos, PointerButton::Primary, pressed, Modifiers::NONE)
 }
 
 /// A drag with a mouse from place to place, with all that a browser tells of it.

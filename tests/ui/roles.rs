@@ -85,8 +85,8 @@ fn container_of(role: &str) -> Option<&'static str> {
     })
 }
 
-const CONTROLS: &str = "button checkbox switch radio slider spinbutton textbox link tab treeitem option menuitem menuitemcheckbox \
- menuitemradio grid gridcell rowheader listbox application";
+const CONTROLS: &str = "button checkbox switch radio slider spinbutton textbox link tab treeitem option menuitem \
+    menuitemcheckbox menuitemradio grid gridcell rowheader listbox application";
 const FOLDED: &str = "button link row treeitem gridcell rowheader menuitem tab";
 /// The buttons that are switches: they stay as they are pressed. A row of a list is pressed while it is selected.
 const SWITCHES: &[&str] = &[

@@ -4,12 +4,12 @@ use bindpose::anim::{GhostPlan, SkinView};
 use bindpose::model::JointIndex;
 use bindpose::scene::BoneStyle;
 use bindpose::session::{File, JointCommand, LookCommand};
-use egui::{Event, Key, Modifiers, PointerButton, Vec2, vec2};
+use egui::{Key, Modifiers, PointerButton, Vec2, vec2};
 
 use crate::chains::mirrored;
 use crate::layout::{assert_apart, assert_between_sides};
 use crate::models;
-use crate::page::{PHONE, WIDE, Window, phone, window};
+use crate::page::{PHONE, WIDE, Window, button_event, phone, window};
 
 const SMALL: Vec2 = vec2(900.0, 700.0);
 
@@ -91,12 +91,7 @@ fn names_go_with_the_bones_whatever_key_hides_or_shows_them() {
 fn the_key_that_flies_forward_leaves_the_skin_alone() {
     let mut window = window(WIDE, chains(5));
     let at = window.harness.ctx.content_rect().center();
-    let held = |pressed| Event::PointerButton {
-        pos: at,
-        button: PointerButton::Secondary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    };
+    let held = |pressed| button_event(at, PointerButton::Secondary, pressed, Modifiers::NONE);
     window.harness.hover_at(at);
     window.harness.event(held(true));
     window.pass_on();

@@ -7,7 +7,7 @@ use egui::accesskit::{Action, ActionData};
 use egui::{Event, Key, Modifiers, PointerButton, Vec2, pos2};
 
 use crate::models;
-use crate::page::{PHONE, WIDE, Window, touch_window, window};
+use crate::page::{PHONE, WIDE, Window, button_event, touch_window, window};
 
 /// The box as two subsets: three sides painted, three bare.
 fn halves() -> Document {
@@ -55,12 +55,7 @@ fn a_row_under_the_pointer_stands_out_in_the_view() {
 fn a_click_in_the_instant_in_which_the_pointer_comes_meets_what_is_drawn() {
     let mut window = open();
     let at = window.rect("Hide Bare").center();
-    let button = |pressed| Event::PointerButton {
-        pos: at,
-        button: PointerButton::Primary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    };
+    let button = |pressed| button_event(at, PointerButton::Primary, pressed, Modifiers::NONE);
     window.frame([Event::PointerMoved(at), button(true), button(false)]);
     window.pass_on();
     assert_eq!(window.session().submeshes().left_out(), [false, true]);

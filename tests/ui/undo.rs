@@ -6,7 +6,7 @@ use egui::accesskit::{Action, ActionRequest};
 use egui::{Event, Key, Modifiers, Pos2, RawInput, lerp, vec2};
 
 use crate::models::moving;
-use crate::page::{PHONE, WIDE, Window, touch_window, window};
+use crate::page::{PHONE, WIDE, Window, key_event, touch_window, window};
 use crate::rigs::rig;
 
 const CTRL: Modifiers = Modifiers::COMMAND;
@@ -46,13 +46,7 @@ fn drag(window: &mut Window, from: Pos2, to: Pos2) {
 }
 
 fn hold(window: &mut Window, key: Key, pressed: bool) {
-    window.harness.event(Event::Key {
-        key,
-        physical_key: None,
-        pressed,
-        repeat: false,
-        modifiers: Modifiers::NONE,
-    });
+    window.harness.event(key_event(key, pressed));
     window.harness.step();
 }
 

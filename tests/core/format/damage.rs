@@ -162,8 +162,8 @@ fn change() -> impl Strategy<Value = Change> {
 /// What files of this format are made of.
 fn word() -> impl Strategy<Value = String> {
     let words = "*** --- * { } : # - , . e 0 1 2 -1 4294967295 4294967296 1e39 nan Materials Vertices Triangles Bones \
-     AnimationClips SubsetTable m3d-File-Header BoneOffsets BoneHierarchy BoneOffset0 ParentIndexOfBone0: \
-     AnimationClip";
+        AnimationClips SubsetTable m3d-File-Header BoneOffsets BoneHierarchy BoneOffset0 ParentIndexOfBone0: \
+        AnimationClip";
     let lines = [
         "\n",
         "\r\n",

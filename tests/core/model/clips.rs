@@ -57,7 +57,8 @@ fn keys_at_one_time_become_a_jump_from_the_first_to_the_last() {
         times_and_heights(&model.clips[0], 1),
         [(0.0, 0.0), (0.5, 1.0), (after, 3.0), (1.0, 4.0)]
     );
-    let words = "2 keys have the time of the key before (first: bone 1 at 0.5 s); the first and the last key of a time are kept as a jump.";
+    let words = "2 keys have the time of the key before (first: bone 1 at 0.5 s); the first and the last key of a \
+        time are kept as a jump.";
     assert_told(&document, "keys-at-equal-times", words);
 }
 
@@ -321,8 +322,8 @@ fn keys_in_model_space_are_told() {
         let place = [f32::from(height) * 10.0, f32::from(height), 0.0];
         bone.keyframes.iter_mut().for_each(|key| key.translation = place);
     }
-    let words = "44 % of the edges are torn at the first key of \"bend\": its keys do not belong to the bone offsets (perhaps they \
-         are relative to the model, not to the parent).";
+    let words = "44 % of the edges are torn at the first key of \"bend\": its keys do not belong to the bone offsets \
+        (perhaps they are relative to the model, not to the parent).";
     assert_told(&document, "exploded", words);
 }
 
