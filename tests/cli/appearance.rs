@@ -68,9 +68,9 @@ fn the_background_is_the_one_that_was_asked_for() {
             .filter(|pixel| pixel.0[..3] == [0; 3] && pixel.0[3] > 20)
             .count()
     };
-    let kept = shadow(draw("shadow", &["--transparent"]));
+    let kept = shadow(draw("kept-shadow", &["--transparent"]));
     let without = shadow(draw(
-        "no-shadow",
+        "cut-shadow",
         &["--transparent", "--without", "shadow", "--without", "contact"],
     ));
     // A pixel of the model may be black too.
