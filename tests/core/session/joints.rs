@@ -439,7 +439,7 @@ fn names_stand_only_where_bones_are_drawn_and_bring_them() {
         ),
         (SetBonesVisible(true), (true, false), ""),
     ] {
-        session.apply(command.clone());
+        session.apply(command);
         assert_eq!(shown(&mut session), bones_and_names, "{command:?}: {why}");
     }
 }
