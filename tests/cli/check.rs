@@ -3,7 +3,10 @@
 use bindpose::session::{File, FileCommand, Session};
 use serde_json::{Value, json};
 
-use crate::program::{bindpose, fixture, fixtures, run, run_command, run_with_input, scratch, shared};
+use crate::program::{
+    bindpose, fixture, fixture_text, fixtures, run, run_command, run_with_input, scratch, scratch_file, scratch_folder,
+    shared, words,
+};
 
 #[test]
 fn a_finding_is_a_line_and_its_excerpt() {
@@ -198,16 +201,11 @@ fn the_worst_of_several_files_counts_and_every_file_is_told() {
 
 #[test]
 fn the_real_files_are_fine_and_strangers_are_named() {
-    for path in [
-        "models/d3d11/base.m3d",
-        "models/d3d11/rock.m3d",
-        "models/d3d11/stairs.m3d",
-        "models/d3d11/tree.m3d",
-        "models/d3d12/soldier.m3d",
-        "models/imm/column.m3d",
-    ] {
-        let Some(file) = shared(path) else { continue };
-        assert_eq!(run(["check", &file]).code, Some(0), "{path}");
+    for name in words("d3d11/base d3d11/rock d3d11/stairs d3d11/tree d3d12/soldier imm/column") {
+        let Some(file) = shared(&format!("models/{name}.m3d")) else {
+            continue;
+        };
+        assert_eq!(run(["check", &file]).code, Some(0), "{name}");
     }
     for (path, kind) in [
         ("reject/WusonBlitz0.m3d", "binary"),
@@ -250,11 +248,10 @@ fn what_is_left_out_or_empty_is_told() {
 
 #[test]
 fn a_circle_of_bones_is_told_in_a_sentence() {
-    let text = std::fs::read_to_string(fixture("good/d3d12_skinned.m3d")).expect("is text");
-    let file = scratch("circle.m3d");
+    let text = fixture_text("good/d3d12_skinned.m3d");
     let circle = text.replace("ParentIndexOfBone0: -1", "ParentIndexOfBone0: 1");
-    std::fs::write(&file, circle).expect("can be written");
-    let run = run(["check", file.to_str().expect("UTF-8")]);
+    let file = &scratch_file("circle.m3d", circle);
+    let run = run(["check", file]);
     assert_eq!(run.code, Some(1));
     let message = "error[parent-cycle]: Bones form a circle: 0 → 1 → 0; each lists the next as its parent.\n";
     assert!(run.out.contains(message), "{}", run.out);
@@ -310,7 +307,7 @@ fn a_file_of_mostly_zeros_is_an_error_however_good_its_beginning() {
 /// file, 200 000 would take hours.
 #[test]
 fn many_findings_alike_are_one_with_the_first_places() {
-    let text = std::fs::read_to_string(fixture("good/d3d12_skinned.m3d")).expect("is text");
+    let text = fixture_text("good/d3d12_skinned.m3d");
     let (start, clip) = text.split_at(text.find("AnimationClip Wave").expect("is there"));
     let count = 50_000;
     let clips = start.replace("#AnimationClips 1", &format!("#AnimationClips {count}")) + &clip.repeat(count);
@@ -318,20 +315,13 @@ fn many_findings_alike_are_one_with_the_first_places() {
     let (material, rest) = text[material_at..].split_at(text[material_at..].find("***").expect("is there"));
     let materials = text[..material_at].replace("#Materials 1", &format!("#Materials {count}\n#Subsets 1"));
     let materials = materials + &material.repeat(count) + rest;
-    for (name, text, code, said) in [
-        (
-            "clips.m3d",
-            clips,
-            "duplicate-clip-name",
-            "\"Wave (2)\". The same holds for 49998 more clips.",
-        ),
-        (
-            "materials.m3d",
-            materials,
-            "duplicate-material-name",
-            "\"skin (2)\". The same holds for 49998 more materials.",
-        ),
-    ] {
+    #[rustfmt::skip]
+    let cases = [
+        ("clips.m3d", clips, "duplicate-clip-name", "\"Wave (2)\". The same holds for 49998 more clips."),
+        ("materials.m3d", materials, "duplicate-material-name",
+         "\"skin (2)\". The same holds for 49998 more materials."),
+    ];
+    for (name, text, code, said) in cases {
         let file = scratch(name);
         std::fs::write(&file, text).expect("can be written");
         let file = file.to_str().expect("UTF-8");
@@ -542,48 +532,44 @@ fn of_gltf_it_is_said_whether_it_fits_once_it_is_converted() {
 
 #[test]
 fn what_is_denied_decides_the_exit_code() {
-    let noted = fixture("good/subset_typos.m3d");
-    let warning = fixture("good/pose_overflows.m3d");
-    for (arguments, code) in [
-        (vec!["--deny", "warnings", &noted], 0),
-        (vec!["--deny", "warnings", &warning], 1),
-        (vec![&*warning], 0),
-        (vec!["--deny", "subset-label", &noted], 1),
-        (vec!["--deny", "subset-label", "--allow", "subset-label", &noted], 0),
-        (vec!["--deny", "comment", &noted], 0),
-        (vec!["--deny", "warnings", "--allow", "pose-overflows", &warning], 0),
-        (vec!["--deny", "warnings", "--allow", "comment", &warning], 1),
-        (vec!["--deny", "book-size", &noted], 0),
-        (
-            vec![
-                "--deny",
-                "book-clip-name",
-                "--book",
-                "d3d12",
-                &fixture("good/bones_child_first.m3d"),
-            ],
-            1,
-        ),
+    let files = [
+        ("NOTED", fixture("good/subset_typos.m3d")),
+        ("WARNING", fixture("good/pose_overflows.m3d")),
+        ("CHILD_FIRST", fixture("good/bones_child_first.m3d")),
+        ("STATIC", fixture("good/d3d11_static.m3d")),
+        ("EMPTY", fixture("bad/empty.m3d")),
+    ];
+    for (line, code) in [
+        ("--deny warnings NOTED", 0),
+        ("--deny warnings WARNING", 1),
+        ("WARNING", 0),
+        ("--deny subset-label NOTED", 1),
+        ("--deny subset-label --allow subset-label NOTED", 0),
+        ("--deny comment NOTED", 0),
+        ("--deny warnings --allow pose-overflows WARNING", 0),
+        ("--deny warnings --allow comment WARNING", 1),
+        ("--deny book-size NOTED", 0),
+        ("--deny book-clip-name --book d3d12 CHILD_FIRST", 1),
         // Errors cannot be allowed.
-        (
-            vec!["--deny", "warnings", "--allow", "empty-file", &fixture("bad/empty.m3d")],
-            1,
-        ),
+        ("--deny warnings --allow empty-file EMPTY", 1),
         // Without --book there is nothing of a book to deny.
-        (vec!["--deny", "book", &noted], 0),
-        (vec!["--deny", "book", "--book", "d3d12", &noted], 1),
-        (vec!["--deny", "book", "--book", "d3d11", &noted], 1),
-        (
-            vec!["--deny", "book", "--book", "d3d11", &fixture("good/d3d11_static.m3d")],
-            0,
-        ),
-        (
-            vec!["--deny", "warnings,book", "--book", "d3d12", &warning, "no/such.m3d"],
-            2,
-        ),
+        ("--deny book NOTED", 0),
+        ("--deny book --book d3d12 NOTED", 1),
+        ("--deny book --book d3d11 NOTED", 1),
+        ("--deny book --book d3d11 STATIC", 0),
+        ("--deny warnings,book --book d3d12 WARNING no/such.m3d", 2),
     ] {
-        let run = run(["check"].iter().chain(&arguments));
-        assert_eq!(run.code, Some(code), "{arguments:?}\n{run:?}");
+        let file = |word: &str| {
+            files
+                .iter()
+                .find(|(name, _)| *name == word)
+                .map(|(_, file)| file.clone())
+        };
+        let arguments = line
+            .split(' ')
+            .map(|word| file(word).unwrap_or_else(|| word.to_owned()));
+        let run = run(["check".to_owned()].into_iter().chain(arguments));
+        assert_eq!(run.code, Some(code), "{line}\n{run:?}");
     }
 }
 
@@ -631,8 +617,7 @@ fn standard_input_is_a_file_called_by_a_dash() {
 
 #[test]
 fn a_folder_without_a_model_says_so_and_is_no_success_where_warnings_are_denied() {
-    let folder = scratch("no_models");
-    std::fs::create_dir_all(&folder).expect("can be made");
+    let folder = scratch_folder("no_models");
     let folder = folder.to_str().expect("UTF-8");
     let told = run(["check", folder]);
     assert_eq!(
@@ -653,7 +638,7 @@ fn an_unknown_code_is_refused_with_the_nearest() {
     ] {
         let deny: &[&str] = if option == "--allow" { &["--deny", "book"] } else { &[] };
         let told = run([&["check", &file], deny, &[option, asked]].concat());
-        assert_eq!((told.code, told.out.as_str()), (Some(2), ""), "{told:?}");
+        told.refused(2);
         let words = format!("there is no code \"{asked}\"; the nearest is \"{nearest}\"");
         assert!(told.err.contains(&words), "{}", told.err);
     }
@@ -691,8 +676,7 @@ fn what_could_not_be_read_is_in_the_outputs_for_programs() {
 
 #[test]
 fn maps_are_looked_for_where_a_folder_is_given() {
-    let folder = scratch("maps");
-    std::fs::create_dir_all(&folder).expect("can be made");
+    let folder = scratch_folder("maps");
     std::fs::write(folder.join("skin_norm.dds"), b"DDS no more").expect("can be written");
     std::fs::write(folder.join("holiday.png"), b"").expect("can be written");
     let (file, folder) = (fixture("good/d3d12_skinned.m3d"), folder.to_str().expect("UTF-8"));
@@ -719,14 +703,13 @@ fn maps_are_looked_for_where_a_folder_is_given() {
         absent.err.starts_with(line) && absent.err.lines().count() == 1,
         "{absent:?}"
     );
-    assert_eq!((absent.code, absent.out.as_str()), (Some(2), ""));
+    absent.refused(2);
 }
 
 #[test]
 fn a_map_that_three_materials_name_is_missing_once() {
-    let folder = scratch("map_of_three");
-    std::fs::create_dir_all(&folder).expect("can be made");
-    let text = std::fs::read_to_string(fixture("good/d3d12_skinned.m3d")).expect("can be read");
+    let folder = scratch_folder("map_of_three");
+    let text = fixture_text("good/d3d12_skinned.m3d");
     let (before, rest) = text.split_once("Name:").expect("has a material");
     let (material, after) = rest.split_once("\n\n").expect("ends with an empty line");
     let others: String = ["Second", "Third"]
@@ -890,14 +873,8 @@ fn sarif_schema() -> String {
         .expect("it says for whom it builds");
     // What this machine builds is there; packages of other platforms need not be.
     let metadata = std::process::Command::new(env!("CARGO"))
-        .args([
-            "metadata",
-            "--format-version",
-            "1",
-            "--offline",
-            "--filter-platform",
-            target,
-        ])
+        .args(words("metadata --format-version 1 --offline --filter-platform"))
+        .arg(target)
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()
         .expect("cargo runs");

@@ -6,12 +6,13 @@ use std::process::{Command, Stdio};
 
 use serde_json::Value;
 
-use crate::program::{FIGURE, Run, bindpose, fixture, run, scratch, shared};
+use crate::program::{
+    FIGURE, Run, bindpose, fixture, fixture_text, run, scratch, scratch_file, scratch_folder, shared, words,
+};
 
 /// A path in a folder of one test.
 fn out(test: &str, name: &str) -> String {
-    let folder = scratch(&format!("convert_{test}_{name}.d"));
-    std::fs::create_dir_all(&folder).expect("the scratch folder can be written");
+    let folder = scratch_folder(&format!("convert_{test}_{name}.d"));
     folder.join(name).to_str().expect("UTF-8").to_owned()
 }
 
@@ -166,16 +167,8 @@ fn a_glb_is_read_again_with_the_same_lengths() {
 #[test]
 fn text_tells_changes_losses_and_bytes() {
     let output = out("text", "figure.glb");
-    let printed = run([
-        "convert",
-        FIGURE,
-        &output,
-        "--clips",
-        "Take1,Run",
-        "--rename",
-        "Run=Dash",
-    ])
-    .fine();
+    let options = words("--clips Take1,Run --rename Run=Dash");
+    let printed = run(["convert", FIGURE, &output].iter().chain(&options)).fine();
     let lines: Vec<_> = printed.lines().collect();
     assert_eq!(lines[0], "change[clips-chosen]: 2 clips are left out.");
     assert_eq!(lines[1], "change[clip-renamed]: Clip \"Run\" is named \"Dash\".");
@@ -193,16 +186,7 @@ fn text_tells_changes_losses_and_bytes() {
 #[test]
 fn clips_are_chosen_cut_and_renamed() {
     let output = out("clips", "walk.m3d");
-    let options = [
-        "--clips",
-        "Take1",
-        "--range",
-        "0.25..0.75",
-        "--rename",
-        "Take1=Step",
-        "--hand",
-        "right",
-    ];
+    let options = words("--clips Take1 --range 0.25..0.75 --rename Take1=Step --hand right");
     let told = convert(FIGURE, &output, &options);
     assert_eq!(codes(&told["changes"]), ["clips-chosen", "range-cut", "clip-renamed"]);
     let clip = &info(&output)["clips"][0];
@@ -416,7 +400,7 @@ fn a_read_only_output_is_refused_unless_it_is_forced() {
     std::fs::write(&output, "kept").expect("can be written");
     std::fs::set_permissions(&output, std::fs::Permissions::from_mode(0o444)).expect("is ours");
     let refused = run(["convert", FIGURE, &output]);
-    assert_eq!((refused.code, refused.out.as_str()), (Some(2), ""));
+    refused.refused(2);
     let expected = format!("error: {output} is marked as read-only; --force writes over it\n");
     assert_eq!(refused.err, expected);
     assert_eq!(std::fs::read(&output).expect("is there"), b"kept");
@@ -425,16 +409,9 @@ fn a_read_only_output_is_refused_unless_it_is_forced() {
     // So are the maps beside it.
     let sample = Path::new(FIGURE).parent().expect("a folder").to_str().expect("UTF-8");
     let maps = scratch("convert_read_only_maps");
-    let arguments = [
-        "convert",
-        FIGURE,
-        &output,
-        "--textures",
-        sample,
-        "--textures-out",
-        maps.to_str().expect("UTF-8"),
-    ];
-    run(arguments).fine();
+    let folders = ["--textures", sample, "--textures-out", maps.to_str().expect("UTF-8")];
+    let arguments = [&["convert", FIGURE, &output], &folders[..]].concat();
+    run(&arguments).fine();
     let map = std::fs::read_dir(&maps)
         .expect("was made")
         .next()
@@ -442,7 +419,7 @@ fn a_read_only_output_is_refused_unless_it_is_forced() {
         .expect("can be listed")
         .path();
     std::fs::set_permissions(&map, std::fs::Permissions::from_mode(0o444)).expect("is ours");
-    let refused = run(arguments);
+    let refused = run(&arguments);
     assert!(
         refused.code == Some(2) && refused.err.contains("is marked as read-only"),
         "{refused:?}"
@@ -452,7 +429,7 @@ fn a_read_only_output_is_refused_unless_it_is_forced() {
 /// A model so large that writing it takes a while.
 #[cfg(target_os = "linux")]
 fn large_model() -> PathBuf {
-    let text = std::fs::read_to_string(fixture("good/d3d11_static.m3d")).expect("is text");
+    let text = fixture_text("good/d3d11_static.m3d");
     let (before, rest) = text.split_once("Position:").expect("has vertices");
     let (vertices, after) = rest.split_at(rest.find("***").expect("goes on"));
     let first = format!("Position:{vertices}");
@@ -463,9 +440,7 @@ fn large_model() -> PathBuf {
     let count: usize = count.expect("a count").parse().expect("a number");
     let times = 200_000 / count;
     let before = before.replace(&format!("#Vertices {count}"), &format!("#Vertices {}", count * times));
-    let file = scratch("interrupted_input.m3d");
-    std::fs::write(&file, before + &first.repeat(times) + after).expect("can be written");
-    file
+    scratch_file("interrupted_input.m3d", before + &first.repeat(times) + after).into()
 }
 
 /// The signal comes while the file beside the output is there. It may come too late, so that is tried more than once. Where the tests were
@@ -541,12 +516,7 @@ fn its_input_is_never_overwritten() {
     }
     for name in names {
         let refused = run(["convert", &input, name.to_str().expect("UTF-8"), "--scale", "2"]);
-        assert_eq!((refused.code, refused.out.as_str()), (Some(2), ""));
-        assert!(
-            refused.err.contains("is read; name another file to write"),
-            "{}",
-            refused.err
-        );
+        refused.refused_with(2, "is read; name another file to write");
         assert_eq!(std::fs::read(&input).expect("is there"), before);
     }
 }
@@ -574,66 +544,45 @@ fn wrong_use_says_what_is_wrong_and_writes_nothing() {
     let glb = out("wrong", "out.glb");
     let none = out("wrong", "out.obj");
     let lost = format!("{m3d}/no/such/out.m3d");
-    let cases: [(&str, &[&str], &str); 24] = [
-        (&none, &[], "OUT ends in .m3d or .glb"),
-        (&glb, &["--dialect", "d3d11"], "--dialect is for .m3d"),
-        (&glb, &["--for-book"], "--for-book is for .m3d"),
-        (&glb, &["--textures-out", "x"], "--textures-out is for .m3d"),
-        (&glb, &["--keep-empty"], "--keep-empty is for .m3d"),
-        (&m3d, &["--reduce", "2"], "at most 0.1"),
-        (&glb, &["--hand", "left"], "--hand left is for .m3d"),
-        (
-            &m3d,
-            &["--for-book", "--hand", "left"],
-            "--hand left does not go with --for-book",
-        ),
-        (&m3d, &["--range", "2"], "such as 0.5..2"),
-        (&m3d, &["--range", "2..1"], "such as 0.5..2"),
-        (
-            &m3d,
-            &["--range", "0..0.5"],
-            "A range is of one clip, and there are 4; choose one.",
-        ),
-        (
-            &m3d,
-            &["--clips", "Take1", "--range", "0..9"],
-            "is not inside \"Take1\"",
-        ),
-        (&m3d, &["--clips", "Swim"], "there is no clip \"Swim\""),
-        (
-            &m3d,
-            &["--clips", "Run", "--close-loop", "5"],
-            "its end cannot be eased over 5 s",
-        ),
-        (&m3d, &["--reduce", "0"], "a number above 0"),
-        (&m3d, &["--scale", "-1"], "a number above 0"),
-        (&m3d, &["--rename", "Take1"], "OLD=NEW"),
-        (
-            &m3d,
-            &["--rename", "Take1=Run"],
-            "A clip cannot be named \"Run\": another one is.",
-        ),
-        (&m3d, &["--rename-bone", "900=Tail"], "There is no bone 900"),
-        (&m3d, &["--rename-bone", "0="], "it is N=NAME"),
-        (&m3d, &["--rename-bone", "0= "], "it is N=NAME"),
-        (
-            &m3d,
-            &["--deny", "loses"],
-            "there is no code \"loses\"; the nearest is \"losses\"",
-        ),
-        (&m3d, &["--dialect", "imm"], "d3d11, d3d12"),
-        (&lost, &[], "cannot be written"),
+    #[rustfmt::skip]
+    let cases = [
+        (&none, "", "OUT ends in .m3d or .glb"),
+        (&glb, "--dialect d3d11", "--dialect is for .m3d"),
+        (&glb, "--for-book", "--for-book is for .m3d"),
+        (&glb, "--textures-out x", "--textures-out is for .m3d"),
+        (&glb, "--keep-empty", "--keep-empty is for .m3d"),
+        (&m3d, "--reduce 2", "at most 0.1"),
+        (&glb, "--hand left", "--hand left is for .m3d"),
+        (&m3d, "--for-book --hand left", "--hand left does not go with --for-book"),
+        (&m3d, "--range 2", "such as 0.5..2"),
+        (&m3d, "--range 2..1", "such as 0.5..2"),
+        (&m3d, "--range 0..0.5", "A range is of one clip, and there are 4; choose one."),
+        (&m3d, "--clips Take1 --range 0..9", "is not inside \"Take1\""),
+        (&m3d, "--clips Swim", "there is no clip \"Swim\""),
+        (&m3d, "--clips Run --close-loop 5", "its end cannot be eased over 5 s"),
+        (&m3d, "--reduce 0", "a number above 0"),
+        (&m3d, "--scale -1", "a number above 0"),
+        (&m3d, "--rename Take1", "OLD=NEW"),
+        (&m3d, "--rename Take1=Run", "A clip cannot be named \"Run\": another one is."),
+        (&m3d, "--rename-bone 900=Tail", "There is no bone 900"),
+        (&m3d, "--rename-bone 0=", "it is N=NAME"),
+        (&m3d, "--deny loses", "there is no code \"loses\"; the nearest is \"losses\""),
+        (&m3d, "--dialect imm", "d3d11, d3d12"),
+        (&lost, "", "cannot be written"),
     ];
     for (output, options, told) in cases {
-        let run = run([&["convert", FIGURE, output], options].concat());
-        assert_eq!((run.code, run.out.as_str()), (Some(2), ""), "{options:?}: {run:?}");
-        assert!(run.err.contains(told), "{options:?}: {}", run.err);
+        let run = run(["convert", FIGURE, output]
+            .into_iter()
+            .chain(options.split_whitespace()));
+        assert!(run.refused(2).contains(told), "{options:?}: {}", run.err);
         assert!(!Path::new(output).exists(), "{options:?}");
     }
+    let nameless = run(["convert", FIGURE, &m3d, "--rename-bone", "0= "]);
+    nameless.refused_with(2, "it is N=NAME");
     let unread = run(["convert", "no/such/model.m3d", &m3d]);
-    assert_eq!((unread.code, unread.out.as_str()), (Some(2), ""));
+    unread.refused(2);
     let refused = run(["convert", &fixture("bad/count_not_a_number.m3d"), &m3d]);
-    assert_eq!((refused.code, refused.out.as_str()), (Some(1), ""), "{refused:?}");
+    refused.refused(1);
     assert!(!Path::new(&m3d).exists());
 }
 
@@ -652,15 +601,8 @@ fn maps_are_written_as_png_and_named() {
         assert_eq!(map["state"], "found", "{map}");
         assert!(map["name"].as_str().expect("a name").ends_with(".png"), "{map}");
     }
-    let twice = run([
-        "convert",
-        FIGURE,
-        &output,
-        "--textures",
-        folder_name,
-        "--textures-out",
-        folder_name,
-    ]);
+    let folders = ["--textures", folder_name, "--textures-out", folder_name];
+    let twice = run(["convert", FIGURE, &output].iter().chain(&folders));
     assert_eq!(twice.code, Some(2), "maps that are read are not overwritten: {twice:?}");
 }
 
@@ -675,15 +617,8 @@ fn maps_go_again_where_the_file_cannot_be_written() {
     let output = beside.join("missing/o.m3d");
     for folder in [&new, &old] {
         let [folder_name, output] = [folder, &output].map(|path| path.to_str().expect("UTF-8"));
-        let failed = run([
-            "convert",
-            FIGURE,
-            output,
-            "--textures",
-            sample,
-            "--textures-out",
-            folder_name,
-        ]);
+        let folders = ["--textures", sample, "--textures-out", folder_name];
+        let failed = run(["convert", FIGURE, output].iter().chain(&folders));
         assert_eq!(failed.code, Some(2), "{failed:?}");
     }
     assert!(!new.exists(), "it was made for the maps");
@@ -704,27 +639,12 @@ fn a_figure_for_the_book_is_shown_by_its_demo() {
             let output = out("book", &format!("{number}_{dialect}.m3d"));
             let folder = scratch(&format!("convert_book_{number}_{dialect}"));
             let folder = folder.to_str().expect("UTF-8");
-            let options = [
-                "--for-book",
-                "--dialect",
-                dialect,
-                "--textures",
-                sample,
-                "--textures-out",
-                folder,
-            ];
-            convert(input, &output, &options);
+            let of_book = ["--for-book", "--dialect", dialect];
+            let folders = ["--textures", sample, "--textures-out", folder];
+            convert(input, &output, &[&of_book[..], &folders].concat());
             assert_book_shows(&output, true);
-            let checked = run([
-                "check",
-                &output,
-                "--book",
-                dialect,
-                "--textures",
-                folder,
-                "--deny",
-                "book",
-            ]);
+            let of_book = ["--book", dialect, "--textures", folder, "--deny", "book"];
+            let checked = run(["check", &output].iter().chain(&of_book));
             assert_eq!(checked.code, Some(0), "{checked:?}");
             for entry in std::fs::read_dir(folder).expect("was made") {
                 let bytes = std::fs::read(entry.expect("can be listed").path()).expect("can be read");
@@ -756,15 +676,7 @@ fn fixtures_for_the_book_are_shown_or_refused_with_a_reason() {
 
 #[test]
 fn real_files_go_every_way() {
-    let names = [
-        "d3d12/soldier",
-        "d3d11/base",
-        "d3d11/stairs",
-        "d3d11/rock",
-        "d3d11/tree",
-        "imm/column",
-    ];
-    for name in names {
+    for name in words("d3d12/soldier d3d11/base d3d11/stairs d3d11/rock d3d11/tree imm/column") {
         let Some(input) = shared(&format!("models/{name}.m3d")) else {
             continue;
         };

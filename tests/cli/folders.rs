@@ -5,17 +5,12 @@ use std::os::unix::fs::{PermissionsExt, symlink};
 
 use serde_json::{Value, json};
 
-use crate::program::{Run, fixture, run, scratch};
+use crate::program::{Run, fixture, run, scratch, scratch_folder};
 
 /// `check` of a model that names `skin_diff.dds` and `skin_norm.dds`.
 fn check(folder: &str) -> Run {
-    run([
-        "check",
-        "--json",
-        "--textures",
-        folder,
-        &fixture("good/d3d12_skinned.m3d"),
-    ])
+    let file = fixture("good/d3d12_skinned.m3d");
+    run(["check", "--json", "--textures", folder, &file])
 }
 
 fn codes(run: Run) -> Vec<Value> {
@@ -36,8 +31,7 @@ fn a_map_that_the_system_does_not_let_us_read_is_a_finding() {
     if !fs::metadata(unreadable).is_ok_and(|file| file.is_file()) {
         return skipped("there is no /proc/self/mem");
     }
-    let folder = scratch("unreadable");
-    fs::create_dir_all(&folder).expect("can be made");
+    let folder = scratch_folder("unreadable");
     symlink(unreadable, folder.join("skin_diff.dds")).expect("links");
     let found = codes(check(folder.to_str().expect("UTF-8")));
     assert_eq!(found, [json!("file-unreadable"), json!("map-missing")]);
@@ -45,8 +39,7 @@ fn a_map_that_the_system_does_not_let_us_read_is_a_finding() {
 
 #[test]
 fn what_is_no_file_and_what_leads_nowhere_is_told() {
-    let folder = scratch("odd");
-    fs::create_dir_all(&folder).expect("can be made");
+    let folder = scratch_folder("odd");
     let made = std::process::Command::new("mkfifo")
         .arg(folder.join("skin_diff.dds"))
         .status();
@@ -70,8 +63,7 @@ fn make_fifo(path: &std::path::Path) {
 
 #[test]
 fn pipes_and_devices_with_the_name_of_a_model_are_skipped_with_a_word() {
-    let folder = scratch("odd_models");
-    fs::create_dir_all(&folder).expect("can be made");
+    let folder = scratch_folder("odd_models");
     make_fifo(&folder.join("a.m3d"));
     symlink("/dev/zero", folder.join("b.m3d")).expect("links");
     fs::create_dir_all(folder.join("c.m3d")).expect("can be made");

@@ -2,7 +2,9 @@
 
 use serde_json::{Value, json};
 
-use crate::program::{FIGURE, bindpose, fixture, run, run_with_input, scratch, shared};
+use crate::program::{
+    FIGURE, bindpose, fixture, fixture_text, run, run_with_input, scratch, scratch_file, scratch_folder, shared,
+};
 
 /// f32 arithmetic of a turn by 90°.
 const ROUNDING: f64 = 1e-6;
@@ -33,24 +35,28 @@ fn json_says_all_of_a_skinned_file() {
         "bind_bounds": null,
         "animated_bounds": null,
         "bones": [{"name": null, "parent": 1}, {"name": null, "parent": null}],
-        "notices": [{
-            "severity": "note",
+        "notices": [note(json!({
             "code": "bones-reordered",
             "message": "1 bone stands before the parent; the joints are sorted and keep the file's numbers for display.",
             "line": 51,
             "column": 1,
-            "json_pointer": null,
-            "byte_offset": null,
-            "expected": null,
-            "found": null,
             "subject": {"kind": "bone", "index": 0},
-            "time_secs": null,
-            "bone": null,
-            "count": 1,
             "places": [{"line": 51, "column": 1}],
-        }],
+        }))],
     });
     assert_eq!(found, expected);
+}
+
+/// All keys of a note: those that are given, and the others as they are where there is nothing to say.
+fn note(given: Value) -> Value {
+    let mut note = json!({
+        "severity": "note", "code": null, "message": null, "line": null, "column": null, "json_pointer": null,
+        "byte_offset": null, "expected": null, "found": null, "subject": null, "time_secs": null, "bone": null,
+        "count": 1, "places": [],
+    });
+    let Value::Object(given) = given else { panic!("{given}") };
+    note.as_object_mut().expect("an object").extend(given);
+    note
 }
 
 fn assert_close(bounds: &Value, expected: [[f64; 3]; 2]) {
@@ -71,70 +77,34 @@ fn assert_close(bounds: &Value, expected: [[f64; 3]; 2]) {
 fn notices_come_from_all_stages_in_the_order_of_the_file() {
     let found = run(["info", "--json", &fixture("good/subset_typos.m3d")]).json();
     let expected = json!([
-        {
-            "severity": "note",
+        note(json!({
             "code": "handedness-unclear",
             "message": "1 of 2 triangles wind as in a left-handed file, the rest as in a right-handed one.",
-            "line": null,
-            "column": null,
-            "json_pointer": null,
-            "byte_offset": null,
-            "expected": null,
-            "found": null,
-            "subject": null,
-            "time_secs": null,
-            "bone": null,
-            "count": 1,
-            "places": [],
-        },
-        {
-            "severity": "note",
+        })),
+        note(json!({
             "code": "subset-vertex-range",
             "message": "2 values of vertex ranges of the subset table are unreadable; they are not used.",
             "line": 30,
             "column": 26,
-            "json_pointer": null,
-            "byte_offset": null,
-            "expected": null,
-            "found": null,
-            "subject": null,
-            "time_secs": null,
-            "bone": null,
             "count": 2,
             "places": [{"line": 30, "column": 26}, {"line": 30, "column": 41}],
-        },
-        {
-            "severity": "note",
+        })),
+        note(json!({
             "code": "subset-label",
             "message": "A label of the subset table is spelt \"VetexCount:\"; it was read by its place.",
             "line": 30,
             "column": 29,
-            "json_pointer": null,
-            "byte_offset": null,
-            "expected": null,
             "found": "VetexCount:",
-            "subject": null,
-            "time_secs": null,
-            "bone": null,
-            "count": 1,
             "places": [{"line": 30, "column": 29}],
-        },
-        {
-            "severity": "note",
+        })),
+        note(json!({
             "code": "triangles-repeated",
             "message": "1 triangle has the same three vertices as another one before.",
             "line": 51,
             "column": 1,
-            "json_pointer": null,
-            "byte_offset": null,
-            "expected": null,
-            "found": null,
             "subject": {"kind": "triangle", "index": 1},
-            "time_secs": null,
-            "bone": null,
-            "count": 1,
             "places": [{"line": 51, "column": 1}],
-        },
+        })),
     ]);
     assert_eq!(found["notices"], expected);
 }
@@ -169,14 +139,9 @@ fn the_text_names_and_counts_what_is_there() {
 /// A name from a file cannot steer the terminal; in JSON it stays as it is.
 #[test]
 fn control_characters_are_not_printed() {
-    let file = scratch("control.m3d");
-    let text = std::fs::read_to_string(fixture("good/bones_child_first.m3d")).expect("is text");
-    std::fs::write(
-        &file,
-        text.replace("AnimationClip Wave", "AnimationClip Wa\u{1b}[31mve"),
-    )
-    .expect("can be written");
-    let file = file.to_str().expect("UTF-8");
+    let text = fixture_text("good/bones_child_first.m3d");
+    let text = text.replace("AnimationClip Wave", "AnimationClip Wa\u{1b}[31mve");
+    let file = &scratch_file("control.m3d", text);
     let printed = run(["info", file]).fine();
     assert!(
         printed.contains("Wa\u{fffd}[31mve") && !printed.contains('\u{1b}'),
@@ -189,24 +154,22 @@ fn control_characters_are_not_printed() {
 /// A line end in a name is no line end of the output, and large numbers stay apart.
 #[test]
 fn names_stay_on_their_lines_and_numbers_in_their_columns() {
-    let text = std::fs::read_to_string(fixture("gltf/leaf-and-glass.gltf")).expect("is text");
-    let file = scratch("forged.gltf");
+    let text = fixture_text("gltf/leaf-and-glass.gltf");
     let name = "\"name\": \"Leaf\"";
     assert!(text.contains(name), "{text}");
     let text = text.replace(name, "\"name\": \"Leaf\\n0 errors\"");
-    std::fs::write(&file, text).expect("can be written");
-    let printed = run(["info", file.to_str().expect("UTF-8")]).fine();
+    let file = &scratch_file("forged.gltf", text);
+    let printed = run(["info", file]).fine();
     assert!(printed.contains("Leaf\u{fffd}0 errors"), "{printed}");
 
-    let text = std::fs::read_to_string(fixture("good/bones_child_first.m3d")).expect("is text");
-    let file = scratch("far.m3d");
+    let text = fixture_text("good/bones_child_first.m3d");
     let line = text
         .lines()
         .find(|line| line.starts_with("Position: "))
         .expect("a vertex");
     let far = text.replacen(line, "Position: -3617036800 -3208518912 -3000000000", 1);
-    std::fs::write(&file, far).expect("can be written");
-    let printed = run(["info", file.to_str().expect("UTF-8")]).fine();
+    let file = &scratch_file("far.m3d", far);
+    let printed = run(["info", file]).fine();
     let row = printed
         .lines()
         .find(|line| line.starts_with("  bind min"))
@@ -227,16 +190,14 @@ fn standard_input_is_read() {
 #[test]
 fn names_of_any_length_are_printed() {
     let long = "n".repeat(65_536);
-    let text = std::fs::read_to_string(fixture("good/bones_child_first.m3d")).expect("is text");
-    let file = scratch("long_names.m3d");
+    let text = fixture_text("good/bones_child_first.m3d");
     let text = text
         .replace("Name: skin\n", &format!("Name: {long}m\n"))
         .replace("AnimationClip Wave\n", &format!("AnimationClip {long}c\n"))
         .replace("skin_diff.dds", &format!("{long}d.dds"));
-    std::fs::write(&file, text).expect("can be written");
-    let folder = scratch("no_textures");
-    std::fs::create_dir_all(&folder).expect("makes a folder");
-    let (file, folder) = (file.to_str().expect("UTF-8"), folder.to_str().expect("UTF-8"));
+    let file = &scratch_file("long_names.m3d", text);
+    let folder = scratch_folder("no_textures");
+    let folder = folder.to_str().expect("UTF-8");
     let printed = run(["info", file, "--textures", folder]).fine();
     for row in ["m  ", "c  ", "d.dds  missing\n"] {
         assert!(printed.contains(&format!("  {long}{row}")), "{row} has no row");
@@ -248,7 +209,7 @@ fn names_of_any_length_are_printed() {
 
     let nowhere = format!("{long}.m3d");
     let run = run(["info", &nowhere]);
-    assert_eq!((run.code, run.out.as_str()), (Some(2), ""));
+    run.refused(2);
     assert!(run.err.starts_with(&format!("error: {nowhere} cannot be read: ")));
 }
 
@@ -298,7 +259,7 @@ fn a_file_with_an_error_has_no_info() {
     let file = fixture("bad/blend_index_out_of_range.m3d");
     for arguments in [vec!["info", &file], vec!["info", &file, "--json"]] {
         let run = run(arguments);
-        assert_eq!((run.code, run.out.as_str()), (Some(1), ""));
+        run.refused(1);
         let line = format!(
             "{file}:34:17: error[not-in-range]: A blend index must be a whole number from 0 to 1, but \"2\" was found.\n"
         );

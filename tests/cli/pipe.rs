@@ -2,7 +2,7 @@
 
 use std::process::Stdio;
 
-use crate::program::{FIGURE, bindpose, fixture, run_command};
+use crate::program::{FIGURE, Run, bindpose, fixture, run_command};
 
 /// Starts the program, closes its output before it has written, and gives its exit code and what it said.
 fn with_a_closed_pipe(arguments: &[&str]) -> (Option<i32>, String) {
@@ -13,41 +13,28 @@ fn with_a_closed_pipe(arguments: &[&str]) -> (Option<i32>, String) {
         .spawn()
         .expect("the binary was built for this test");
     drop(child.stdout.take());
-    let output = child.wait_with_output().expect("ends");
-    (
-        output.status.code(),
-        String::from_utf8_lossy(&output.stderr).into_owned(),
-    )
+    let run = Run::of(child.wait_with_output().expect("ends"));
+    (run.code, run.err)
 }
 
 #[test]
 fn a_reader_that_leaves_ends_the_output_and_not_the_work() {
     let bad = fixture("bad/empty.m3d");
-    for (arguments, code) in [
+    for (line, code) in [
         // Hundreds of kilobytes: more than any buffer between the two.
-        (
-            vec![
-                "pose",
-                FIGURE,
-                "--clip",
-                "Take1",
-                "--time",
-                "0",
-                "--json",
-                "--positions",
-            ],
-            0,
-        ),
-        (vec!["pose", FIGURE, "--clip", "Take1", "--time", "0", "--positions"], 0),
-        (vec!["info", FIGURE, "--json"], 0),
-        (vec!["check", &bad, FIGURE], 1),
-        (vec!["--help"], 0),
+        ("pose FIGURE --clip Take1 --time 0 --json --positions", 0),
+        ("pose FIGURE --clip Take1 --time 0 --positions", 0),
+        ("info FIGURE --json", 0),
+        ("check BAD FIGURE", 1),
+        ("--help", 0),
     ] {
-        assert_eq!(
-            with_a_closed_pipe(&arguments),
-            (Some(code), String::new()),
-            "{arguments:?}"
-        );
+        let arguments = line.split(' ').map(|word| match word {
+            "FIGURE" => FIGURE,
+            "BAD" => &bad,
+            word => word,
+        });
+        let ended = with_a_closed_pipe(&arguments.collect::<Vec<_>>());
+        assert_eq!(ended, (Some(code), String::new()), "{line}");
     }
 }
 
@@ -60,11 +47,7 @@ fn a_full_disk_is_a_failure() {
             .open("/dev/full")
             .expect("Linux has it");
         let run = run_command(bindpose().args(&arguments).stdout(Stdio::from(full)));
-        assert_eq!(run.code, Some(2));
-        assert!(
-            run.err.starts_with("error: the result cannot be written: "),
-            "{}",
-            run.err
-        );
+        let told = "error: the result cannot be written: ";
+        assert!(run.refused(2).starts_with(told), "{}", run.err);
     }
 }

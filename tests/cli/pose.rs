@@ -3,7 +3,7 @@
 use bindpose::format::{self, Document};
 use serde_json::Value;
 
-use crate::program::{FIGURE, fixture, run, scratch, shared};
+use crate::program::{FIGURE, fixture, run, scratch_file, shared};
 use crate::textbook;
 
 /// What f32 may lose over a chain of joints, at the size of the models.
@@ -40,17 +40,8 @@ fn assert_as_in_the_books(file: &str) {
     for (index, clip) in document.clips.iter().enumerate() {
         for time_secs in TIMES_SECS {
             let time = time_secs.to_string();
-            let found = run([
-                "pose",
-                file,
-                "--clip",
-                &clip.name,
-                "--time",
-                &time,
-                "--json",
-                "--positions",
-            ])
-            .json();
+            let at = ["--clip", &clip.name, "--time", &time];
+            let found = run(["pose", file, "--json", "--positions"].iter().chain(&at)).json();
             let keys: Vec<&String> = found.as_object().expect("an object").keys().collect();
             assert_eq!(keys, ["clip", "palette", "positions", "schemaVersion", "time_secs"]);
             assert_eq!(found["clip"], clip.name.as_str());
@@ -101,9 +92,8 @@ fn an_order_is_not_its_inverse() {
         }
         clip.bones.push(third);
     }
-    let file = scratch("three_bones.m3d");
-    std::fs::write(&file, format::write(&document)).expect("can be written");
-    assert_as_in_the_books(file.to_str().expect("UTF-8"));
+    let file = &scratch_file("three_bones.m3d", format::write(&document));
+    assert_as_in_the_books(file);
 }
 
 #[test]
@@ -150,14 +140,8 @@ fn a_model_without_clips_is_as_it_was_bound() {
 
 #[test]
 fn the_text_has_four_rows_for_each_bone() {
-    let text = run([
-        "pose",
-        &fixture("good/bones_child_first.m3d"),
-        "--time",
-        "0",
-        "--positions",
-    ])
-    .fine();
+    let file = fixture("good/bones_child_first.m3d");
+    let text = run(["pose", &file, "--time", "0", "--positions"]).fine();
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!((lines[0], lines[1], lines[6]), ("Wave at 0 s", "bone 0", "bone 1"));
     let row: Vec<f32> = lines[5]
@@ -172,8 +156,7 @@ fn the_text_has_four_rows_for_each_bone() {
 fn an_unknown_clip_is_answered_with_those_there_are() {
     let run_with = |arguments: &[&str]| run(["pose", FIGURE, "--json"].iter().chain(arguments));
     let unknown = run_with(&["--clip", "Swim", "--time", "0"]);
-    assert_eq!((unknown.code, unknown.out.as_str()), (Some(2), ""));
-    assert!(unknown.err.contains("there is no clip \"Swim\""), "{}", unknown.err);
+    unknown.refused_with(2, "there is no clip \"Swim\"");
     let unnamed = run_with(&["--time", "0"]);
     assert_eq!(unnamed.code, Some(2));
     for clip in document(FIGURE).clips {
@@ -203,7 +186,7 @@ fn a_pose_that_overflows_is_an_error_and_its_bounds_are_left_out_with_a_notice()
         let at = |time_secs: &str| run(["pose", &file, "--time", time_secs].iter().chain(arguments));
         assert!(!at("0").fine().contains("null"));
         let overflowed = at("0.5");
-        assert_eq!((overflowed.code, overflowed.out.as_str()), (Some(1), ""));
+        overflowed.refused(1);
         let words = "at 0.5 s of \"Wave\" bone 1 is taken beyond what numbers hold\n";
         assert!(overflowed.err.ends_with(words), "{}", overflowed.err);
     }
@@ -231,19 +214,9 @@ fn a_vertex_that_overflows_is_named() {
     let mut document = document(&fixture("good/d3d12_skinned.m3d"));
     document.vertices[2].position = [0.0, 1e20, 0.0];
     document.clips[0].bones[1].keyframes[1].scale = [1e20; 3];
-    let file = scratch("vertex_overflows.m3d");
-    std::fs::write(&file, format::write(&document)).expect("can be written");
-    let pose = |arguments: &[&str]| {
-        run(["pose", file.to_str().expect("UTF-8"), "--time", "0.5"]
-            .iter()
-            .chain(arguments))
-    };
+    let file = &scratch_file("vertex_overflows.m3d", format::write(&document));
+    let pose = |arguments: &[&str]| run(["pose", file, "--time", "0.5"].iter().chain(arguments));
     assert_eq!(pose(&["--json"]).code, Some(0));
     let overflowed = pose(&["--json", "--positions"]);
-    assert_eq!((overflowed.code, overflowed.out.as_str()), (Some(1), ""));
-    assert!(
-        overflowed.err.contains("vertex 2 is taken beyond"),
-        "{}",
-        overflowed.err
-    );
+    overflowed.refused_with(1, "vertex 2 is taken beyond");
 }

@@ -3,7 +3,7 @@
 use std::ffi::OsStr;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
 
@@ -20,6 +20,11 @@ pub(crate) struct Run {
     pub(crate) err: String,
 }
 
+/// The arguments of a command line, none of which has a blank in it.
+pub(crate) fn words(line: &str) -> Vec<&str> {
+    line.split_whitespace().collect()
+}
+
 /// Runs it to its end.
 pub(crate) fn run(arguments: impl IntoIterator<Item = impl AsRef<OsStr>>) -> Run {
     run_command(bindpose().args(arguments))
@@ -27,12 +32,7 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = impl AsRef<OsStr>>) -> Run
 
 /// Likewise, with an environment of the caller's.
 pub(crate) fn run_command(command: &mut Command) -> Run {
-    let output = command.output().expect("the binary was built for this test");
-    Run {
-        code: output.status.code(),
-        out: String::from_utf8(output.stdout).expect("prints UTF-8"),
-        err: String::from_utf8_lossy(&output.stderr).into_owned(),
-    }
+    Run::of(command.output().expect("the binary was built for this test"))
 }
 
 /// Likewise, with bytes on standard input.
@@ -44,19 +44,35 @@ pub(crate) fn run_with_input(command: &mut Command, input: &[u8]) -> Run {
     let mut child = pipes.spawn().expect("the binary was built for this test");
     // It may refuse before it has read all.
     let _ = child.stdin.take().expect("piped").write_all(input);
-    let output = child.wait_with_output().expect("it ends");
-    Run {
-        code: output.status.code(),
-        out: String::from_utf8(output.stdout).expect("prints UTF-8"),
-        err: String::from_utf8_lossy(&output.stderr).into_owned(),
-    }
+    Run::of(child.wait_with_output().expect("it ends"))
 }
 
 impl Run {
+    pub(crate) fn of(output: Output) -> Self {
+        Self {
+            code: output.status.code(),
+            out: String::from_utf8(output.stdout).expect("prints UTF-8"),
+            err: String::from_utf8_lossy(&output.stderr).into_owned(),
+        }
+    }
+
     /// Standard output of a run in which all was well.
     pub(crate) fn fine(self) -> String {
         assert_eq!(self.code, Some(0), "{self:?}");
         self.out
+    }
+
+    /// What is said by a run that ends with this code and gives nothing.
+    #[track_caller]
+    pub(crate) fn refused(&self, code: i32) -> &str {
+        assert_eq!((self.code, self.out.as_str()), (Some(code), ""), "{self:?}");
+        &self.err
+    }
+
+    /// The same, where these words are among what is said.
+    #[track_caller]
+    pub(crate) fn refused_with(&self, code: i32, words: &str) {
+        assert!(self.refused(code).contains(words), "{words} is not in {self:?}");
     }
 
     /// The same as JSON.
@@ -110,4 +126,28 @@ pub(crate) fn scratch(name: &str) -> PathBuf {
         std::fs::remove_file(&path).expect("was written by an earlier run");
     }
     path
+}
+
+/// Likewise, as an argument.
+pub(crate) fn scratch_name(name: &str) -> String {
+    scratch(name).into_os_string().into_string().expect("UTF-8")
+}
+
+/// A file of this test alone, as an argument.
+pub(crate) fn scratch_file(name: &str, bytes: impl AsRef<[u8]>) -> String {
+    let path = scratch_name(name);
+    std::fs::write(&path, bytes).expect("the target folder can be written");
+    path
+}
+
+/// An empty folder of this test alone.
+pub(crate) fn scratch_folder(name: &str) -> PathBuf {
+    let path = scratch(name);
+    std::fs::create_dir_all(&path).expect("the target folder can be written");
+    path
+}
+
+/// The text of a file of `tests/fixtures`.
+pub(crate) fn fixture_text(name: &str) -> String {
+    std::fs::read_to_string(fixture(name)).expect("is text")
 }

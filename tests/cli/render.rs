@@ -4,7 +4,7 @@ use std::path::Path;
 
 use image::RgbaImage;
 
-use crate::program::{FIGURE, Run, bindpose, fixture, run, run_command, scratch, shared};
+use crate::program::{FIGURE, Run, bindpose, fixture, run, run_command, scratch, scratch_folder, shared, words};
 
 /// Draws, and gives the picture with what was printed.
 pub(crate) fn draw(name: &str, file: &str, arguments: &[&str]) -> (RgbaImage, String) {
@@ -41,19 +41,9 @@ fn a_framed_figure(backend: &str) {
     let (picture, printed) = draw(
         &name,
         FIGURE,
-        &[
-            "--backend",
-            backend,
-            "--size",
-            "301x200",
-            "--clip",
-            "Wave",
-            "--time",
-            "0.4",
-            "--view",
-            "front",
-            "--transparent",
-        ],
+        &words(&format!(
+            "--backend {backend} --size 301x200 --clip Wave --time 0.4 --view front --transparent"
+        )),
     );
     assert_eq!(picture.dimensions(), (301, 200));
     assert!(
@@ -97,16 +87,8 @@ fn a_crowd_is_said_and_framed() {
 }
 
 fn same_frame_twice(backend: &str) -> RgbaImage {
-    let arguments = [
-        "--backend",
-        backend,
-        "--size",
-        "320x180",
-        "--clip",
-        "Take1",
-        "--time",
-        "0.3",
-    ];
+    let line = format!("--backend {backend} --size 320x180 --clip Take1 --time 0.3");
+    let arguments = words(&line);
     let (first, _) = draw(&format!("first-{backend}.png"), FIGURE, &arguments);
     let (second, _) = draw(&format!("second-{backend}.png"), FIGURE, &arguments);
     assert_eq!(first, second, "the same time gives the same picture");
@@ -177,7 +159,7 @@ fn a_picture_that_no_gpu_draws_is_refused() {
     for (size, why) in [("100000x10", "pixels a side"), ("16000x16000", "pixels")] {
         let path = scratch(&format!("large-{size}.png"));
         let run = run(["render", FIGURE, "-o", path.to_str().expect("UTF-8"), "--size", size]);
-        assert_eq!((run.code, run.out.as_str()), (Some(2), ""));
+        run.refused(2);
         let told = format!("error: a picture of {} pixels is too large", size.replace('x', " × "));
         assert!(run.err.contains(&told) && run.err.contains(why), "{}", run.err);
         assert!(!path.exists());
@@ -197,7 +179,7 @@ fn a_picture_that_the_gpu_has_no_memory_for_is_refused_and_never_empty() {
         .args(["render", FIGURE, "--size", "8192x8192", "--backend", "vulkan", "-o"])
         .arg(&path);
     let run = run_command(&mut command);
-    assert_eq!((run.code, run.out.as_str()), (Some(2), ""), "{}", run.err);
+    run.refused(2);
     let told = "error: a picture of 8192 × 8192 pixels needs about 2685 MB of the GPU's memory, and less is free: a smaller one \
                 may be drawn";
     assert!(run.err.contains(told), "{}", run.err);
@@ -222,12 +204,7 @@ fn a_missing_driver_is_named_with_its_package() {
         )
     };
     let asked = without_vulkan("asked.png", &["--backend", "vulkan"]);
-    assert_eq!((asked.code, asked.out.as_str()), (Some(2), ""));
-    assert!(
-        asked.err.contains("apt-get install mesa-vulkan-drivers"),
-        "{}",
-        asked.err
-    );
+    asked.refused_with(2, "apt-get install mesa-vulkan-drivers");
     let instead = without_vulkan("instead.png", &[]).fine();
     assert!(instead.contains("(GL)"), "{instead}");
 }
@@ -248,13 +225,8 @@ fn drivers_say_nothing_where_all_is_well() {
 fn draw_skin(folder: &Path, more: &[&str]) -> Run {
     let path = folder.with_extension("png");
     let mut command = bindpose();
-    command.args([
-        "render",
-        &fixture("good/bones_child_first.m3d"),
-        "--size",
-        "16x16",
-        "-o",
-    ]);
+    let file = fixture("good/bones_child_first.m3d");
+    command.args(["render", &file, "--size", "16x16", "-o"]);
     let run = run_command(command.arg(&path).arg("--textures").arg(folder).args(more));
     assert!(path.is_file(), "{run:?}");
     std::fs::remove_file(path).expect("was written");
@@ -268,8 +240,7 @@ fn save_texel(path: impl AsRef<Path>) {
 
 #[test]
 fn maps_that_lack_are_told_and_can_be_denied() {
-    let folder = scratch("lacking");
-    std::fs::create_dir_all(&folder).expect("makes a folder");
+    let folder = scratch_folder("lacking");
     let normal_map = folder.join("skin_norm.dds");
     std::fs::write(&normal_map, "DDS ").expect("writes");
     let model = fixture("good/bones_child_first.m3d");
@@ -372,8 +343,7 @@ fn textures_of_a_folder_are_drawn_at_any_depth() {
 
 #[test]
 fn a_cube_map_is_the_sky_by_its_own_option_and_only_noted_among_textures() {
-    let folder = scratch("skies");
-    std::fs::create_dir_all(&folder).expect("makes a folder");
+    let folder = scratch_folder("skies");
     let sky = folder.join("dusk.dds");
     let faces = [200, 40, 20, 255].repeat(6 * 4 * 4);
     let header = cube_header(4);

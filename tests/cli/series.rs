@@ -4,7 +4,7 @@ use std::path::Path;
 
 use image::{RgbaImage, imageops};
 
-use crate::program::{FIGURE, bindpose, fixture, run, run_command, scratch};
+use crate::program::{FIGURE, bindpose, fixture, run, run_command, scratch, scratch_folder, words};
 use crate::render::{draw, extent, share_that_differs};
 
 /// Draws into a folder, and gives what was printed.
@@ -44,8 +44,7 @@ const WALK: [&str; 4] = ["--clip", "Take1", "--size", "64x48"];
 
 #[test]
 fn frames_go_through_the_clip_and_leave_its_end_out() {
-    let folder = scratch("frames");
-    std::fs::create_dir_all(&folder).expect("makes a folder");
+    let folder = scratch_folder("frames");
     std::fs::write(folder.join("notes.txt"), "mine").expect("writes");
     std::fs::write(folder.join("frame-0001.png"), "of an earlier run").expect("writes");
     std::fs::write(folder.join("frame-0009.png"), "of a longer run").expect("writes");
@@ -117,17 +116,7 @@ fn every_kind_of_picture_has_the_same_bytes_every_time() {
 #[test]
 fn a_turntable_looks_from_all_sides_and_the_model_stays_in_its_middle() {
     let folder = scratch("turntable");
-    let turn = [
-        "--clip",
-        "Take1",
-        "--size",
-        "90x120",
-        "--view",
-        "front",
-        "--transparent",
-        "--turntable",
-        "4",
-    ];
+    let turn = words("--clip Take1 --size 90x120 --view front --transparent --turntable 4");
     let printed = fill(&folder, FIGURE, &turn);
     assert!(
         printed.contains(": 4 pictures of 90x120, Take1 at 0 s, all round, "),
@@ -178,9 +167,7 @@ const GROUND: [u8; 4] = [0x18, 0x1b, 0x21, 255];
 
 #[test]
 fn a_sheet_has_every_picture_and_a_label_under_each() {
-    let arguments = [
-        "--clip", "Take1", "--size", "360x260", "--sheet", "2x2", "--frames", "3",
-    ];
+    let arguments = words("--clip Take1 --size 360x260 --sheet 2x2 --frames 3");
     let (sheet, printed) = draw("sheet.png", FIGURE, &arguments);
     assert_eq!(sheet.dimensions(), (360, 260));
     let told = printed
@@ -220,25 +207,13 @@ fn a_sheet_has_every_picture_and_a_label_under_each() {
 
 #[test]
 fn a_sheet_alone_shows_the_clip_and_with_a_turntable_a_model_without_one() {
-    let (_, printed) = draw(
-        "whole.png",
-        FIGURE,
-        &["--clip", "Take1", "--size", "200x200", "--sheet", "2x2"],
-    );
+    let (_, printed) = draw("whole.png", FIGURE, &words("--clip Take1 --size 200x200 --sheet 2x2"));
     assert!(
         printed.contains(", 4 pictures of ") && printed.contains("Take1 from 0.000 s to 0.800 s"),
         "{printed}"
     );
     let still = fixture("good/d3d11_static.m3d");
-    let round = [
-        "--size",
-        "200x100",
-        "--sheet",
-        "2x1",
-        "--turntable",
-        "2",
-        "--transparent",
-    ];
+    let round = words("--size 200x100 --sheet 2x1 --turntable 2 --transparent");
     let (sheet, printed) = draw("round.png", &still, &round);
     assert!(
         printed.contains(", 2 pictures of ") && printed.contains(", all round, "),
@@ -273,8 +248,7 @@ fn ghosts_stand_before_and_after_where_the_clip_has_poses() {
 
 #[test]
 fn a_picture_is_replaced_whole_and_nothing_is_left_beside_it() {
-    let folder = scratch("whole");
-    std::fs::create_dir_all(&folder).expect("makes a folder");
+    let folder = scratch_folder("whole");
     let path = folder.join("picture.png");
     std::fs::write(&path, "an older picture").expect("writes");
     let told = fill(&path, FIGURE, &["--size", "16x16"]);
@@ -319,14 +293,10 @@ fn a_terminal_is_told_how_far_it_is() {
 #[test]
 fn the_help_says_how_a_film_is_made() {
     let help = run_command(bindpose().args(["render", "--help"])).fine();
-    for word in [
-        "--frames",
-        "--fps",
-        "--turntable",
-        "--sheet",
-        "--ghosts",
-        "ffmpeg -framerate 30",
-    ] {
+    for word in words("--frames --fps --turntable --sheet --ghosts")
+        .into_iter()
+        .chain(["ffmpeg -framerate 30"])
+    {
         assert!(help.contains(word), "{word} is not in\n{help}");
     }
 }

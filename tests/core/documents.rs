@@ -12,14 +12,9 @@ use bindpose::model::Model;
 use crate::shared::shared;
 
 /// Real files, by folder and name.
-pub(crate) const REAL_FILES: [&str; 6] = [
-    "d3d12/soldier",
-    "d3d11/base",
-    "d3d11/stairs",
-    "d3d11/rock",
-    "d3d11/tree",
-    "imm/column",
-];
+#[rustfmt::skip]
+pub(crate) const REAL_FILES: [&str; 6] =
+    ["d3d12/soldier", "d3d11/base", "d3d11/stairs", "d3d11/rock", "d3d11/tree", "imm/column"];
 
 /// The figure that the page opens with.
 pub(crate) fn figure() -> Parsed {
@@ -30,6 +25,15 @@ pub(crate) fn figure() -> Parsed {
 pub(crate) fn real_file(name: &str) -> Option<Parsed> {
     let bytes = shared_bytes(&format!("models/{name}.m3d"))?;
     Some(parse(&bytes).expect("a real file parses"))
+}
+
+/// The D3D12 book's model with a clip, where it is at hand.
+pub(crate) fn soldier() -> Option<Parsed> {
+    real_file("d3d12/soldier")
+}
+
+pub(crate) fn soldier_bytes() -> Option<Vec<u8>> {
+    shared_bytes("models/d3d12/soldier.m3d")
 }
 
 /// The bytes of a real file, where those are at hand.
@@ -71,6 +75,17 @@ pub(crate) fn message_of(document: &Document, code: &str) -> String {
     let finding = matching.next().unwrap_or_else(|| panic!("no finding {code}"));
     assert!(matching.next().is_none(), "more than one finding {code}");
     finding.message
+}
+
+/// Asserts that this is found about a document, in these words, and nothing else.
+#[track_caller]
+pub(crate) fn assert_told(document: &Document, code: &str, words: &str) {
+    let (_, findings) = read(document, &LineMap::default());
+    let told: Vec<_> = findings
+        .iter()
+        .map(|finding| (finding.code, &*finding.message))
+        .collect();
+    assert_eq!(told, [(code, words)]);
 }
 
 /// Whether a message begins as a sentence does, with no small letter, and ends as one.

@@ -51,6 +51,11 @@ fn triangle(document: &Value, attributes: impl FnOnce(&mut Gltf) -> Value) -> Gl
     file
 }
 
+/// A triangle of nothing but positions.
+fn bare(document: &Value) -> Gltf {
+    triangle(document, |_| json!({}))
+}
+
 fn read(file: &Gltf) -> Imported {
     let [binary, text] = [file.glb(), file.text()].map(|bytes| import(&bytes));
     let text = text.unwrap_or_else(|refused| panic!("{}", refused.error.message));
@@ -68,6 +73,18 @@ fn refused(bytes: &[u8]) -> Diagnostic {
 
 fn codes_of(imported: &Imported) -> Vec<&'static str> {
     imported.diagnostics.iter().map(|finding| finding.code).collect()
+}
+
+/// The finding of a code that stands there once.
+#[track_caller]
+fn told<'a>(imported: &'a Imported, code: &str) -> &'a Diagnostic {
+    let found: Vec<_> = told_all(imported, code).collect();
+    assert_eq!(found.len(), 1, "{code} among {:?}", imported.diagnostics);
+    found[0]
+}
+
+fn told_all<'a>(imported: &'a Imported, code: &str) -> impl Iterator<Item = &'a Diagnostic> {
+    imported.diagnostics.iter().filter(move |finding| finding.code == code)
 }
 
 /// All vertices of the first clip at a time, or at rest without one.

@@ -29,9 +29,10 @@ fn every_entry_point_is_valid_and_translates_to_glsl_es_300() {
         },
         ..glsl::Options::default()
     };
-    let mut entry_points = Vec::new();
+    let mut found = Vec::new();
     for program in PROGRAMS {
         let (module, info) = compile(program);
+        let mut entry_points = Vec::new();
         for entry_point in &module.entry_points {
             let pipeline = glsl::PipelineOptions {
                 shader_stage: entry_point.stage,
@@ -44,102 +45,42 @@ fn every_entry_point_is_valid_and_translates_to_glsl_es_300() {
                 .and_then(|mut writer| writer.write())
                 .unwrap_or_else(|error| panic!("{}/{}: {error}", program.name, entry_point.name));
             assert!(text.starts_with("#version 300 es"), "{text}");
-            entry_points.push(format!("{}/{}", program.name, entry_point.name));
+            entry_points.push(entry_point.name.as_str());
         }
+        found.push(format!("{}: {}", program.name, entry_points.join(" ")));
     }
-    assert_eq!(
-        entry_points,
-        [
-            "mesh-studio/vertex_static",
-            "mesh-studio/vertex_skinned",
-            "mesh-studio/fragment",
-            "mesh-studio/fragment_cut",
-            "mesh-studio/fragment_cut_smooth",
-            "mesh-studio-all/vertex_static",
-            "mesh-studio-all/vertex_skinned",
-            "mesh-studio-all/fragment",
-            "mesh-studio-all/fragment_cut",
-            "mesh-studio-all/fragment_cut_smooth",
-            "mesh-studio-all/fragment_opaque_part",
-            "mesh-studio-all/fragment_blended",
-            "mesh-book/vertex_static",
-            "mesh-book/vertex_skinned",
-            "mesh-book/fragment",
-            "mesh-book/fragment_cut",
-            "mesh-book/fragment_cut_smooth",
-            "mesh-book-all/vertex_static",
-            "mesh-book-all/vertex_skinned",
-            "mesh-book-all/fragment",
-            "mesh-book-all/fragment_cut",
-            "mesh-book-all/fragment_cut_smooth",
-            "mesh-book-all/fragment_opaque_part",
-            "mesh-book-all/fragment_blended",
-            "mesh-inspect/vertex_static",
-            "mesh-inspect/vertex_skinned",
-            "mesh-inspect/fragment",
-            "mesh-inspect/fragment_cut",
-            "mesh-inspect/fragment_cut_smooth",
-            "mesh-inspect-all/vertex_static",
-            "mesh-inspect-all/vertex_skinned",
-            "mesh-inspect-all/fragment",
-            "mesh-inspect-all/fragment_cut",
-            "mesh-inspect-all/fragment_cut_smooth",
-            "skin-view/vertex_static",
-            "skin-view/vertex_skinned",
-            "skin-view/fragment",
-            "skin-view/fragment_cut",
-            "skin-view-all/vertex_static",
-            "skin-view-all/vertex_skinned",
-            "skin-view-all/fragment",
-            "skin-view-all/fragment_cut",
-            "caster/vertex_static",
-            "caster/vertex_skinned",
-            "caster-cut/vertex_static",
-            "caster-cut/vertex_skinned",
-            "caster-cut/fragment",
-            "caster-cut-all/vertex_static",
-            "caster-cut-all/vertex_skinned",
-            "caster-cut-all/fragment",
-            "mesh-geometry/vertex_static",
-            "mesh-geometry/vertex_skinned",
-            "mesh-geometry/fragment",
-            "mesh-geometry/fragment_cut",
-            "mesh-geometry-all/vertex_static",
-            "mesh-geometry-all/vertex_skinned",
-            "mesh-geometry-all/fragment",
-            "mesh-geometry-all/fragment_cut",
-            "occlusion-book/vertex",
-            "occlusion-book/fragment",
-            "occlusion-studio/vertex",
-            "occlusion-studio/fragment",
-            "occlusion-blur/vertex",
-            "occlusion-blur/fragment_rows",
-            "occlusion-blur/fragment_columns",
-            "contact/vertex_static",
-            "contact/vertex_skinned",
-            "contact/fragment",
-            "contact-blur/vertex",
-            "contact-blur/fragment_rows",
-            "contact-blur/fragment_columns",
-            "backdrop/vertex",
-            "backdrop/fragment",
-            "lines/edge_static",
-            "lines/edge_skinned",
-            "lines/normal_static",
-            "lines/normal_skinned",
-            "lines/tangent_static",
-            "lines/tangent_skinned",
-            "lines/world_vertex",
-            "lines/fragment",
-            "highlight/vertex_static",
-            "highlight/vertex_skinned",
-            "highlight/fragment",
-            "composite/vertex",
-            "composite/fragment",
-            "probe/vertex",
-            "probe/fragment",
-        ]
-    );
+    let expected = [
+        "mesh-studio: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth",
+        "mesh-studio-all: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth fragment_opaque_part \
+            fragment_blended",
+        "mesh-book: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth",
+        "mesh-book-all: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth fragment_opaque_part \
+            fragment_blended",
+        "mesh-inspect: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth",
+        "mesh-inspect-all: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth",
+        "skin-view: vertex_static vertex_skinned fragment fragment_cut",
+        "skin-view-all: vertex_static vertex_skinned fragment fragment_cut",
+        "caster: vertex_static vertex_skinned",
+        "caster-cut: vertex_static vertex_skinned fragment",
+        "caster-cut-all: vertex_static vertex_skinned fragment",
+        "mesh-geometry: vertex_static vertex_skinned fragment fragment_cut",
+        "mesh-geometry-all: vertex_static vertex_skinned fragment fragment_cut",
+        "occlusion-book: vertex fragment",
+        "occlusion-studio: vertex fragment",
+        "occlusion-blur: vertex fragment_rows fragment_columns",
+        "contact: vertex_static vertex_skinned fragment",
+        "contact-blur: vertex fragment_rows fragment_columns",
+        "backdrop: vertex fragment",
+        "lines: edge_static edge_skinned normal_static normal_skinned tangent_static tangent_skinned world_vertex \
+            fragment",
+        "highlight: vertex_static vertex_skinned fragment",
+        "composite: vertex fragment",
+        "probe: vertex fragment",
+    ];
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        assert_eq!(found, expected);
+    }
 }
 
 /// A struct as offsets of its members and its size.

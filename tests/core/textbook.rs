@@ -115,22 +115,11 @@ fn slerp(from: [f64; 4], to: [f64; 4], part: f64) -> [f64; 4] {
 /// The affine transformation of the books: scale, then rotate by a quaternion x y z w, then translate.
 fn matrix(scale: [f64; 3], rotation: [f64; 4], translation: [f64; 3]) -> Matrix {
     let [x, y, z, w] = rotation;
+    #[rustfmt::skip]
     let turn = [
-        [
-            1.0 - 2.0 * (y * y + z * z),
-            2.0 * (x * y + z * w),
-            2.0 * (x * z - y * w),
-        ],
-        [
-            2.0 * (x * y - z * w),
-            1.0 - 2.0 * (x * x + z * z),
-            2.0 * (y * z + x * w),
-        ],
-        [
-            2.0 * (x * z + y * w),
-            2.0 * (y * z - x * w),
-            1.0 - 2.0 * (x * x + y * y),
-        ],
+        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)],
+        [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)],
+        [2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)],
     ];
     let mut out = IDENTITY;
     for row in 0..3 {

@@ -161,6 +161,106 @@ pub(crate) fn difference(a: [u8; 4], b: [u8; 4]) -> u8 {
         .expect("four channels")
 }
 
+/// Draws into a texture of its own, and gives its bytes.
+pub(crate) fn drawn(
+    gpu: &Gpu,
+    format: wgpu::TextureFormat,
+    [width, height]: [u32; 2],
+    draw: impl FnOnce(wgpu::RenderPass<'_>),
+) -> Vec<u8> {
+    let device = &gpu.open.device;
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    });
+    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    draw(encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: &view,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations::default(),
+        })],
+        ..Default::default()
+    }));
+    gpu.open.queue.submit([encoder.finish()]);
+    read_texture(gpu, &texture, format.block_copy_size(None).expect("a colour"))
+}
+
+/// GL may not draw into floats; every device draws into integers, and bits are bits.
+pub(crate) const PROBED: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
+
+/// A pipeline of the source's `vertex` and `fragment` that draws into [`PROBED`].
+pub(crate) fn probe(
+    gpu: &Gpu,
+    source: String,
+    groups: &[&wgpu::BindGroupLayout],
+    buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
+    topology: wgpu::PrimitiveTopology,
+) -> wgpu::RenderPipeline {
+    let device = &gpu.open.device;
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("probe"),
+        source: wgpu::ShaderSource::Wgsl(source.into()),
+    });
+    let groups: Vec<_> = groups.iter().map(|layout| Some(*layout)).collect();
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: None,
+        bind_group_layouts: &groups,
+        immediate_size: 0,
+    });
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("probe"),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vertex"),
+            compilation_options: Default::default(),
+            buffers,
+        },
+        primitive: wgpu::PrimitiveState {
+            topology,
+            ..Default::default()
+        },
+        depth_stencil: None,
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("fragment"),
+            compilation_options: Default::default(),
+            targets: &[Some(PROBED.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+/// A group for what a probe has no use for.
+pub(crate) fn nothing(gpu: &Gpu) -> (wgpu::BindGroupLayout, wgpu::BindGroup) {
+    let device = &gpu.open.device;
+    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: None,
+        entries: &[],
+    });
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &layout,
+        entries: &[],
+    });
+    (layout, group)
+}
+
 /// The bytes of any texture, rows without padding.
 pub(crate) fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_pixel: u32) -> Vec<u8> {
     let device = &gpu.open.device;

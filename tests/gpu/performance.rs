@@ -26,32 +26,13 @@ struct Way {
     is_posed: bool,
 }
 
+#[rustfmt::skip]
 const WAYS: [Way; 5] = [
-    Way {
-        name: "studio, a clip plays",
-        lights: &[Light::Studio],
-        is_posed: true,
-    },
-    Way {
-        name: "book, a clip plays",
-        lights: &[Light::Book],
-        is_posed: true,
-    },
-    Way {
-        name: "divided, a clip plays",
-        lights: &[Light::Book, Light::Studio],
-        is_posed: true,
-    },
-    Way {
-        name: "studio, the camera moves",
-        lights: &[Light::Studio],
-        is_posed: false,
-    },
-    Way {
-        name: "book, the camera moves",
-        lights: &[Light::Book],
-        is_posed: false,
-    },
+    Way { name: "studio, a clip plays", lights: &[Light::Studio], is_posed: true },
+    Way { name: "book, a clip plays", lights: &[Light::Book], is_posed: true },
+    Way { name: "divided, a clip plays", lights: &[Light::Book, Light::Studio], is_posed: true },
+    Way { name: "studio, the camera moves", lights: &[Light::Studio], is_posed: false },
+    Way { name: "book, the camera moves", lights: &[Light::Book], is_posed: false },
 ];
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -6,7 +6,7 @@ use bindpose::render::{Compositor, Renderer, SampleCount, Target};
 use bindpose::scene::{Background, Light, Overlays, Passes, Projection, Theme};
 use glam::{Affine3A, Vec3};
 
-use crate::gpu::{Gpu, Picture, difference};
+use crate::gpu::{Gpu, Picture, difference, drawn};
 use crate::scenes::{FRONT, Facing, Scene, bent_tube, card, tube};
 
 /// `backdrop, centre` of the dark theme.
@@ -362,39 +362,12 @@ fn composite(gpu: &Gpu, target: &Target) -> Picture {
     let device = &gpu.open.device;
     let [width, height] = [target.texture().width(), target.texture().height()];
     let format = wgpu::TextureFormat::Rgba8Unorm;
-    let surface = device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size: target.texture().size(),
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    });
     let mut compositor = Compositor::new(device, format);
     compositor.prepare(device, &gpu.open.queue, target);
-    let view = surface.create_view(&wgpu::TextureViewDescriptor::default());
-    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    {
-        let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations::default(),
-            })],
-            ..Default::default()
-        });
+    let rgba = drawn(gpu, format, [width, height], |pass| {
         // As egui hands it to a paint callback.
         let mut pass: wgpu::RenderPass<'static> = pass.forget_lifetime();
         compositor.paint(&mut pass);
-    }
-    gpu.open.queue.submit([encoder.finish()]);
-    let bytes = crate::gpu::read_texture(gpu, &surface, 4);
-    Picture {
-        width,
-        height,
-        rgba: bytes,
-    }
+    });
+    Picture { width, height, rgba }
 }

@@ -7,7 +7,7 @@ use bindpose::shaders::{InfluenceVertex, SKINNING_WGSL};
 use glam::{Affine3A, DMat3, DMat4, DVec3, EulerRot, Mat3, Quat, Vec3};
 use wgpu::util::DeviceExt as _;
 
-use crate::gpu::{Gpu, read_texture};
+use crate::gpu::{Gpu, PROBED, drawn, nothing, probe};
 
 const VERTICES: usize = 512;
 
@@ -162,27 +162,8 @@ fn skin_on_gpu(
         SKINNING_WGSL.source,
         include_str!("skinning_probe.wgsl")
     );
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("probe"),
-        source: wgpu::ShaderSource::Wgsl(source.into()),
-    });
     // Skinning reads its bones from group 1; group 0 is the frame's, which the probe has no use for.
-    let nothing = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: None,
-        entries: &[],
-    });
-    let nothing_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &nothing,
-        entries: &[],
-    });
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: None,
-        bind_group_layouts: &[Some(&nothing), Some(&bones_layout)],
-        immediate_size: 0,
-    });
-    // GL may not draw into floats; every device draws into integers, and bits are bits.
-    let format = wgpu::TextureFormat::Rgba32Uint;
+    let (nothing, nothing_group) = nothing(gpu);
     let geometry_attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4];
     let influence_attributes = wgpu::vertex_attr_array![4 => Uint32x4, 5 => Float32x4];
     let buffer_layout = |stride, attributes| {
@@ -192,33 +173,12 @@ fn skin_on_gpu(
             attributes,
         })
     };
-    let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("probe"),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("vertex"),
-            compilation_options: Default::default(),
-            buffers: &[
-                buffer_layout(size_of::<GeometryVertex>(), &geometry_attributes),
-                buffer_layout(size_of::<InfluenceVertex>(), &influence_attributes),
-            ],
-        },
-        primitive: wgpu::PrimitiveState {
-            topology: wgpu::PrimitiveTopology::PointList,
-            ..Default::default()
-        },
-        depth_stencil: None,
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("fragment"),
-            compilation_options: Default::default(),
-            targets: &[Some(format.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    });
+    let buffers = [
+        buffer_layout(size_of::<GeometryVertex>(), &geometry_attributes),
+        buffer_layout(size_of::<InfluenceVertex>(), &influence_attributes),
+    ];
+    let groups = [&nothing, &bones_layout];
+    let pipeline = probe(gpu, source, &groups, &buffers, wgpu::PrimitiveTopology::PointList);
     let buffer = |contents| {
         device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: None,
@@ -228,41 +188,14 @@ fn skin_on_gpu(
     };
     let geometry_buffer = buffer(bytemuck::cast_slice(geometry));
     let influence_buffer = buffer(bytemuck::cast_slice(influences));
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("probe"),
-        size: wgpu::Extent3d {
-            width: VERTICES as u32,
-            height: 3,
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    });
-    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    {
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations::default(),
-            })],
-            ..Default::default()
-        });
+    let bytes = drawn(gpu, PROBED, [VERTICES as u32, 3], |mut pass| {
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &nothing_group, &[]);
         pass.set_bind_group(1, bones.group(), &[]);
         pass.set_vertex_buffer(0, geometry_buffer.slice(..));
         pass.set_vertex_buffer(1, influence_buffer.slice(..));
         pass.draw(0..VERTICES as u32, 0..3);
-    }
-    queue.submit([encoder.finish()]);
-    let bytes = read_texture(gpu, &texture, 16);
+    });
     let texels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
     let at = |row: usize, vertex: usize| glam::Vec4::from(texels[row * VERTICES + vertex]).as_dvec4();
     (0..VERTICES)

@@ -8,7 +8,7 @@ use egui_kittest::Node;
 use egui_kittest::kittest::NodeT as _;
 
 use crate::models::{broken, moving};
-use crate::page::{PHONE, WIDE, Window, touch_window, window};
+use crate::page::{PHONE, WIDE, Window, touch_window, wheel_event, window};
 
 const PLAIN: Modifiers = Modifiers::NONE;
 
@@ -413,13 +413,9 @@ fn the_wheel_over_any_panel_leaves_the_camera_alone() {
                 rect.center_top() + vec2(0.0, 3.0),
             ] {
                 window.harness.hover_at(at);
-                window.harness.event(Event::MouseWheel {
-                    source: egui::MouseWheelSource::Wheel,
-                    unit: egui::MouseWheelUnit::Line,
-                    delta: vec2(0.0, 3.0),
-                    phase: egui::TouchPhase::Move,
-                    modifiers: PLAIN,
-                });
+                window
+                    .harness
+                    .event(wheel_event(egui::MouseWheelUnit::Line, vec2(0.0, 3.0), PLAIN));
                 window.wait(0.3);
                 assert_eq!(window.session().camera(), &before, "{open}: {at} in {rect}");
             }

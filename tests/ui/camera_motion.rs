@@ -4,7 +4,7 @@ use bindpose::session::{FileCommand, PlayCommand, Session};
 use egui::{Event, Modifiers, PointerButton, vec2};
 
 use crate::models::moving;
-use crate::page::{WIDE, Window, window};
+use crate::page::{WIDE, Window, button_event, key_event, window};
 use crate::pointer::{START, drag};
 
 /// A window whose camera may move by itself.
@@ -47,19 +47,8 @@ fn a_drag_that_is_let_go_runs_on_and_one_that_was_held_stays() {
 fn the_right_button_and_w_fly_forward_and_the_drag_turns_the_head() {
     let mut window = lively();
     let before = *window.session().camera();
-    let press = |pressed, pos| Event::PointerButton {
-        pos,
-        button: PointerButton::Secondary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    };
-    let key = |pressed| Event::Key {
-        key: egui::Key::W,
-        physical_key: None,
-        pressed,
-        repeat: false,
-        modifiers: Modifiers::NONE,
-    };
+    let press = |pressed, pos| button_event(pos, PointerButton::Secondary, pressed, Modifiers::NONE);
+    let key = |pressed| key_event(egui::Key::W, pressed);
     window.harness.event(Event::PointerMoved(START));
     window.harness.event(press(true, START));
     window.harness.event(key(true));

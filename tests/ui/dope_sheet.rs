@@ -3,13 +3,11 @@
 use bindpose::model::JointIndex;
 use bindpose::session::{JointCommand, NameCommand, PlayCommand};
 use egui::accesskit::{Action, Role, Toggled};
-use egui::{
-    Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2, pos2, vec2,
-};
+use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2, pos2, vec2};
 
 use crate::layout::{assert_apart, assert_between_sides, assert_inside};
 use crate::models::moving;
-use crate::page::{PHONE, WIDE, Window, phone, touch_window, window};
+use crate::page::{PHONE, WIDE, Window, phone, touch_window, wheel_event, window};
 use crate::pointer::{fingers, gesture};
 use crate::rigs::{chain, rig};
 
@@ -33,35 +31,20 @@ fn place(window: &Window, row: &str, share: f32) -> Pos2 {
     pos2(x, window.rect(row).center().y)
 }
 
-fn press(window: &mut Window, at: Pos2) {
-    window.harness.hover_at(at);
-    window.harness.drag_at(at);
-    window.harness.drop_at(at);
-    window.pass_on();
-}
-
 fn drag(window: &mut Window, from: Pos2, to: Pos2) {
     window.harness.hover_at(from);
     window.harness.drag_at(from);
     window.harness.hover_at(from + (to - from) * 0.5);
-    window.harness.hover_at(to);
-    window.pass_on();
+    window.hover_at(to);
     window.harness.drop_at(to);
     window.pass_on();
 }
 
 pub(crate) fn wheel(window: &mut Window, at: Pos2, delta: Vec2, modifiers: Modifiers) {
     window.harness.hover_at(at);
-    window.harness.event_modifiers(
-        Event::MouseWheel {
-            unit: MouseWheelUnit::Point,
-            delta,
-            phase: TouchPhase::Move,
-            source: MouseWheelSource::Wheel,
-            modifiers,
-        },
-        modifiers,
-    );
+    window
+        .harness
+        .event_modifiers(wheel_event(MouseWheelUnit::Point, delta, modifiers), modifiers);
     window.wait(0.5);
 }
 
@@ -136,13 +119,13 @@ fn the_edge_is_moved_by_keys() {
 fn a_click_on_a_key_goes_there_and_chooses_its_bone() {
     let mut window = sheet(5, 31);
     let at = place(&window, "Bone 3, ", 20.0 / 30.0);
-    press(&mut window, at + vec2(3.0, 0.0));
+    window.click_at(at + vec2(3.0, 0.0));
     let key_secs = 20.0 / 30.0;
     assert!((window.time_secs() - key_secs).abs() < 1e-6, "{}", window.time_secs());
     assert_eq!(window.session().joints().selected(), Some(JointIndex(3)));
     // A clip that plays would leave it at once.
     window.apply(PlayCommand::Play);
-    press(&mut window, at);
+    window.click_at(at);
     assert!(!window.session().playback().is_playing());
     assert!((window.time_secs() - key_secs).abs() < 1e-6, "{}", window.time_secs());
     // Up and down go from key to key of that bone.
@@ -209,13 +192,13 @@ fn a_folded_row_has_the_keys_folded_away_in_its_branch() {
     let at = |window: &Window, frame: f32| place(window, row, frame / 30.0);
     for frame in [10.0, 20.0, 30.0, 0.0] {
         let there = at(&window, frame) + vec2(2.0, 0.0);
-        press(&mut window, there);
+        window.click_at(there);
         assert!((window.time_secs() - frame / 30.0).abs() < 1e-6, "{frame}");
         assert_eq!(window.session().joints().selected(), Some(JointIndex(0)));
         assert_eq!(rows(&window), [row], "it stays folded");
     }
     let between = at(&window, 15.0);
-    press(&mut window, between);
+    window.click_at(between);
     assert_eq!(window.time_secs(), 0.0, "there is no key");
     // Bones 1 and 2 both have a key at frame 10, and one has another at 20.
     let [from, to] = [9.0, 21.0].map(|frame| at(&window, frame));
@@ -267,11 +250,11 @@ fn ctrl_and_wheel_zoom_at_the_pointer_and_shift_and_wheel_pans() {
     }
     assert!(window.shows("All of the time"));
     // The time under the pointer stayed: a click goes to the key in the middle of the clip.
-    press(&mut window, at);
+    window.click_at(at);
     assert!((window.time_secs() - 5.0).abs() < 0.02, "{}", window.time_secs());
     let camera = *window.session().camera();
     wheel(&mut window, at, vec2(0.0, -60.0), Modifiers::SHIFT);
-    press(&mut window, at);
+    window.click_at(at);
     assert!(window.time_secs() > 5.05, "{}", window.time_secs());
     assert_eq!(*window.session().camera(), camera, "the view behind did not hear of it");
     let before = window.time_secs();
@@ -280,17 +263,12 @@ fn ctrl_and_wheel_zoom_at_the_pointer_and_shift_and_wheel_pans() {
         for (pos, pressed) in [(from, true), (to, true), (to, false)] {
             window.harness.event(Event::PointerMoved(pos));
             if pos == from || !pressed {
-                window.harness.event(Event::PointerButton {
-                    pos,
-                    button: PointerButton::Middle,
-                    pressed,
-                    modifiers: Modifiers::NONE,
-                });
+                window.button(pos, PointerButton::Middle, pressed, Modifiers::NONE);
             }
             window.pass_on();
         }
     }
-    press(&mut window, at);
+    window.click_at(at);
     assert!(window.time_secs() > before + 0.05, "{}", window.time_secs());
     window.click("All of the time");
     assert!(!window.shows("All of the time"));
@@ -300,15 +278,12 @@ fn ctrl_and_wheel_zoom_at_the_pointer_and_shift_and_wheel_pans() {
 fn rows_light_up_with_their_bones_and_come_into_sight_when_one_is_selected() {
     let mut window = sheet(300, 31);
     let at = place(&window, "Bone 4, ", 0.4);
-    window.harness.hover_at(at);
-    window.pass_on();
+    window.hover_at(at);
     let row = |window: &Window| window.session().joints().hovered();
     assert_eq!(row(&window), Some(JointIndex(4)));
-    window.harness.hover_at(window.rect("Bone 1, ").center());
-    window.pass_on();
+    window.hover_at(window.rect("Bone 1, ").center());
     assert_eq!(row(&window), Some(JointIndex(1)));
-    window.harness.hover_at(pos2(720.0, 300.0));
-    window.pass_on();
+    window.hover_at(pos2(720.0, 300.0));
     assert_eq!(row(&window), None);
     assert!(!rows(&window).contains(&"Bone 299, 31 keys".to_owned()));
     window.apply(JointCommand::Select(Some(JointIndex(299))));
@@ -412,7 +387,7 @@ fn shift_and_arrows_choose_keys() {
     for key in [Key::ArrowRight, Key::ArrowRight, Key::ArrowDown] {
         window.press(Modifiers::SHIFT, key);
     }
-    assert!(window.shows("6 keys · 0.03–0.10 s"), "{:?}", window.widgets());
+    window.assert_shows("6 keys · 0.03–0.10 s");
     window.press(Modifiers::SHIFT, Key::ArrowLeft);
     assert!(window.shows("4 keys · 0.03–0.07 s"));
     window.press(Modifiers::SHIFT, Key::End);
@@ -672,7 +647,7 @@ fn curves_are_read_by_keyboard_and_their_lines_are_hidden() {
     window.press(Modifiers::NONE, Key::Enter);
     assert!((window.time_secs() - 29.0 / 30.0).abs() < 1e-6);
     window.press(Modifiers::SHIFT, Key::Home);
-    assert!(window.shows("30 keys · 0.00–0.97 s"), "{:?}", window.widgets());
+    window.assert_shows("30 keys · 0.00–0.97 s");
     window.click("As range");
     assert_eq!(window.session().playback().range_secs(), Some([0.0, 29.0 / 30.0]));
 }
@@ -737,16 +712,14 @@ fn curves_show_the_chosen_bone_and_follow_the_choices() {
         vec2(0.0, 150.0),
         modifiers,
     );
-    window.harness.hover_at(pos2(5.0, 5.0));
-    window.pass_on();
+    window.hover_at(pos2(5.0, 5.0));
     assert!(window.shows("All of the time"));
     assert_eq!(legend(&window), whole, "what is seen of the time changes no value");
     wheel(&mut window, over.center(), vec2(0.0, -40.0), Modifiers::SHIFT);
-    window.harness.hover_at(pos2(5.0, 5.0));
-    window.pass_on();
+    window.hover_at(pos2(5.0, 5.0));
     assert_eq!(legend(&window), whole, "nor does panning");
     window.click("All of the time");
     let curves = window.rect("Curves of Bone 4");
-    press(&mut window, curves.center());
+    window.click_at(curves.center());
     assert!((window.time_secs() - 0.5).abs() < 0.01, "a press goes there");
 }

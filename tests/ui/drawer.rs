@@ -54,7 +54,7 @@ fn what_is_picked_while_the_sheet_is_shut_is_named_and_its_name_opens_the_inspec
         window.harness.state_mut().state.diagnostics_open = true;
         window.pass_on();
         window.click("Show Bone 1");
-        assert!(window.shows("Selected: Bone 1"), "{:?}", window.widgets());
+        window.assert_shows("Selected: Bone 1");
         window.click("Close the sheet");
         window.apply(JointCommand::Select(None));
         // What was found in the file stays there.
@@ -85,8 +85,7 @@ fn the_handle_follows_the_finger_and_rests_at_three_heights() {
     window.harness.hover_at(from);
     window.harness.drag_at(from);
     for by in [30.0, 60.0, 90.0] {
-        window.harness.hover_at(from + vec2(0.0, by));
-        window.pass_on();
+        window.hover_at(from + vec2(0.0, by));
         assert!(
             (top(&window) - half - by).abs() < 2.0,
             "{by}: {} from {half}",

@@ -302,7 +302,7 @@ fn a_phone_tells_of_warnings_before_anything_is_opened() {
     assert!(lists(&window, OF_VERTEX));
     window.click_anywhere(OF_VERTEX);
     window.click("Close the sheet");
-    assert!(window.shows("Show Vertex 5"), "{:?}", window.widgets());
+    window.assert_shows("Show Vertex 5");
     window.click("Show 5 warnings, 1 note");
     assert!(lists(&window, OF_VERTEX));
 }
@@ -348,8 +348,7 @@ fn a_finding_can_be_reached_and_opened_by_keys_and_shows_that_it_can_be_clicked(
     window.press(Modifiers::NONE, Key::Enter);
     assert_eq!(selected(&window), Some(1));
     let at = window.rect(OF_CLIP).center();
-    window.harness.hover_at(at);
-    window.pass_on();
+    window.hover_at(at);
     assert_eq!(
         window.harness.output().platform_output.cursor_icon,
         CursorIcon::PointingHand
@@ -482,7 +481,7 @@ fn each_book_has_a_line_that_unfolds_to_what_one_sees_and_the_place() {
         }
         window.click_anywhere("Books: D3D12 demo: would end with an error");
         let d3d11 = "D3D11 demo: cannot read it";
-        assert!(window.shows(d3d11), "{:?}", window.widgets());
+        window.assert_shows(d3d11);
         assert!(!shows_lines(&window) && window.node(d3d11).data().is_expanded() == Some(false));
         window.click(d3d11);
         assert!(shows_lines(&window) && window.node(d3d11).data().is_expanded() == Some(true));

@@ -3,12 +3,12 @@
 use bindpose::anim::SkinView;
 use bindpose::model::JointIndex;
 use bindpose::session::{JointCommand, LookCommand, PlayCommand};
-use egui::{Event, Key, Modifiers, OutputCommand, PointerButton, Role, vec2};
+use egui::{Key, Modifiers, MouseWheelUnit, OutputCommand, PointerButton, Role, vec2};
 use egui_kittest::Node;
 use egui_kittest::kittest::NodeT as _;
 
 use crate::layout::assert_between_sides;
-use crate::page::{PHONE, WIDE, Window, phone, touch_window, window};
+use crate::page::{PHONE, WIDE, Window, phone, touch_window, wheel_event, window};
 use crate::skeleton::{chains, selected, tree};
 
 /// What a click copies.
@@ -16,12 +16,7 @@ pub(crate) fn copied_by(window: &mut Window, start: &str) -> String {
     let at = window.rect(start).center();
     window.harness.hover_at(at);
     window.harness.drag_at(at);
-    window.harness.event(Event::PointerButton {
-        pos: at,
-        button: PointerButton::Primary,
-        pressed: false,
-        modifiers: Modifiers::NONE,
-    });
+    window.button(at, PointerButton::Primary, false, Modifiers::NONE);
     window.harness.step();
     let commands = window.harness.output().platform_output.commands.clone();
     window.pass_on();
@@ -41,7 +36,7 @@ fn the_inspector_reads_the_joint_and_its_relatives_are_links() {
         "Moves 6 vertices",
         "Quaternion 0.0000 0.0000 0.0000 1.0000",
     ] {
-        assert!(window.shows(words), "{words}: {:?}", window.widgets());
+        window.assert_shows(words);
     }
     let local = window.rect("Position ");
     assert!(window.shows("Position 0.5000 0.0000 0.0000"));
@@ -233,14 +228,12 @@ fn the_pointer_over_a_bone_shows_its_weights_and_leaves_those_of_the_selected_on
     let selected = shown(&window);
     assert_eq!(selected.0, Some(JointIndex(2)));
     let at = window.rect("Bone 1: weight").center();
-    window.harness.hover_at(at);
-    window.pass_on();
+    window.hover_at(at);
     let looked_at = shown(&window);
     assert_eq!(looked_at.0, Some(JointIndex(1)));
     assert_ne!(looked_at.1, selected.1, "the skin is coloured anew");
     assert!(window.shows("Legend: Weight of Bone 1"));
-    window.harness.hover_at(egui::pos2(700.0, 20.0));
-    window.pass_on();
+    window.hover_at(egui::pos2(700.0, 20.0));
     assert_eq!(shown(&window), selected);
     assert!(window.shows("Legend: Weight of Bone 2"));
 }
@@ -255,13 +248,9 @@ fn a_vertex_stands_above_the_bone_that_is_selected_with_it() {
         // The panel is scrolled to the bone's numbers.
         let at = window.rect("Selected: Bone 1").center();
         window.harness.hover_at(at);
-        window.harness.event(Event::MouseWheel {
-            unit: egui::MouseWheelUnit::Point,
-            delta: vec2(0.0, -300.0),
-            phase: egui::TouchPhase::Move,
-            source: egui::MouseWheelSource::Wheel,
-            modifiers: Modifiers::NONE,
-        });
+        window
+            .harness
+            .event(wheel_event(MouseWheelUnit::Point, vec2(0.0, -300.0), Modifiers::NONE));
         window.wait(0.5);
         window.apply(JointCommand::SelectVertex(Some(4)));
         window.wait(0.5);

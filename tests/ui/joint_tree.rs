@@ -12,29 +12,21 @@ use crate::skeleton::{chains, rows, selected, tree, window_of_still};
 
 fn hover(window: &mut Window, start: &str) {
     let at = window.rect(start).center();
-    window.harness.hover_at(at);
-    window.pass_on();
+    window.hover_at(at);
 }
 
 fn double_click(window: &mut Window, start: &str) {
     let at = window.rect(start).center();
-    window.harness.hover_at(at);
-    window.pass_on();
+    window.hover_at(at);
     for pressed in [true, false, true, false] {
-        window.harness.event(Event::PointerButton {
-            pos: at,
-            button: PointerButton::Primary,
-            pressed,
-            modifiers: Modifiers::NONE,
-        });
+        window.button(at, PointerButton::Primary, pressed, Modifiers::NONE);
         window.harness.step();
     }
     window.pass_on();
 }
 
 pub(crate) fn type_text(window: &mut Window, text: &str) {
-    window.harness.event(Event::Text(text.to_owned()));
-    window.pass_on();
+    window.type_text(text);
 }
 
 #[test]

@@ -5,10 +5,10 @@ use bindpose::anim::LoopMode;
 use bindpose::scene::{Light, Overlay, Projection, ViewMode, ViewPreset};
 use bindpose::session::{CameraCommand, File, FileCommand, JointCommand, PlayCommand, SPEEDS, SubmeshCommand};
 use bindpose::ui::Request;
-use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, vec2};
+use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, vec2};
 
 use crate::models::moving;
-use crate::page::{WIDE, Window, window};
+use crate::page::{WIDE, Window, button_event, key_event, wheel_event, window};
 use crate::skeleton::tree;
 
 const PLAIN: Modifiers = Modifiers::NONE;
@@ -72,23 +72,10 @@ fn a_key_that_is_held_steps_on_and_switches_once() {
     let mut window = open();
     let hold = |window: &mut Window, key: Key| {
         for _ in 0..4 {
-            let pressed = true;
-            window.harness.event(egui::Event::Key {
-                key,
-                physical_key: None,
-                pressed,
-                repeat: false,
-                modifiers: PLAIN,
-            });
+            window.harness.event(key_event(key, true));
             window.pass_on();
         }
-        window.harness.event(egui::Event::Key {
-            key,
-            physical_key: None,
-            pressed: false,
-            repeat: false,
-            modifiers: PLAIN,
-        });
+        window.harness.event(key_event(key, false));
         window.pass_on();
     };
     hold(&mut window, Key::ArrowRight);
@@ -354,23 +341,20 @@ fn letters_that_are_typed_are_no_keys() {
 #[test]
 fn the_question_mark_shows_the_table_and_escape_takes_it_away() {
     let mut window = open();
-    window.harness.event(egui::Event::Text("?".to_owned()));
-    window.pass_on();
+    window.type_text("?");
     assert!(window.shows("Space: play or pause"));
     window.press(PLAIN, Key::Escape);
     assert!(!window.shows("Space: play or pause"));
     window.click("Help (?)");
     assert!(window.shows("Space: play or pause"));
-    window.harness.event(egui::Event::Text("?".to_owned()));
-    window.pass_on();
+    window.type_text("?");
     assert!(!window.shows("Space: play or pause"));
 }
 
 #[test]
 fn the_table_says_what_is_in_force_now() {
     let mut window = open();
-    window.harness.event(egui::Event::Text("?".to_owned()));
-    window.pass_on();
+    window.type_text("?");
     for (key, off, on) in [
         (Key::Z, "Z: wireframe", "Z: wireframe, now on"),
         (Key::B, "B: bones", "B: bones, now on"),
@@ -461,12 +445,7 @@ fn a_focused_control_keeps_space_for_itself() {
 }
 
 fn clicks(at: Pos2, count: usize) -> Vec<Event> {
-    let button = |pressed| Event::PointerButton {
-        pos: at,
-        button: PointerButton::Primary,
-        pressed,
-        modifiers: PLAIN,
-    };
+    let button = |pressed| button_event(at, PointerButton::Primary, pressed, PLAIN);
     let mut events = vec![Event::PointerMoved(at)];
     events.extend((0..count).flat_map(|_| [button(true), button(false)]));
     events
@@ -474,13 +453,7 @@ fn clicks(at: Pos2, count: usize) -> Vec<Event> {
 
 /// A key as a browser tells of it.
 fn pressed(key: Key, text: Option<&str>) -> Vec<Event> {
-    let event = |pressed| Event::Key {
-        key,
-        physical_key: None,
-        pressed,
-        repeat: false,
-        modifiers: PLAIN,
-    };
+    let event = |pressed| key_event(key, pressed);
     let text = text.map(|text| Event::Text(text.to_owned()));
     text.into_iter().chain([event(true), event(false)]).collect()
 }
@@ -612,13 +585,7 @@ fn f2_takes_the_letters_after_it_though_its_row_has_to_be_scrolled_to() {
     window
         .harness
         .hover_at(window.rect("Search bones").center() + vec2(0.0, 100.0));
-    window.frame([Event::MouseWheel {
-        source: egui::MouseWheelSource::Wheel,
-        unit: MouseWheelUnit::Point,
-        delta: vec2(0.0, 1e5),
-        phase: TouchPhase::Move,
-        modifiers: PLAIN,
-    }]);
+    window.frame([wheel_event(MouseWheelUnit::Point, vec2(0.0, 1e5), PLAIN)]);
     window.wait(1.0);
     assert!(
         window.shows("Bone 0, 9 vertices"),
@@ -638,13 +605,7 @@ fn a_name_whose_row_is_scrolled_out_of_sight_is_taken() {
     window.frame(clicks(at, 2));
     window.pass_on();
     window.frame([Event::Text("Spine".to_owned())]);
-    window.frame([Event::MouseWheel {
-        source: egui::MouseWheelSource::Wheel,
-        unit: MouseWheelUnit::Point,
-        delta: vec2(0.0, -1e5),
-        phase: TouchPhase::Move,
-        modifiers: PLAIN,
-    }]);
+    window.frame([wheel_event(MouseWheelUnit::Point, vec2(0.0, -1e5), PLAIN)]);
     window.wait(1.0);
     assert!(!window.shows("Name of the bone"), "the row is out of sight");
     assert_eq!(window.session().joint_names().get(1), Some("Spine"));

@@ -50,20 +50,7 @@ pub(crate) fn assert_between_sides(window: &Window, size: Vec2) {
 
 /// Rectangles of the panels that the layout opened.
 fn panels(window: &Window) -> Vec<(&'static str, Rect)> {
-    let names = [
-        "title",
-        "toolbar",
-        "model",
-        "inspector",
-        "diagnostics",
-        "timeline",
-        "sheet",
-        "page",
-        "help",
-        "error",
-        "legend",
-        "greeting",
-    ];
+    let names = "title toolbar model inspector diagnostics timeline sheet page help error legend greeting";
     let area = |name: &'static str| {
         let id = egui::Id::unique(("panel", name));
         let visible = window
@@ -73,7 +60,7 @@ fn panels(window: &Window) -> Vec<(&'static str, Rect)> {
         let rect = window.harness.ctx.memory(|memory| memory.area_rect(id))?;
         visible.then_some((name, rect))
     };
-    names.into_iter().filter_map(area).collect()
+    names.split(' ').filter_map(area).collect()
 }
 
 #[track_caller]
@@ -242,8 +229,7 @@ fn the_error_card_and_the_keys_fit_the_window() {
         });
         assert!(!title.intersects(copy), "the title lies under the buttons");
         window.click("Dismiss");
-        window.harness.event(egui::Event::Text("?".to_owned()));
-        window.pass_on();
+        window.type_text("?");
         assert_between_sides(&window, size);
         let help = panels(&window)
             .into_iter()

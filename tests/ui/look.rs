@@ -51,10 +51,7 @@ fn the_light_is_chosen_and_exposure_belongs_to_the_studio() {
 fn press_slider(window: &mut Window, label: &str, share: f32) {
     let track = window.rect(label);
     let at = pos2(track.min.x + 6.0 + share * (track.width() - 12.0), track.center().y);
-    window.harness.hover_at(at);
-    window.harness.drag_at(at);
-    window.harness.drop_at(at);
-    window.pass_on();
+    window.click_at(at);
     // The next press is not the second of a double click.
     window.wait(0.6);
 }
@@ -107,8 +104,7 @@ fn the_background_is_chosen_and_its_colour_typed() {
     assert!(matches!(window.session().look().background, Background::Color(_)));
     window.click("Background colour: number");
     window.press(Modifiers::COMMAND, Key::A);
-    window.harness.event(egui::Event::Text("#ff8000".to_owned()));
-    window.pass_on();
+    window.type_text("#ff8000");
     assert_eq!(
         window.session().look().background,
         Background::Color([0xFF, 0x80, 0x00])
@@ -261,10 +257,7 @@ fn a_click_beside_a_popover_shuts_it_and_selects_nothing() {
     window.click("Lighting");
     let middle = pos2(WIDE.x * 0.5, WIDE.y * 0.5);
     let click = |window: &mut Window| {
-        window.harness.hover_at(middle);
-        window.harness.drag_at(middle);
-        window.harness.drop_at(middle);
-        window.pass_on();
+        window.click_at(middle);
         window.wait(0.6);
     };
     click(&mut window);

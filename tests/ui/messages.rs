@@ -88,10 +88,10 @@ fn names_are_told_and_can_be_taken_back_at_once() {
     };
     window.take_told();
     window.apply(name(1, "L arm"));
-    assert!(window.shows("Bone 1 is named L arm"), "{:?}", window.widgets());
+    window.assert_shows("Bone 1 is named L arm");
     assert_eq!(window.take_told(), "Bone 1 is named L arm.");
     window.apply(NameCommand::AcceptMirrored);
-    assert!(window.shows("Bone 2 is named R arm"), "{:?}", window.widgets());
+    window.assert_shows("Bone 2 is named R arm");
     window.click("Panel: Skeleton");
     window.take_told();
     window.click("Names and branches");
@@ -99,7 +99,7 @@ fn names_are_told_and_can_be_taken_back_at_once() {
     assert!(window.shows("2 names cleared") && window.take_told().contains("2 names cleared."));
     window.click("Undo what the message tells of");
     assert_eq!(window.session().joint_names().all().len(), 2);
-    assert!(window.shows("Undone: name 2 bones"), "{:?}", window.widgets());
+    window.assert_shows("Undone: name 2 bones");
     assert!(!window.shows("Undo what the message tells of"));
 }
 
@@ -126,7 +126,7 @@ fn what_keys_change_out_of_sight_is_said_and_shown_in_the_same_words() {
         (Key::Num5, "Perspective"),
     ] {
         window.press(Modifiers::NONE, key);
-        assert!(window.shows(words), "{words}: {:?}", window.widgets());
+        window.assert_shows(words);
         assert_eq!(window.take_told(), format!("{words}."));
     }
     window.click("Close the message");

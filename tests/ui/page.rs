@@ -7,7 +7,7 @@ use bindpose::app::{App, AppOptions};
 use bindpose::session::{Command, ExportedFile, File, FileCommand, Session};
 use bindpose::ui::{self, DrawerPage, Request, UiState};
 use egui::accesskit::{Action, ActionData, ActionRequest, Role};
-use egui::{Rect, Vec2};
+use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, Rect, TouchPhase, Vec2};
 use egui_kittest::kittest::{AccessKitNode, NodeT as _};
 use egui_kittest::{Harness, Node};
 
@@ -193,14 +193,52 @@ impl Window {
         }
     }
 
-    /// Clicks the widget of [`Window::rect`], and takes the pointer away.
+    /// Asserts that it is shown.
     #[track_caller]
-    pub(crate) fn click(&mut self, start: &str) {
-        let at = self.rect(start).center();
+    pub(crate) fn assert_shows(&self, wanted: &str) {
+        assert!(self.shows(wanted), "no {wanted:?} among {:?}", self.widgets());
+    }
+
+    /// Brings the pointer to a place.
+    pub(crate) fn hover_at(&mut self, at: Pos2) {
+        self.harness.hover_at(at);
+        self.pass_on();
+    }
+
+    /// Presses there and lets go.
+    pub(crate) fn click_at(&mut self, at: Pos2) {
         self.harness.hover_at(at);
         self.harness.drag_at(at);
         self.harness.drop_at(at);
         self.pass_on();
+    }
+
+    /// Presses there, moves, and lets go elsewhere.
+    pub(crate) fn drag(&mut self, from: Pos2, to: Pos2) {
+        self.harness.hover_at(from);
+        self.harness.drag_at(from);
+        for step in 1..=4_u8 {
+            self.harness.hover_at(from.lerp(to, f32::from(step) / 4.0));
+        }
+        self.harness.drop_at(to);
+        self.pass_on();
+    }
+
+    /// Presses a button of the pointer or lets go of it, as the next event.
+    pub(crate) fn button(&mut self, pos: Pos2, button: PointerButton, pressed: bool, modifiers: Modifiers) {
+        self.harness.event(button_event(pos, button, pressed, modifiers));
+    }
+
+    /// Types into what has the keyboard.
+    pub(crate) fn type_text(&mut self, text: &str) {
+        self.harness.event(Event::Text(text.to_owned()));
+        self.pass_on();
+    }
+
+    /// Clicks the widget of [`Window::rect`], and takes the pointer away.
+    #[track_caller]
+    pub(crate) fn click(&mut self, start: &str) {
+        self.click_at(self.rect(start).center());
     }
 
     /// Clicks it as a screen reader does, wherever the list that it is in has scrolled to.
@@ -269,9 +307,41 @@ impl Window {
         self.pass_on();
     }
 
-    pub(crate) fn press(&mut self, modifiers: egui::Modifiers, key: egui::Key) {
+    pub(crate) fn press(&mut self, modifiers: Modifiers, key: Key) {
         self.harness.key_press_modifiers(modifiers, key);
         self.pass_on();
+    }
+}
+
+/// A button of the pointer that is pressed or let go.
+pub(crate) fn button_event(pos: Pos2, button: PointerButton, pressed: bool, modifiers: Modifiers) -> Event {
+    Event::PointerButton {
+        pos,
+        button,
+        pressed,
+        modifiers,
+    }
+}
+
+/// A key by itself that is pressed or let go.
+pub(crate) fn key_event(key: Key, pressed: bool) -> Event {
+    Event::Key {
+        key,
+        physical_key: None,
+        pressed,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    }
+}
+
+/// A turn of the mouse's wheel.
+pub(crate) fn wheel_event(unit: MouseWheelUnit, delta: Vec2, modifiers: Modifiers) -> Event {
+    Event::MouseWheel {
+        unit,
+        delta,
+        phase: TouchPhase::Move,
+        source: MouseWheelSource::Wheel,
+        modifiers,
     }
 }
 

@@ -108,7 +108,7 @@ fn a_sound_model_has_no_findings_and_says_so() {
     let mut window = window(WIDE, vec![models::file("a.m3d", &document)]);
     window.click("Findings: none");
     let said = "Nothing found; the D3D12 demo shows it, if these 2 maps lie beside it.";
-    assert!(window.shows(said), "{:?}", window.widgets());
+    window.assert_shows(said);
     assert!(window.shows("Looked at: 24 vertices, 12 triangles, 0 bones, 0 clips, 0 keys."));
     window.click("Findings: none");
     assert!(!window.shows(said));
@@ -121,11 +121,7 @@ fn of_a_glb_it_is_said_that_the_books_read_their_own_format_only() {
     let glb = job.run().expect("it can be written");
     let mut window = window(WIDE, vec![File::new("a.glb", glb.bytes)]);
     window.click("Findings: none");
-    assert!(
-        window.shows("Nothing found; the books' demos read .m3d only."),
-        "{:?}",
-        window.widgets()
-    );
+    window.assert_shows("Nothing found; the books' demos read .m3d only.");
 }
 
 #[test]
@@ -151,12 +147,7 @@ fn the_error_card_says_what_and_where_and_copies_it() {
         window.harness.hover_at(at);
         window.harness.drag_at(at);
         let button = egui::PointerButton::Primary;
-        window.harness.event(egui::Event::PointerButton {
-            pos: at,
-            button,
-            pressed: false,
-            modifiers: Modifiers::NONE,
-        });
+        window.button(at, button, false, Modifiers::NONE);
         window.harness.step();
         let at_once = copied_text(&window);
         window.pass_on();

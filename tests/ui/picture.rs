@@ -153,6 +153,22 @@ fn compare(name: &str, actual: &RgbaImage) {
     );
 }
 
+/// Draws what a picture's name tells of, and compares it: the window's size, its theme, whether it is for fingers.
+fn shows(name: &str, then: Vec<Command>, clicks: &[&str]) {
+    let mut words = name.split('-');
+    let (size, coarse_pointer) = match words.next() {
+        Some("wide") => (WIDE, false),
+        Some("phone") => (PHONE, true),
+        Some("low") => (Vec2::new(844.0, 390.0), true),
+        _ => (Vec2::new(900.0, 700.0), false),
+    };
+    let theme = match words.next() {
+        Some("light") => Theme::Light,
+        _ => Theme::Dark,
+    };
+    compare(name, &draw_after(size, theme, coarse_pointer, then, clicks));
+}
+
 /// The part of the pixels, 0…1, of which a channel differs by more than `tolerance`.
 pub(crate) fn share_that_differs(a: &RgbaImage, b: &RgbaImage, tolerance: u8) -> f64 {
     assert_eq!(a.dimensions(), b.dimensions());
@@ -163,57 +179,40 @@ pub(crate) fn share_that_differs(a: &RgbaImage, b: &RgbaImage, tolerance: u8) ->
 
 #[test]
 fn wide_and_dark() {
-    compare("wide-dark", &draw(WIDE, Theme::Dark, false, vec![]));
+    shows("wide-dark", vec![], &[]);
 }
 
 #[test]
 fn the_menu_of_view_modes() {
-    compare(
-        "wide-light-menu",
-        &draw_after(WIDE, Theme::Light, false, vec![], &["View mode"]),
-    );
+    shows("wide-light-menu", vec![], &["View mode"]);
 }
 
 #[test]
 fn wide_and_light_with_an_error() {
     let text = "***************m3d-File-Header***************\n#Materials 1\n#Vertices 3\n#Triangles many\n#Bones 0\n";
     let bad = File::new("soldier.m3d", text.as_bytes());
-    compare(
-        "wide-light-error",
-        &draw(WIDE, Theme::Light, false, vec![FileCommand::Add(vec![bad]).into()]),
-    );
+    shows("wide-light-error", vec![FileCommand::Add(vec![bad]).into()], &[]);
 }
 
 #[test]
 fn phone_and_light() {
-    compare("phone-light", &draw(PHONE, Theme::Light, true, vec![]));
+    shows("phone-light", vec![], &[]);
 }
 
 #[test]
 fn both_lights_and_what_is_chosen_about_them() {
     let split = Command::Look(LookCommand::SetSplit(Some(0.5)));
-    compare(
-        "wide-dark-light",
-        &draw_after(WIDE, Theme::Dark, false, vec![split], &["Lighting"]),
-    );
+    shows("wide-dark-light", vec![split], &["Lighting"]);
 }
 
 #[test]
 fn what_is_saved_as_a_picture_and_as_a_contact_sheet() {
-    compare(
-        "wide-light-picture",
-        &draw_after(WIDE, Theme::Light, false, vec![], &["Picture"]),
-    );
+    shows("wide-light-picture", vec![], &["Picture"]);
     // Nobody draws it here.
-    compare(
+    shows(
         "phone-dark-sheet",
-        &draw_after(
-            PHONE,
-            Theme::Dark,
-            true,
-            vec![],
-            &["More", "Picture", "Scrolled: Save contact sheet", "Save contact sheet"],
-        ),
+        vec![],
+        &["More", "Picture", "Scrolled: Save contact sheet", "Save contact sheet"],
     );
 }
 
@@ -236,7 +235,7 @@ fn maps_that_are_missing_and_one_that_is_damaged() {
         FileCommand::Add(files).into(),
         PlayCommand::Seek { time_secs: 0.4 }.into(),
     ];
-    compare("wide-light-maps", &draw(WIDE, Theme::Light, false, then));
+    shows("wide-light-maps", then, &[]);
 }
 
 #[test]
@@ -254,27 +253,25 @@ fn modes_that_are_on_and_a_message() {
             SubmeshCommand::Solo(0).into(),
         ]
     };
-    compare("wide-dark-modes", &draw(WIDE, Theme::Dark, false, then()));
-    compare("phone-light-modes", &draw(PHONE, Theme::Light, true, then()));
+    shows("wide-dark-modes", then(), &[]);
+    shows("phone-light-modes", then(), &[]);
 }
 
 #[test]
 fn a_blended_material_of_gltf() {
     let then = vec![FileCommand::Add(vec![crate::submeshes::leaf_and_glass()]).into()];
-    let picture = draw_after(WIDE, Theme::Dark, false, then, &["Glass, 1 triangle"]);
-    compare("wide-dark-gltf-material", &picture);
+    shows("wide-dark-gltf-material", then, &["Glass, 1 triangle"]);
 }
 
 #[test]
 fn a_finding_that_leads_to_a_vertex() {
     let clicks = ["Findings: ", "warning weights-not-normalized"];
     let then = || vec![FileCommand::Add(crate::findings::files()).into()];
-    for (name, size, theme, touch) in [
-        ("wide-dark-finding", WIDE, Theme::Dark, false),
-        ("phone-light-finding", PHONE, Theme::Light, true),
+    for (name, open) in [
+        ("wide-dark-finding", &[][..]),
+        ("phone-light-finding", &["Model facts"]),
     ] {
-        let open: &[&str] = if touch { &["Model facts"] } else { &[] };
-        compare(name, &draw_after(size, theme, touch, then(), &[open, &clicks].concat()));
+        shows(name, then(), &[open, &clicks].concat());
     }
 }
 
@@ -282,64 +279,49 @@ fn a_finding_that_leads_to_a_vertex() {
 fn the_findings_with_the_lines_of_a_book() {
     let clicks = ["Findings: ", "D3D11 demo: "];
     let then = || vec![FileCommand::Add(crate::findings::files()).into()];
-    let low = Vec2::new(844.0, 390.0);
-    for (name, size, theme, touch, clicks) in [
-        ("wide-light-findings", WIDE, Theme::Light, false, &clicks[..]),
-        ("phone-dark-findings", PHONE, Theme::Dark, true, &clicks[..1]),
-        ("low-dark-findings", low, Theme::Dark, true, &clicks[..1]),
+    let by_touch = ["Model facts", "Scrolled: Findings: "];
+    for (name, open, clicks) in [
+        ("wide-light-findings", &[][..], &clicks[..]),
+        ("phone-dark-findings", &by_touch, &clicks[..1]),
+        ("low-dark-findings", &by_touch, &clicks[..1]),
     ] {
-        let open: &[&str] = if touch {
-            &["Model facts", "Scrolled: Findings: "]
-        } else {
-            &[]
-        };
-        compare(name, &draw_after(size, theme, touch, then(), &[open, clicks].concat()));
+        shows(name, then(), &[open, clicks].concat());
     }
 }
 
 #[test]
 fn nothing_found() {
     let clicks = ["Findings: ", "D3D12 demo: "];
-    compare(
-        "wide-dark-no-findings",
-        &draw_after(WIDE, Theme::Dark, false, vec![], &clicks),
-    );
+    shows("wide-dark-no-findings", vec![], &clicks);
 }
 
 #[test]
 fn the_bytes_of_a_file_that_is_no_text() {
     let bytes = include_bytes!("../fixtures/bad/png.m3d").to_vec();
     let then = vec![FileCommand::Add(vec![File::new("soldier.m3d", bytes)]).into()];
-    compare("wide-dark-bytes", &draw(WIDE, Theme::Dark, false, then));
+    shows("wide-dark-bytes", then, &[]);
 }
 
 #[test]
 fn a_subset_inspected_in_a_small_window() {
-    let size = Vec2::new(900.0, 700.0);
     let hidden = SubmeshCommand::SetVisible {
         submesh: 3,
         visible: false,
     };
     let then = vec![hidden.into()];
-    compare(
-        "small-light-inspector",
-        &draw_after(size, Theme::Light, false, then, &["Trim, "]),
-    );
+    shows("small-light-inspector", then, &["Trim, "]);
 }
 
 #[test]
 fn overlays_in_the_sheet_of_a_phone() {
     let clicks = ["More", "Lines over", "Vertex normals"];
-    compare(
-        "phone-dark-overlays",
-        &draw_after(PHONE, Theme::Dark, true, vec![], &clicks),
-    );
+    shows("phone-dark-overlays", vec![], &clicks);
 }
 
 #[test]
 fn the_dope_sheet() {
     let clicks = ["Dope sheet and", "Bone 2, "];
-    compare("wide-dark-keys", &draw_after(WIDE, Theme::Dark, false, vec![], &clicks));
+    shows("wide-dark-keys", vec![], &clicks);
 }
 
 #[test]
@@ -354,21 +336,15 @@ fn the_dope_sheet_with_folded_branches() {
         &[3, 33, 47],
     ];
     let then = || vec![FileCommand::Add(vec![chain(&frames)]).into(), folded.into()];
-    for (name, size, theme, touch) in [
-        ("wide-dark-folded", WIDE, Theme::Dark, false),
-        ("phone-light-folded", PHONE, Theme::Light, true),
-    ] {
-        compare(name, &draw_after(size, theme, touch, then(), &["Dope sheet and"]));
+    for name in ["wide-dark-folded", "phone-light-folded"] {
+        shows(name, then(), &["Dope sheet and"]);
     }
 }
 
 #[test]
 fn curves_of_a_bone() {
     let clicks = ["Dope sheet and", "Bone 2, ", "Sheet: Curves"];
-    compare(
-        "wide-light-curves",
-        &draw_after(WIDE, Theme::Light, false, vec![], &clicks),
-    );
+    shows("wide-light-curves", vec![], &clicks);
 }
 
 #[test]
@@ -379,46 +355,30 @@ fn the_dope_sheet_of_a_small_window_with_a_range() {
         PlayCommand::SetRangeEnd(range[1]).into(),
     ];
     let clicks = ["Dope sheet and", "Sort by motion"];
-    let size = Vec2::new(900.0, 700.0);
-    compare(
-        "small-light-keys",
-        &draw_after(size, Theme::Light, false, then, &clicks),
-    );
+    shows("small-light-keys", then, &clicks);
 }
 
 #[test]
 fn the_dope_sheet_of_a_phone() {
     let clicks = ["Dope sheet and", "Bone 2, "];
-    compare(
-        "phone-dark-keys",
-        &draw_after(PHONE, Theme::Dark, true, vec![], &clicks),
-    );
+    shows("phone-dark-keys", vec![], &clicks);
 }
 
 #[test]
 fn curves_on_a_phone() {
     let clicks = ["Dope sheet and", "Bone 2, ", "Sheet: Curves"];
-    compare(
-        "phone-light-curves",
-        &draw_after(PHONE, Theme::Light, true, vec![], &clicks),
-    );
+    shows("phone-light-curves", vec![], &clicks);
 }
 
 #[test]
 fn clips_and_how_they_are_mixed() {
     let then = vec![PlayCommand::SetBlend { clip: 1, weight: 0.5 }.into()];
-    compare(
-        "wide-dark-clips",
-        &draw_after(WIDE, Theme::Dark, false, then, &["Clip"]),
-    );
+    shows("wide-dark-clips", then, &["Clip"]);
 }
 
 #[test]
 fn how_a_clip_plays_on_a_phone() {
-    compare(
-        "phone-light-playing",
-        &draw_after(PHONE, Theme::Light, true, vec![], &["Speed"]),
-    );
+    shows("phone-light-playing", vec![], &["Speed"]);
 }
 
 #[test]
@@ -430,17 +390,11 @@ fn the_loop_gap_of_a_range() {
         ]
     };
     // On a phone the list is scrolled to.
-    for (name, size, theme, touch, clicks) in [
-        (
-            "wide-dark-loop-gap",
-            WIDE,
-            Theme::Dark,
-            false,
-            &["Speed", "Loop gap of Bone "][..],
-        ),
-        ("phone-light-loop-gap", PHONE, Theme::Light, true, &["Speed"][..]),
+    for (name, clicks) in [
+        ("wide-dark-loop-gap", &["Speed", "Loop gap of Bone "][..]),
+        ("phone-light-loop-gap", &["Speed"]),
     ] {
-        compare(name, &draw_after(size, theme, touch, then().into(), clicks));
+        shows(name, then().into(), clicks);
     }
 }
 
@@ -462,10 +416,10 @@ fn inspected() -> Vec<Command> {
 
 #[test]
 fn the_tree_and_a_joint_on_dark_and_light() {
-    for (name, theme) in [("wide-dark-joint", Theme::Dark), ("wide-light-joint", Theme::Light)] {
+    for name in ["wide-dark-joint", "wide-light-joint"] {
         let mut then = inspected();
         then.push(LookCommand::SetLabelsVisible(true).into());
-        compare(name, &draw_after(WIDE, theme, false, then, &["Panel: Skeleton"]));
+        shows(name, then, &["Panel: Skeleton"]);
     }
 }
 
@@ -475,10 +429,7 @@ fn a_vertex_explained_in_a_small_window() {
     then.retain(|command| !matches!(command, Command::Joint(JointCommand::Select(_))));
     then.push(JointCommand::SelectVertex(Some(4_962)).into());
     let clicks = ["Panel: Skeleton", "Explain"];
-    compare(
-        "small-light-vertex",
-        &draw_after(Vec2::new(900.0, 700.0), Theme::Light, false, then, &clicks),
-    );
+    shows("small-light-vertex", then, &clicks);
 }
 
 #[test]
@@ -488,7 +439,7 @@ fn a_vertex_explained_with_the_matrices_of_a_bone() {
         JointCommand::SelectVertex(Some(4_962)).into(),
     ];
     let clicks = ["Explain", "Unfold the matrices of Bone 10"];
-    compare("wide-dark-vertex", &draw_after(WIDE, Theme::Dark, false, then, &clicks));
+    shows("wide-dark-vertex", then, &clicks);
 }
 
 #[test]
@@ -505,19 +456,15 @@ fn a_vertex_explained_in_the_sheet_of_a_phone() {
 
 #[test]
 fn weights_and_what_their_colours_mean_on_a_phone() {
-    compare("phone-dark-weights", &draw(PHONE, Theme::Dark, true, inspected()));
+    shows("phone-dark-weights", inspected(), &[]);
 }
 
 #[test]
 fn what_is_opened_on_a_phone_on_its_side() {
-    let size = Vec2::new(844.0, 390.0);
-    compare(
-        "low-light-weights",
-        &draw_after(size, Theme::Light, true, inspected(), &["Show L clavicle"]),
-    );
+    shows("low-light-weights", inspected(), &["Show L clavicle"]);
     let then = vec![JointCommand::Select(Some(JointIndex(2))).into()];
     let clicks = ["Dope sheet and", "Sheet: Curves"];
-    compare("low-dark-curves", &draw_after(size, Theme::Dark, true, then, &clicks));
+    shows("low-dark-curves", then, &clicks);
 }
 
 #[test]
@@ -525,7 +472,7 @@ fn the_tree_in_the_sheet_of_a_phone() {
     let mut then = inspected();
     then.retain(|command| !matches!(command, Command::Joint(JointCommand::Select(_))));
     let clicks = ["Model facts", "Panel: Skeleton"];
-    compare("phone-dark-tree", &draw_after(PHONE, Theme::Dark, true, then, &clicks));
+    shows("phone-dark-tree", then, &clicks);
 }
 
 #[test]
@@ -555,25 +502,19 @@ fn the_ring_round_the_focused_control() {
 
 #[test]
 fn the_menu_of_a_phone_on_its_side() {
-    let size = Vec2::new(844.0, 390.0);
-    compare("low-dark-menu", &draw_after(size, Theme::Dark, true, vec![], &["More"]));
+    shows("low-dark-menu", vec![], &["More"]);
 }
 
 #[test]
 fn an_error_on_a_phone_on_its_side() {
-    let size = Vec2::new(844.0, 390.0);
     let then = || vec![FileCommand::Add(vec![broken("soldier.m3d")]).into()];
-    compare("low-light-error", &draw(size, Theme::Light, true, then()));
-    compare("phone-dark-error", &draw(PHONE, Theme::Dark, true, then()));
+    shows("low-light-error", then(), &[]);
+    shows("phone-dark-error", then(), &[]);
 }
 
 #[test]
 fn the_table_of_keys_with_what_is_on() {
-    let size = Vec2::new(900.0, 700.0);
-    compare(
-        "small-dark-help",
-        &draw_after(size, Theme::Dark, false, inspected(), &["Help (?)"]),
-    );
+    shows("small-dark-help", inspected(), &["Help (?)"]);
 }
 
 /// A golden that would let a panel go missing proves nothing.
@@ -594,15 +535,9 @@ fn a_missing_panel_would_be_seen() {
 #[test]
 fn the_panel_that_exports() {
     let edits = ["Export… (E)", "Format: .m3d D3D11", "Close the loop", "Reduce keys"];
-    compare(
-        "wide-dark-export",
-        &draw_after(WIDE, Theme::Dark, false, vec![], &edits),
-    );
+    shows("wide-dark-export", vec![], &edits);
     let page = ["More", "Export…"];
-    compare(
-        "phone-light-export",
-        &draw_after(PHONE, Theme::Light, true, vec![], &page),
-    );
+    shows("phone-light-export", vec![], &page);
 }
 
 #[test]
@@ -619,7 +554,6 @@ fn ghosts_and_trails_with_their_chips() {
             LookCommand::ToggleTrail(JointIndex(38)).into(),
         ]
     };
-    let overlays = draw_after(WIDE, Theme::Light, false, then(), &["Lines over"]);
-    compare("wide-light-ghosts", &overlays);
-    compare("phone-dark-ghosts", &draw(PHONE, Theme::Dark, true, then()));
+    shows("wide-light-ghosts", then(), &["Lines over"]);
+    shows("phone-dark-ghosts", then(), &[]);
 }

@@ -2,23 +2,17 @@
 
 use bindpose::scene::Camera;
 use egui::{
-    Event, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchDeviceId, TouchId, TouchPhase, Vec2,
-    pos2, vec2,
+    Event, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchDeviceId, TouchId, TouchPhase, Vec2, pos2, vec2,
 };
 use glam::Vec3;
 
 use crate::models::moving;
-use crate::page::{WIDE, Window, phone, touch_window, window};
+use crate::page::{WIDE, Window, button_event, phone, touch_window, wheel_event, window};
 
 pub(crate) const START: Pos2 = pos2(800.0, 420.0);
 
 pub(crate) fn drag(window: &mut Window, button: PointerButton, modifiers: Modifiers, way: Vec2) {
-    let press = |pos, pressed| Event::PointerButton {
-        pos,
-        button,
-        pressed,
-        modifiers,
-    };
+    let press = |pos, pressed| button_event(pos, button, pressed, modifiers);
     window.harness.event(Event::ModifiersChanged(modifiers));
     window.harness.event(Event::PointerMoved(START));
     window.harness.event(press(START, true));
@@ -37,12 +31,7 @@ pub(crate) fn drag(window: &mut Window, button: PointerButton, modifiers: Modifi
 fn a_press_and_its_release_in_two_long_frames_are_a_click() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     let at = window.rect("Export").center();
-    let press = |pressed| Event::PointerButton {
-        pos: at,
-        button: PointerButton::Primary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    };
+    let press = |pressed| button_event(at, PointerButton::Primary, pressed, Modifiers::NONE);
     window.frame([Event::PointerMoved(at)]);
     window.frame([press(true)]);
     let now_secs = window.harness.ctx.input(|input| input.time);
@@ -119,13 +108,9 @@ fn the_wheel_comes_nearer_to_what_is_under_the_pointer() {
         let mut window = window(WIDE, vec![moving("a.m3d")]);
         let before = *window.session().camera();
         window.harness.hover_at(START);
-        window.harness.event(Event::MouseWheel {
-            source: egui::MouseWheelSource::Wheel,
-            unit: MouseWheelUnit::Line,
-            delta: vec2(0.0, lines),
-            phase: TouchPhase::Move,
-            modifiers: Modifiers::NONE,
-        });
+        window
+            .harness
+            .event(wheel_event(MouseWheelUnit::Line, vec2(0.0, lines), Modifiers::NONE));
         window.wait(1.0);
         let after = *window.session().camera();
         let ratio = after.distance / before.distance;
@@ -171,13 +156,9 @@ fn what_happens_on_a_panel_does_not_reach_the_view() {
         window.harness.hover_at(pos + vec2(200.0, 30.0));
         window.harness.drop_at(pos + vec2(200.0, 30.0));
         window.harness.hover_at(pos);
-        window.harness.event(Event::MouseWheel {
-            source: egui::MouseWheelSource::Wheel,
-            unit: MouseWheelUnit::Line,
-            delta: vec2(0.0, 3.0),
-            phase: TouchPhase::Move,
-            modifiers: Modifiers::NONE,
-        });
+        window
+            .harness
+            .event(wheel_event(MouseWheelUnit::Line, vec2(0.0, 3.0), Modifiers::NONE));
         window.wait(0.5);
         assert_eq!(window.session().camera(), &before, "{pos:?}");
     }
@@ -196,12 +177,7 @@ pub(crate) fn fingers(window: &mut Window, phase: TouchPhase, at: &[Pos2]) {
         });
     }
     if let Some(&pos) = at.first() {
-        let button = |pressed| Event::PointerButton {
-            pos,
-            button: PointerButton::Primary,
-            pressed,
-            modifiers: Modifiers::NONE,
-        };
+        let button = |pressed| button_event(pos, PointerButton::Primary, pressed, Modifiers::NONE);
         window.harness.input_mut().events.extend(match phase {
             TouchPhase::Start => vec![Event::PointerMoved(pos), button(true)],
             TouchPhase::Move => vec![Event::PointerMoved(pos)],
@@ -276,12 +252,7 @@ fn two_fingers_that_part_come_nearer() {
 }
 
 fn button(pos: Pos2, pressed: bool) -> Event {
-    Event::PointerButton {
-        pos,
-        button: PointerButton::Primary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    }
+    button_event(pos, PointerButton::Primary, pressed, Modifiers::NONE)
 }
 
 /// A drag with a mouse from place to place, with all that a browser tells of it.
@@ -406,13 +377,7 @@ fn a_wheel_over_a_panel_never_zooms_the_scene_beneath() {
             covered += 1;
             for delta in [-40.0, 40.0] {
                 window.harness.hover_at(at);
-                window.frame([Event::MouseWheel {
-                    unit: MouseWheelUnit::Point,
-                    delta: vec2(0.0, delta),
-                    phase: TouchPhase::Move,
-                    source: MouseWheelSource::Wheel,
-                    modifiers: Modifiers::NONE,
-                }]);
+                window.frame([wheel_event(MouseWheelUnit::Point, vec2(0.0, delta), Modifiers::NONE)]);
                 window.pass_on();
             }
             assert_eq!(*window.session().camera(), camera, "{opened:?} at {at} of {size}");

@@ -6,7 +6,7 @@ use egui::{Order, Rect, vec2};
 
 use crate::layout::{assert_apart, assert_between_sides, assert_inside, shown_panel};
 use crate::models::moving;
-use crate::page::{PHONE, WIDE, Window, touch_window, window};
+use crate::page::{PHONE, WIDE, Window, touch_window, wheel_event, window};
 
 /// What hangs from each button of the toolbar, and something in it.
 const POPOVERS: [(&str, &str); 5] = [
@@ -171,13 +171,11 @@ fn a_menu_that_is_higher_than_the_window_scrolls_in_it() {
         // Its last line comes into it.
         let below = window.rect(last).max.y - shown[0].max.y;
         window.harness.hover_at(shown[0].center());
-        window.harness.event(egui::Event::MouseWheel {
-            source: egui::MouseWheelSource::Wheel,
-            unit: egui::MouseWheelUnit::Point,
-            delta: vec2(0.0, -below.max(0.0) - 20.0),
-            phase: egui::TouchPhase::Move,
-            modifiers: egui::Modifiers::NONE,
-        });
+        window.harness.event(wheel_event(
+            egui::MouseWheelUnit::Point,
+            vec2(0.0, -below.max(0.0) - 20.0),
+            egui::Modifiers::NONE,
+        ));
         window.wait(1.0);
         let line = window.rect(last);
         assert!(shown[0].contains_rect(line), "{last} of {size}: {line} in {}", shown[0]);

@@ -4,12 +4,12 @@ use bindpose::anim::{GhostPlan, SkinView};
 use bindpose::model::JointIndex;
 use bindpose::scene::BoneStyle;
 use bindpose::session::{File, JointCommand, LookCommand};
-use egui::{Event, Key, Modifiers, PointerButton, Vec2, vec2};
+use egui::{Key, Modifiers, PointerButton, Vec2, vec2};
 
 use crate::chains::mirrored;
 use crate::layout::{assert_apart, assert_between_sides};
 use crate::models;
-use crate::page::{PHONE, WIDE, Window, phone, window};
+use crate::page::{PHONE, WIDE, Window, button_event, phone, window};
 
 const SMALL: Vec2 = vec2(900.0, 700.0);
 
@@ -91,12 +91,7 @@ fn names_go_with_the_bones_whatever_key_hides_or_shows_them() {
 fn the_key_that_flies_forward_leaves_the_skin_alone() {
     let mut window = window(WIDE, chains(5));
     let at = window.harness.ctx.content_rect().center();
-    let held = |pressed| Event::PointerButton {
-        pos: at,
-        button: PointerButton::Secondary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    };
+    let held = |pressed| button_event(at, PointerButton::Secondary, pressed, Modifiers::NONE);
     window.harness.hover_at(at);
     window.harness.event(held(true));
     window.pass_on();
@@ -145,10 +140,7 @@ fn place_of_vertex(window: &mut Window, vertex: u32) -> egui::Pos2 {
 }
 
 fn click_at(window: &mut Window, at: egui::Pos2) {
-    window.harness.hover_at(at);
-    window.harness.drag_at(at);
-    window.harness.drop_at(at);
-    window.pass_on();
+    window.click_at(at);
 }
 
 #[test]
@@ -179,8 +171,7 @@ fn a_click_in_the_view_means_what_the_panel_is_about() {
     for tab in ["Panel: Model", "Panel: Skeleton"] {
         window.click(tab);
         window.apply(JointCommand::Select(None));
-        window.harness.hover_at(bone);
-        window.pass_on();
+        window.hover_at(bone);
         assert_eq!(window.session().joints().hovered(), Some(JointIndex(1)), "{tab}");
         assert_eq!(
             click(&mut window, bone),
@@ -276,8 +267,7 @@ fn the_panel_with_the_tree_is_dragged_wider_and_stays_so() {
     window.harness.hover_at(handle);
     window.harness.drag_at(handle);
     window.pass_on();
-    window.harness.hover_at(handle + vec2(100.0, 0.0));
-    window.pass_on();
+    window.hover_at(handle + vec2(100.0, 0.0));
     window.harness.drop_at(handle + vec2(100.0, 0.0));
     window.pass_on();
     let wider = width(&window);
@@ -290,8 +280,7 @@ fn the_panel_with_the_tree_is_dragged_wider_and_stays_so() {
     window.harness.drag_at(handle);
     window.pass_on();
     for x in [2_000.0, 0.0] {
-        window.harness.hover_at(egui::pos2(x, handle.y));
-        window.pass_on();
+        window.hover_at(egui::pos2(x, handle.y));
         assert!(
             (before..WIDE.x / 2.0).contains(&width(&window)),
             "{x}: {}",

@@ -1,7 +1,7 @@
 //! The line between both lights.
 
 use bindpose::session::LookCommand;
-use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
+use egui::{Key, Modifiers, PointerButton, pos2, vec2};
 
 use crate::models::moving;
 use crate::page::{WIDE, Window, phone, window};
@@ -10,16 +10,6 @@ fn divided(share: f32) -> Window {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     window.apply(LookCommand::SetSplit(Some(share)));
     window
-}
-
-fn drag(window: &mut Window, from: Pos2, to: Pos2) {
-    window.harness.hover_at(from);
-    window.harness.drag_at(from);
-    for step in 1..=4 {
-        window.harness.hover_at(from + (to - from) * (step as f32 / 4.0));
-    }
-    window.harness.drop_at(to);
-    window.pass_on();
 }
 
 #[track_caller]
@@ -33,9 +23,9 @@ fn the_line_and_its_handle_follow_the_pointer_and_the_camera_stays() {
     for y in [450.0, 200.0] {
         let mut window = divided(0.5);
         let camera = *window.session().camera();
-        drag(&mut window, pos2(720.0, y), pos2(936.0, y + 30.0));
+        window.drag(pos2(720.0, y), pos2(936.0, y + 30.0));
         assert_split(&window, 0.65);
-        drag(&mut window, pos2(936.0, y), pos2(5000.0, y));
+        window.drag(pos2(936.0, y), pos2(5000.0, y));
         assert_split(&window, 0.98);
         assert_eq!(window.session().camera(), &camera);
     }
@@ -43,7 +33,7 @@ fn the_line_and_its_handle_follow_the_pointer_and_the_camera_stays() {
     phone.apply(LookCommand::SetSplit(Some(0.5)));
     // A finger is less exact than a pointer.
     let handle = phone.rect("Split").center();
-    drag(&mut phone, handle + vec2(18.0, 0.0), pos2(273.0, handle.y));
+    phone.drag(handle + vec2(18.0, 0.0), pos2(273.0, handle.y));
     assert_split(&phone, 0.7);
     phone.click("Lighting");
     assert!(
@@ -59,12 +49,7 @@ fn a_double_click_brings_it_to_the_middle() {
     for _ in 0..2 {
         window.harness.hover_at(at);
         for pressed in [true, false] {
-            window.harness.event(Event::PointerButton {
-                pos: at,
-                button: PointerButton::Primary,
-                pressed,
-                modifiers: Modifiers::NONE,
-            });
+            window.button(at, PointerButton::Primary, pressed, Modifiers::NONE);
         }
     }
     window.pass_on();

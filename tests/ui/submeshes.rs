@@ -7,7 +7,7 @@ use egui::accesskit::{Action, ActionData};
 use egui::{Event, Key, Modifiers, PointerButton, Vec2, pos2};
 
 use crate::models;
-use crate::page::{PHONE, WIDE, Window, touch_window, window};
+use crate::page::{PHONE, WIDE, Window, button_event, touch_window, window};
 
 /// The box as two subsets: three sides painted, three bare.
 fn halves() -> Document {
@@ -38,8 +38,7 @@ fn open() -> Window {
 
 fn hover(window: &mut Window, start: &str) {
     let at = window.rect(start).center();
-    window.harness.hover_at(at);
-    window.pass_on();
+    window.hover_at(at);
 }
 
 #[test]
@@ -56,12 +55,7 @@ fn a_row_under_the_pointer_stands_out_in_the_view() {
 fn a_click_in_the_instant_in_which_the_pointer_comes_meets_what_is_drawn() {
     let mut window = open();
     let at = window.rect("Hide Bare").center();
-    let button = |pressed| Event::PointerButton {
-        pos: at,
-        button: PointerButton::Primary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    };
+    let button = |pressed| button_event(at, PointerButton::Primary, pressed, Modifiers::NONE);
     window.frame([Event::PointerMoved(at), button(true), button(false)]);
     window.pass_on();
     assert_eq!(window.session().submeshes().left_out(), [false, true]);
@@ -138,12 +132,7 @@ fn alone_by_the_icon_or_by_an_alt_click() {
     window.harness.event(Event::ModifiersChanged(modifiers));
     window.harness.hover_at(at);
     for pressed in [true, false] {
-        window.harness.event(Event::PointerButton {
-            pos: at,
-            button: PointerButton::Primary,
-            pressed,
-            modifiers,
-        });
+        window.button(at, PointerButton::Primary, pressed, modifiers);
     }
     window.pass_on();
     assert_eq!(window.session().submeshes().left_out(), [false, true]);
@@ -162,10 +151,7 @@ fn a_click_in_the_list_or_in_the_view_selects() {
     assert_eq!(window.session().submeshes().selected(), None, "a second click lets go");
 
     let click_at = |window: &mut Window, at| {
-        window.harness.hover_at(at);
-        window.harness.drag_at(at);
-        window.harness.drop_at(at);
-        window.pass_on();
+        window.click_at(at);
         window.wait(0.6);
     };
     click_at(&mut window, pos2(WIDE.x * 0.5, WIDE.y * 0.5));
@@ -246,8 +232,7 @@ fn a_colour_is_chosen_by_eye() {
     window.click("Diffuse: #");
     window.click("Diffuse: number");
     window.press(Modifiers::COMMAND, Key::A);
-    window.harness.event(Event::Text("#ff0000".to_owned()));
-    window.pass_on();
+    window.type_text("#ff0000");
     assert_eq!(window.session().materials()[0].diffuse, [1.0, 0.0, 0.0]);
     for _ in ["the field", "the picker"] {
         window.press(Modifiers::NONE, Key::Escape);
@@ -350,7 +335,7 @@ fn subsets_of_one_material_are_told_apart_by_a_number() {
     assert!(![&shared, &numbered].contains(&&name(0)));
     window.click(&format!("{numbered}, 3 triangles"));
     assert_eq!(window.session().submeshes().selected(), Some(2));
-    assert!(window.shows(&format!("Selected: {numbered}")), "{:?}", window.widgets());
+    window.assert_shows(&format!("Selected: {numbered}"));
 }
 
 #[test]
@@ -360,7 +345,7 @@ fn a_wrong_value_is_refused_in_words() {
     let of_file = window.session().materials().to_vec();
     for typed in ["abc", "7", "-1", "0.5 apples"] {
         type_number(&mut window, "Diffuse: red", typed);
-        assert!(window.shows("A number from 0 to 1"), "{typed}: {:?}", window.widgets());
+        window.assert_shows("A number from 0 to 1");
         assert_eq!(
             window.value_of("Type the diffuse: red").as_deref(),
             Some(typed),
@@ -390,8 +375,7 @@ fn a_number_is_dragged_and_stepped_within_its_range() {
     window.harness.hover_at(from);
     window.harness.drag_at(from);
     for step in 1..=20_u8 {
-        window.harness.hover_at(from - Vec2::new(f32::from(step), 0.0));
-        window.pass_on();
+        window.hover_at(from - Vec2::new(f32::from(step), 0.0));
     }
     window.harness.drop_at(from - Vec2::new(20.0, 0.0));
     window.pass_on();

@@ -52,15 +52,13 @@ fn dragging_on_the_bar_seeks_while_it_plays_and_playing_goes_on_from_there() {
     window.harness.hover_at(at(0.2));
     window.harness.drag_at(at(0.2));
     window.harness.hover_at(at(0.5));
-    window.harness.hover_at(at(0.6));
-    window.pass_on();
+    window.hover_at(at(0.6));
     assert!(window.session().is_scrubbing());
     let held = window.time_secs();
     assert!((held - 0.6).abs() < 0.02, "{held}");
     window.wait(0.5);
     assert_eq!(window.time_secs(), held, "held still");
-    window.harness.hover_at(at(2.0));
-    window.pass_on();
+    window.hover_at(at(2.0));
     assert_eq!(window.time_secs(), 1.0, "beyond the bar is its end");
     window.harness.hover_at(at(0.25));
     window.harness.drop_at(at(0.25));
@@ -177,8 +175,7 @@ fn buttons_step_by_frames_and_keys_and_play_backward() {
 /// Types over what a read-out says.
 fn type_into(window: &mut Window, read_out: &str, typed: &str, end: Key) {
     window.click(read_out);
-    window.harness.event(Event::Text(typed.to_owned()));
-    window.pass_on();
+    window.type_text(typed);
     window.press(Modifiers::NONE, end);
 }
 
@@ -209,16 +206,12 @@ fn a_click_elsewhere_takes_what_was_typed_if_it_makes_sense() {
     ] {
         let click_beside = |window: &mut Window| {
             let at = pos2(0.85 * size.x, 0.3 * size.y);
-            window.harness.hover_at(at);
-            window.harness.drag_at(at);
-            window.harness.drop_at(at);
-            window.pass_on();
+            window.click_at(at);
             window.wait(0.6);
         };
         let type_and_click = |window: &mut Window, read_out: &str, typed: &str| {
             window.click(read_out);
-            window.harness.event(Event::Text(typed.to_owned()));
-            window.pass_on();
+            window.type_text(typed);
             click_beside(window);
         };
         type_and_click(&mut window, "Time 0.000 ", "0.25");
@@ -235,8 +228,7 @@ fn a_click_elsewhere_takes_what_was_typed_if_it_makes_sense() {
         // What went away with its popover does not come back.
         window.click("Speed 1×");
         window.click("Times as fast 1×");
-        window.harness.event(Event::Text("3".to_owned()));
-        window.pass_on();
+        window.type_text("3");
         window.click("Speed 1×");
         window.click("Speed 1×");
         window.rect("Times as fast 1×");
@@ -266,7 +258,7 @@ fn a_field_that_refuses_says_why_and_keeps_what_was_typed_until_esc() {
             ("Frame 0 / 30", "99", "Beyond the last frame, 30"),
         ] {
             type_into(&mut window, field, typed, Key::Enter);
-            assert!(window.shows(why), "{why}: {:?}", window.widgets());
+            window.assert_shows(why);
             assert_eq!(window.time_secs(), 0.0);
             let name = if field.starts_with("Time") {
                 "Type the time"
@@ -284,8 +276,7 @@ fn a_field_that_refuses_says_why_and_keeps_what_was_typed_until_esc() {
             !window.shows("Beyond the clip's end, 1 s"),
             "what is typed anew is not refused yet"
         );
-        window.harness.event(Event::Text("1".to_owned()));
-        window.pass_on();
+        window.type_text("1");
         window.press(Modifiers::NONE, Key::Enter);
         assert_eq!(window.time_secs(), 1.0);
     }
@@ -310,8 +301,7 @@ fn fields_stay_where_they_are_while_somebody_types() {
         for field in ["Times as fast 1×", "In 0.000 s"] {
             window.click(field);
             assert_eq!(rects(&window), before, "while {field} is typed");
-            window.harness.event(Event::Text("12345678901234567890".to_owned()));
-            window.pass_on();
+            window.type_text("12345678901234567890");
             assert_eq!(rects(&window), before, "{field} with a long text");
             window.press(Modifiers::NONE, Key::Enter);
             assert_eq!(rects(&window), before, "{field} refused");
@@ -381,11 +371,10 @@ fn an_end_of_the_range_shows_its_value_while_it_is_dragged() {
     window.harness.drag_at(from);
     for share in [0.2, 0.3] {
         let at = pos2(bar.min.x + 12.0 + share * (bar.width() - 24.0), bar.center().y);
-        window.harness.hover_at(at);
-        window.pass_on();
+        window.hover_at(at);
         let frame = (share * 30.0).round();
         let told = format!("Range in {share:.3} s, frame {frame}");
-        assert!(window.shows(&told), "{told}: {:?}", window.widgets());
+        window.assert_shows(&told);
         assert!(window.shows(&format!("In {share:.3} s")), "the field beside it follows");
     }
     let field = window.rect("In 0.300 s");
@@ -426,8 +415,7 @@ fn the_ends_of_the_range_are_dragged_on_the_bar_from_frame_to_frame() {
         let from = window.rect(name).center();
         window.harness.hover_at(from);
         window.harness.drag_at(from);
-        window.harness.hover_at(at(share));
-        window.pass_on();
+        window.hover_at(at(share));
         window.harness.drop_at(at(share));
         window.pass_on();
     };
@@ -696,8 +684,7 @@ fn of_many_bones_only_the_rows_in_view_are_laid_out_and_the_pointer_lights_them_
         "{distances:?}"
     );
     let (name, rect) = &rows[2];
-    window.harness.hover_at(rect.center());
-    window.pass_on();
+    window.hover_at(rect.center());
     let hovered = window.session().joints().hovered().expect("it stands out");
     assert!(
         name.starts_with(&format!("Loop gap of Bone {}:", hovered.0)),
@@ -718,19 +705,13 @@ fn clips_are_blended_faded_and_added() {
         );
         let weight = window.rect("Weight");
         let at = pos2(weight.max.x - 6.0, weight.center().y);
-        window.harness.hover_at(at);
-        window.harness.drag_at(at);
-        window.harness.drop_at(at);
-        window.pass_on();
+        window.click_at(at);
         assert_eq!(window.session().blend().map(|blend| blend.weight), Some(1.0));
         window.click("End the blend with Turn");
         assert_eq!(window.session().blend(), None);
         let fade = window.rect("Crossfade");
         let at = fade.center();
-        window.harness.hover_at(at);
-        window.harness.drag_at(at);
-        window.harness.drop_at(at);
-        window.pass_on();
+        window.click_at(at);
         assert!((window.session().crossfade_secs() - 1.0).abs() < 0.05);
         window.apply(FileCommand::AddClips(vec![moving("more.m3d")]));
         let added = window.named(|name| name.contains("more.m3d"));

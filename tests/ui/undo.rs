@@ -6,7 +6,7 @@ use egui::accesskit::{Action, ActionRequest};
 use egui::{Event, Key, Modifiers, Pos2, RawInput, lerp, vec2};
 
 use crate::models::moving;
-use crate::page::{PHONE, WIDE, Window, touch_window, window};
+use crate::page::{PHONE, WIDE, Window, key_event, touch_window, window};
 use crate::rigs::rig;
 
 const CTRL: Modifiers = Modifiers::COMMAND;
@@ -46,13 +46,7 @@ fn drag(window: &mut Window, from: Pos2, to: Pos2) {
 }
 
 fn hold(window: &mut Window, key: Key, pressed: bool) {
-    window.harness.event(Event::Key {
-        key,
-        physical_key: None,
-        pressed,
-        repeat: false,
-        modifiers: Modifiers::NONE,
-    });
+    window.harness.event(key_event(key, pressed));
     window.harness.step();
 }
 
@@ -111,8 +105,7 @@ fn a_number_that_is_typed_is_one_step_and_the_field_keeps_ctrl_z() {
     window.click("Diffuse: red");
     window.press(CTRL, Key::A);
     for letter in ["0", ".", "7", "5"] {
-        window.harness.event(Event::Text(letter.to_owned()));
-        window.pass_on();
+        window.type_text(letter);
     }
     let before = window.session().history().revision();
     window.press(CTRL, Key::Z);
@@ -123,8 +116,7 @@ fn a_number_that_is_typed_is_one_step_and_the_field_keeps_ctrl_z() {
     );
     window.press(CTRL, Key::A);
     for letter in ["0", ".", "2", "5"] {
-        window.harness.event(Event::Text(letter.to_owned()));
-        window.pass_on();
+        window.type_text(letter);
     }
     window.press(Modifiers::NONE, Key::Enter);
     assert_eq!(window.session().materials()[0].diffuse[0], 0.25);

@@ -6,7 +6,7 @@ use bindpose::model::Model;
 use glam::Affine3A;
 
 use crate::chains::mirrored_model;
-use crate::documents::{arm, model_of, real_file};
+use crate::documents::{arm, model_of, soldier};
 
 fn greatest_difference(a: &[Affine3A], b: &[Affine3A]) -> f32 {
     assert_eq!(a.len(), b.len());
@@ -97,9 +97,7 @@ fn a_joint_without_skin_rests_where_its_offset_says_and_its_children_come_home()
 
 #[test]
 fn the_soldier_comes_to_its_bind_pose_without_a_jump() {
-    let Some(parsed) = real_file("d3d12/soldier") else {
-        return;
-    };
+    let Some(parsed) = soldier() else { return };
     let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     check_ends(&model, 2e-3);
 }

@@ -7,7 +7,7 @@ use bindpose::import::m3d;
 use bindpose::model::{Aabb, Clip, Mesh, Model};
 use glam::Vec3;
 
-use crate::documents::{arm, model_of, quad, real_file};
+use crate::documents::{arm, model_of, quad, soldier};
 use crate::textbook;
 
 #[test]
@@ -110,9 +110,7 @@ fn many_key_times_are_looked_at_evenly() {
 #[test]
 #[allow(clippy::print_stderr, reason = "the time is worth seeing")]
 fn the_soldier_needs_the_box_of_the_textbook() {
-    let Some(parsed) = real_file("d3d12/soldier") else {
-        return;
-    };
+    let Some(parsed) = soldier() else { return };
     let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     let begun = Instant::now();
     let bounds = animated_bounds(&model, &CompiledClip::new(&model.clips[0]));

@@ -6,7 +6,7 @@ use bindpose::import::m3d;
 use bindpose::model::Model;
 
 use crate::chains::mirrored;
-use crate::documents::{arm, model_of, quad, real_file};
+use crate::documents::{arm, model_of, quad, soldier};
 use crate::textbook;
 
 /// Every vertex, at some times: the sum is the skinned position, each step follows from the one before, and all agrees with
@@ -78,9 +78,7 @@ fn every_step_agrees_with_the_textbook() {
 
 #[test]
 fn the_soldiers_vertices_come_where_skinning_brings_them() {
-    let Some(parsed) = real_file("d3d12/soldier") else {
-        return;
-    };
+    let Some(parsed) = soldier() else { return };
     let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     check(&parsed.document, &model, 41, 3e-4);
 }

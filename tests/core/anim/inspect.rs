@@ -6,7 +6,7 @@ use bindpose::model::{JointIndex, JointTree, LocalJoint};
 use glam::{Affine3A, DMat3, DQuat, DVec3, Mat3, Quat, Vec3};
 use proptest::prelude::*;
 
-use crate::documents::{arm, model_of, real_file};
+use crate::documents::{arm, model_of, soldier};
 use crate::textbook;
 
 /// The matrix that the parts are of: the axes of the rotation, leaned by the cosines, times the scale.
@@ -243,9 +243,7 @@ fn keys_are_rows_of_a_table() {
 
 #[test]
 fn the_soldiers_joints_are_rigid_and_put_together_again() {
-    let Some(parsed) = real_file("d3d12/soldier") else {
-        return;
-    };
+    let Some(parsed) = soldier() else { return };
     let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     let tree = JointTree::new(&model.skeleton);
     let mut pose = PoseBuffers::default();

@@ -5,7 +5,7 @@ use bindpose::import::m3d;
 use bindpose::model::Model;
 use glam::{Affine3A, DAffine3, DMat3, DVec3, Mat3, Quat, Vec3};
 
-use crate::documents::{arm, model_of, quad, real_file};
+use crate::documents::{arm, model_of, quad, soldier};
 use crate::textbook;
 
 fn skinned(model: &Model, palette: &Palette) -> SkinnedVertices {
@@ -84,9 +84,7 @@ fn normals_stay_square_to_the_surface_under_any_scale_and_mirror() {
 
 #[test]
 fn the_soldier_runs_as_in_the_textbook() {
-    let Some(parsed) = real_file("d3d12/soldier") else {
-        return;
-    };
+    let Some(parsed) = soldier() else { return };
     let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
     for time_secs in [-1.0_f32, 0.0, 0.2083, 0.517, 1.2083, 1.24, 1.25, 7.0] {

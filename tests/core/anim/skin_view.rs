@@ -8,7 +8,7 @@ use bindpose::model::{JointIndex, Model};
 use glam::Vec3;
 
 use crate::chains::mirrored_model;
-use crate::documents::{arm, model_of, quad, real_file};
+use crate::documents::{arm, model_of, quad, soldier};
 
 fn check_weights(model: &Model) {
     let (mut weights, mut counts, mut dominant) = (Vec::new(), Vec::new(), Vec::new());
@@ -158,9 +158,7 @@ fn a_seam_does_not_part_the_stretch_and_edges_of_no_length_do_not_count() {
 
 #[test]
 fn the_soldier_has_four_joints_a_vertex_at_most_and_stretches_where_it_bends() {
-    let Some(parsed) = real_file("d3d12/soldier") else {
-        return;
-    };
+    let Some(parsed) = soldier() else { return };
     let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     check_weights(&model);
     let stretch = Stretch::new(&model.mesh);

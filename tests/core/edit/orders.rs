@@ -95,51 +95,21 @@ fn joint_places(model: &Model, secs: f32) -> Vec<Vec3> {
 
 fn make(before: &Model, one: One) -> (Edits, Model) {
     let clip = &before.clips[0];
-    let edits = Edits::default();
+    let mut edits = Edits::default();
     let at = |part: f32| clip.start_secs + part * clip.duration_secs();
-    let edits = match one {
-        One::Fix => Edits { fix: true, ..edits },
-        One::Range(from, to) => Edits {
-            range_secs: Some([at(from), at(to)]),
-            ..edits
-        },
-        One::Close(part) => Edits {
-            close_loop_secs: Some(part * clip.duration_secs()),
-            ..edits
-        },
-        One::Reduce(tolerance) => Edits {
-            reduce: Some(tolerance),
-            ..edits
-        },
-        One::Scale(factor) => Edits {
-            scale: Some(factor),
-            ..edits
-        },
-        One::Up(axis) => Edits {
-            up_axis: Some(axis),
-            ..edits
-        },
-        One::Hand(hand) => Edits {
-            handedness: Some(hand),
-            ..edits
-        },
-        One::Front(front) => Edits {
-            front: Some(front),
-            ..edits
-        },
-        One::Rename => Edits {
-            clip_names: vec![(clip.name.clone(), format!("{}x", clip.name))],
-            ..edits
-        },
-        One::NameBone => Edits {
-            bone_names: vec![(0, "hips".to_owned())],
-            ..edits
-        },
-        One::ForBook => Edits {
-            for_book: true,
-            ..edits
-        },
-    };
+    match one {
+        One::Fix => edits.fix = true,
+        One::Range(from, to) => edits.range_secs = Some([at(from), at(to)]),
+        One::Close(part) => edits.close_loop_secs = Some(part * clip.duration_secs()),
+        One::Reduce(tolerance) => edits.reduce = Some(tolerance),
+        One::Scale(factor) => edits.scale = Some(factor),
+        One::Up(axis) => edits.up_axis = Some(axis),
+        One::Hand(hand) => edits.handedness = Some(hand),
+        One::Front(front) => edits.front = Some(front),
+        One::Rename => edits.clip_names = vec![(clip.name.clone(), format!("{}x", clip.name))],
+        One::NameBone => edits.bone_names = vec![(0, "hips".to_owned())],
+        One::ForBook => edits.for_book = true,
+    }
     let after = edit(before, &edits).model;
     (edits, after)
 }
@@ -346,36 +316,15 @@ fn one_call_makes_them_in_the_one_order() {
         ..Edits::default()
     };
     let at_once = edit(&model, &all);
+    #[rustfmt::skip]
     let steps = [
-        Edits {
-            fix: true,
-            ..Edits::default()
-        },
-        Edits {
-            range_secs: all.range_secs,
-            ..Edits::default()
-        },
-        Edits {
-            close_loop_secs: all.close_loop_secs,
-            ..Edits::default()
-        },
-        Edits {
-            reduce: all.reduce,
-            ..Edits::default()
-        },
-        Edits {
-            up_axis: all.up_axis,
-            handedness: all.handedness,
-            ..Edits::default()
-        },
-        Edits {
-            scale: all.scale,
-            ..Edits::default()
-        },
-        Edits {
-            clip_names: all.clip_names.clone(),
-            ..Edits::default()
-        },
+        Edits { fix: true, ..Edits::default() },
+        Edits { range_secs: all.range_secs, ..Edits::default() },
+        Edits { close_loop_secs: all.close_loop_secs, ..Edits::default() },
+        Edits { reduce: all.reduce, ..Edits::default() },
+        Edits { up_axis: all.up_axis, handedness: all.handedness, ..Edits::default() },
+        Edits { scale: all.scale, ..Edits::default() },
+        Edits { clip_names: all.clip_names.clone(), ..Edits::default() },
     ];
     let (mut one_by_one, mut changes) = (model, Vec::new());
     for step in steps {

@@ -38,19 +38,13 @@ fn first(bytes: &[u8]) -> format::Material {
 
 /// What is written of a model's only material.
 fn told(model: &Model, dialect: Dialect) -> format::Material {
-    first(
-        &m3d(model, &JointNames::default(), dialect)
-            .expect("it can be written")
-            .bytes,
-    )
+    let written = m3d(model, &JointNames::default(), dialect).expect("it can be written");
+    first(&written.bytes)
 }
 
 fn told_with(model: &Model, dialect: Dialect, looks: &[Look]) -> format::Material {
-    first(
-        &m3d_with(model, &JointNames::default(), dialect, looks)
-            .expect("it can be written")
-            .bytes,
-    )
+    let written = m3d_with(model, &JointNames::default(), dialect, looks).expect("it can be written");
+    first(&written.bytes)
 }
 
 fn image(width: u32, height: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Image {
@@ -71,6 +65,11 @@ fn is_near(found: [f32; 3], wanted: [f32; 3], tolerance: f32) -> bool {
         .into_iter()
         .zip(wanted)
         .all(|(found, wanted)| (found - wanted).abs() <= tolerance)
+}
+
+#[track_caller]
+fn assert_near(found: [f32; 3], wanted: [f32; 3], tolerance: f32) {
+    assert!(is_near(found, wanted, tolerance), "{found:?} is not {wanted:?}");
 }
 
 /// The mean difference, of 255, between both books' light on a ball seen from the front, the lights of the demo turned eight ways about
@@ -168,11 +167,7 @@ fn no_exponent_makes_all_of_a_lit_face_shine() {
 #[test]
 fn factors_are_written_as_the_books_multiply_them() {
     let told = told(&square(metallic([0.5, 0.25, 0.0], 0.0, 0.7)), Dialect::D3d12);
-    assert!(
-        is_near(told.diffuse, [0.735_357, 0.537_099, 0.0], 1e-5),
-        "{:?}",
-        told.diffuse
-    );
+    assert_near(told.diffuse, [0.735_357, 0.537_099, 0.0], 1e-5);
     assert_eq!(fresnel(&told), ([0.04; 3], 0.7));
 }
 
@@ -184,12 +179,12 @@ fn colours_come_back_from_the_books() {
         let written = m3d(&rough, &JointNames::default(), dialect).expect("it can be written");
         let of_book = import(&written.bytes).expect("it is sound").model;
         let surface = of_book.materials[0].metallic_surface();
-        assert!(is_near(surface.base_color, [0.8, 0.25, 0.01], 1e-4), "{surface:?}");
+        assert_near(surface.base_color, [0.8, 0.25, 0.01], 1e-4);
         let again = glb(&of_book, &JointNames::default(), &MapImages::new()).expect("it can be written");
         let (root, _) = chunks(&again.bytes);
         let factor = &root["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"];
         let factor = [0, 1, 2].map(|channel: usize| factor[channel].as_f64().expect("a number") as f32);
-        assert!(is_near(factor, [0.8, 0.25, 0.01], 1e-4), "{factor:?}");
+        assert_near(factor, [0.8, 0.25, 0.01], 1e-4);
     }
 }
 
@@ -214,22 +209,17 @@ fn metalness_and_roughness_are_those_of_their_picture() {
     assert_eq!(found[0].bake(Dialect::D3d12), None, "what is even needs no map");
 
     // A quarter is metal, whose roughness is 0.2; the rest has 0.6.
-    let patch = image(64, 64, |x, y| {
-        if x < 32 && y < 32 {
-            [0, 51, 255, 255]
-        } else {
-            [0, 153, 0, 255]
-        }
+    let patch = image(64, 64, |x, y| match x < 32 && y < 32 {
+        true => [0, 51, 255, 255],
+        false => [0, 153, 0, 255],
     });
     let maps = MapImages::from([((0, MapSlot::MetallicRoughness), &patch)]);
     let mut found = looks(&model, &maps);
     let told = told_with(&model, Dialect::D3d12, &found);
     let (fresnel0, roughness) = fresnel(&told);
-    assert!(
-        is_near(fresnel0, [0.28; 3], 0.02) && (roughness - 0.5).abs() < 0.02,
-        "{fresnel0:?} {roughness}"
-    );
-    assert!(is_near(told.diffuse, [0.75; 3], 0.02), "{:?}", told.diffuse);
+    assert_near(fresnel0, [0.28; 3], 0.02);
+    assert!((roughness - 0.5).abs() < 0.02, "{roughness}");
+    assert_near(told.diffuse, [0.75; 3], 0.02);
 
     let bake = found[0].bake(Dialect::D3d12).expect("it is uneven");
     let told = told_with(&model, Dialect::D3d12, &found);
@@ -290,18 +280,13 @@ fn means_are_of_what_the_mesh_shows() {
     material.metallic_roughness_map = Some("surface".into());
     let mut model = square(material);
     model.mesh.tex_coords.iter_mut().for_each(|at| *at *= 0.5);
-    let surface = image(64, 64, |x, y| {
-        if x < 34 && y < 34 {
-            [0, 204, 255, 255]
-        } else {
-            [0, 0, 0, 255]
-        }
+    let surface = image(64, 64, |x, y| match x < 34 && y < 34 {
+        true => [0, 204, 255, 255],
+        false => [0, 0, 0, 255],
     });
     let maps = MapImages::from([((0, MapSlot::MetallicRoughness), &surface)]);
     let told = told_with(&model, Dialect::D3d12, &looks(&model, &maps));
     let (fresnel0, roughness) = fresnel(&told);
-    assert!(
-        is_near(fresnel0, [1.0; 3], 1e-5) && (roughness - 0.8).abs() < 1e-5,
-        "{fresnel0:?} {roughness}"
-    );
+    assert_near(fresnel0, [1.0; 3], 1e-5);
+    assert!((roughness - 0.8).abs() < 1e-5, "{roughness}");
 }

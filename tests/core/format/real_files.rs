@@ -3,12 +3,11 @@
 use bindpose::format::{Dialect, Vertex, parse, write};
 
 use super::real_file;
+use crate::documents::soldier_bytes;
 
 #[test]
 fn the_soldier_is_read_whole() {
-    let Some(bytes) = real_file("models/d3d12/soldier.m3d") else {
-        return;
-    };
+    let Some(bytes) = soldier_bytes() else { return };
     let parsed = parse(&bytes).expect("it is sound");
     let document = &parsed.document;
     assert_eq!(parsed.diagnostics, []);

@@ -104,36 +104,15 @@ fn a_file_of_imm() {
 /// Spelling and layout change nothing: these fixtures say what their model says.
 #[test]
 fn variants_of_layout_give_the_same_document() {
-    let skinned = [
-        "ruler_variants",
-        "layout_crlf_bom",
-        "layout_cr",
-        "layout_blanks",
-        "bone_offset_layouts",
-        "bone_numbers",
-        "brace_missing",
-        "brace_surplus",
-    ];
-    for name in skinned {
+    let skinned = "ruler_variants layout_crlf_bom layout_cr layout_blanks bone_offset_layouts bone_numbers \
+        brace_missing brace_surplus";
+    for name in skinned.split(' ') {
         assert_eq!(document(name), document("d3d12_skinned"), "{name}");
     }
-    let fixed = [
-        "ruler_unknown",
-        "ruler_missing",
-        "header_spellings",
-        "header_subsets",
-        "header_count_assumed",
-        "header_count_repeated",
-        "alpha_clip_words",
-        "vertex_unknown_line",
-        "vertex_row_split",
-        "tangent_three_normal_four",
-        "blend_data_unused",
-        "bones_none_sections_empty",
-        "bones_none_section_missing",
-        "text_behind_the_end",
-    ];
-    for name in fixed {
+    let fixed = "ruler_unknown ruler_missing header_spellings header_subsets header_count_assumed \
+        header_count_repeated alpha_clip_words vertex_unknown_line vertex_row_split tangent_three_normal_four \
+        blend_data_unused bones_none_sections_empty bones_none_section_missing text_behind_the_end";
+    for name in fixed.split(' ') {
         assert_eq!(document(name), document("d3d11_static"), "{name}");
     }
 }

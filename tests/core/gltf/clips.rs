@@ -4,15 +4,13 @@ use bindpose::model::Curves;
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
 
-use super::{assert_at, codes_of, posed, read, triangle};
+use super::{assert_at, bare, codes_of, posed, read};
 use crate::gltf_files::Gltf;
 
 /// A triangle on node 1, which is below node 0, with one animation; `samplers` are (path, times, output accessor, interpolation).
 pub(crate) fn moving(samplers: impl FnOnce(&mut Gltf) -> Vec<(u32, &'static str, usize, usize, &'static str)>) -> Gltf {
-    let mut file = triangle(
-        &json!({ "nodes": [{ "name": "arm", "children": [1] }, { "mesh": 0, "translation": [0.0, 1.0, 0.0] }] }),
-        |_| json!({}),
-    );
+    let mut file =
+        bare(&json!({ "nodes": [{ "name": "arm", "children": [1] }, { "mesh": 0, "translation": [0.0, 1.0, 0.0] }] }));
     let samplers = samplers(&mut file);
     let channel = |(index, (node, path, ..)): (usize, &(u32, &str, usize, usize, &str))| json!({ "sampler": index, "target": { "node": node, "path": path } });
     let channels: Vec<Value> = samplers.iter().enumerate().map(channel).collect();

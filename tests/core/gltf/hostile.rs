@@ -9,7 +9,7 @@ use bindpose::model::JointNames;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
-use super::{banner, read, refused, triangle};
+use super::{banner, bare, read, refused};
 use crate::gltf_files::glb;
 
 fn code(file: &crate::gltf_files::Gltf) -> &'static str {
@@ -20,7 +20,7 @@ fn code(file: &crate::gltf_files::Gltf) -> &'static str {
 
 #[test]
 fn the_first_missing_file_is_named_and_the_others_are_counted() {
-    let mut file = triangle(&json!({}), |_| json!({}));
+    let mut file = bare(&json!({}));
     file.json["buffers"] = json!([
         { "byteLength": 36, "uri": "first.bin" },
         { "byteLength": 36, "uri": "second.bin" },
@@ -48,7 +48,7 @@ fn accessors_that_reach_beyond_their_data_are_refused_before_anything_is_allocat
         ("byteOffset", json!(4)),
         ("byteOffset", json!(u64::MAX)),
     ] {
-        let mut file = triangle(&json!({}), |_| json!({}));
+        let mut file = bare(&json!({}));
         file.json["accessors"][0][key] = value;
         assert!(
             ["gltf-accessor-out-of-range", "gltf-too-large"].contains(&code(&file)),
@@ -56,7 +56,7 @@ fn accessors_that_reach_beyond_their_data_are_refused_before_anything_is_allocat
         );
     }
     // Without data nothing bounds a count but what the file holds.
-    let mut file = triangle(&json!({}), |_| json!({}));
+    let mut file = bare(&json!({}));
     file.json["accessors"][0] = json!({ "componentType": 5126, "count": 4_294_967_295_u64, "type": "VEC3" });
     assert_eq!(code(&file), "gltf-too-large");
     for (key, value) in [
@@ -65,7 +65,7 @@ fn accessors_that_reach_beyond_their_data_are_refused_before_anything_is_allocat
         ("byteOffset", json!(u64::MAX)),
         ("buffer", json!(9)),
     ] {
-        let mut file = triangle(&json!({}), |_| json!({}));
+        let mut file = bare(&json!({}));
         file.json["bufferViews"][0][key] = value;
         assert!(
             ["gltf-buffer-short", "gltf-index-out-of-range"].contains(&code(&file)),
@@ -73,11 +73,11 @@ fn accessors_that_reach_beyond_their_data_are_refused_before_anything_is_allocat
         );
     }
     for stride in [0, 1, u64::MAX] {
-        let mut file = triangle(&json!({}), |_| json!({}));
+        let mut file = bare(&json!({}));
         file.json["bufferViews"][0]["byteStride"] = json!(stride);
         assert_eq!(code(&file), "gltf-accessor-out-of-range", "{stride}");
     }
-    let mut file = triangle(&json!({}), |_| json!({}));
+    let mut file = bare(&json!({}));
     let wrong = file.view(&[3], None);
     file.json["accessors"][0]["sparse"] =
         json!({ "count": 1, "indices": { "bufferView": wrong, "componentType": 5121 }, "values": { "bufferView": 0 } });
@@ -91,7 +91,7 @@ fn nodes_in_circles_and_with_two_parents_are_refused() {
         json!([{ "mesh": 0 }, { "children": [2] }, { "children": [1] }]),
         json!([{ "mesh": 0, "children": [1] }, {}, { "children": [1] }]),
     ] {
-        let file = triangle(&json!({ "nodes": nodes }), |_| json!({}));
+        let file = bare(&json!({ "nodes": nodes }));
         assert_eq!(code(&file), "gltf-nodes-tangled", "{nodes}");
     }
 }
@@ -100,21 +100,21 @@ fn nodes_in_circles_and_with_two_parents_are_refused() {
 fn a_long_chain_of_nodes_is_no_deep_recursion() {
     let mut nodes: Vec<_> = (1..50_000).map(|child| json!({ "children": [child] })).collect();
     nodes.push(json!({ "mesh": 0, "translation": [1.0, 0.0, 0.0] }));
-    let file = triangle(&json!({ "nodes": nodes }), |_| json!({}));
+    let file = bare(&json!({ "nodes": nodes }));
     assert_eq!(read(&file).model.mesh.positions[0].x, 1.0);
 }
 
 #[test]
 fn one_mesh_or_clip_used_again_and_again_ends_in_an_error() {
     let corners = vec![[1.0, 2.0, 3.0]; 30_000];
-    let mut file = triangle(&json!({}), |_| json!({}));
+    let mut file = bare(&json!({}));
     let position = file.floats(&corners);
     file.json["meshes"] = json!([{ "primitives": [{ "attributes": { "POSITION": position } }] }]);
     file.json["nodes"] = vec![json!({ "mesh": 0 }); 2_000].into();
     file.json["scenes"] = json!([{ "nodes": (0..2_000).collect::<Vec<_>>() }]);
     assert_eq!(code(&file), "gltf-too-large");
 
-    let mut file = triangle(&json!({}), |_| json!({}));
+    let mut file = bare(&json!({}));
     let times = file.floats(&[[0.0]]);
     let values = file.floats(&[[0.0; 3]]);
     let nodes: Vec<_> = (0..1_100).map(|_| json!({ "mesh": 0 })).collect();
@@ -129,7 +129,7 @@ fn one_mesh_or_clip_used_again_and_again_ends_in_an_error() {
 #[test]
 fn a_long_data_uri_and_deep_nesting_are_met_without_trouble() {
     // 100 MB of letters behind the data of a triangle, sound and with one that is none.
-    let text = String::from_utf8(triangle(&json!({}), |_| json!({})).text()).expect("JSON is UTF-8");
+    let text = String::from_utf8(bare(&json!({})).text()).expect("JSON is UTF-8");
     let end = text.find("base64,").expect("a data URI") + "base64,".len();
     let end = end + text[end..].find(['=', '"']).expect("it ends");
     let letters = end - (end - text.find("base64,").expect("a data URI") - "base64,".len()) % 4;
@@ -150,7 +150,7 @@ fn a_long_data_uri_and_deep_nesting_are_met_without_trouble() {
 
 #[test]
 fn containers_cut_anywhere_are_refused() {
-    let whole = triangle(&json!({}), |_| json!({})).glb();
+    let whole = bare(&json!({})).glb();
     for length in 4..whole.len() {
         assert_eq!(refused(&whole[..length]).code, "glb-damaged", "{length}");
     }

@@ -12,7 +12,7 @@ use bindpose::model::{Influences, JointIndex, JointNames, Mesh, Model, Skeleton}
 use glam::{Affine3A, Vec2, Vec3};
 use serde_json::{Value, json};
 
-use super::{refused, triangle};
+use super::{bare, refused, triangle};
 use crate::gltf_files::Gltf;
 
 /// Bytes of all streams of a vertex: position, normal, two texture coordinates, tangent, colour and influences.
@@ -90,7 +90,7 @@ fn a_shape_that_many_nodes_share_is_made_once() {
 #[test]
 fn primitives_are_not_compared_with_all_before() {
     let count = 100_000;
-    let mut file = triangle(&json!({}), |_| json!({}));
+    let mut file = bare(&json!({}));
     let corners = file.json["accessors"][0].clone();
     file.json["accessors"] = vec![corners; count].into();
     let primitives: Vec<Value> = (0..count)
@@ -109,14 +109,14 @@ fn a_deep_tree_is_not_climbed_from_each_mesh() {
         .map(|child| json!({ "mesh": 0, "children": [child] }))
         .collect();
     nodes.push(json!({ "mesh": 0, "translation": [1.0, 0.0, 0.0] }));
-    let Imported { model, effort, .. } = opened(&triangle(&json!({ "nodes": nodes }), |_| json!({})));
+    let Imported { model, effort, .. } = opened(&bare(&json!({ "nodes": nodes })));
     assert_eq!(model.mesh.vertex_count(), 3 * count);
     assert_eq!(effort.elements, 6);
     // A clip moves the deepest of a shorter one: all above it are joints, as they are when it is the first.
     for moved in [0, 999] {
         let mut nodes: Vec<Value> = (1..1_000).map(|child| json!({ "children": [child] })).collect();
         nodes.push(json!({ "mesh": 0 }));
-        let mut file = triangle(&json!({ "nodes": nodes }), |_| json!({}));
+        let mut file = bare(&json!({ "nodes": nodes }));
         let (times, values) = (file.floats(&[[0.0]]), file.floats(&[[0.0, 1.0, 0.0]]));
         file.json["animations"] = json!([{ "samplers": [{ "input": times, "output": values }],
             "channels": [{ "sampler": 0, "target": { "node": moved, "path": "translation" } }] }]);
@@ -128,13 +128,10 @@ fn a_deep_tree_is_not_climbed_from_each_mesh() {
 fn pictured(bytes: &[u8], ranges: &[(usize, usize)]) -> Gltf {
     let indices = 0..ranges.len();
     let material = |index: usize| json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": index } } });
-    let mut file = triangle(
-        &json!({
-            "materials": indices.clone().map(material).collect::<Vec<_>>(),
-            "textures": indices.map(|source| json!({ "source": source })).collect::<Vec<_>>(),
-        }),
-        |_| json!({}),
-    );
+    let mut file = bare(&json!({
+        "materials": indices.clone().map(material).collect::<Vec<_>>(),
+        "textures": indices.map(|source| json!({ "source": source })).collect::<Vec<_>>(),
+    }));
     let whole = file.view(bytes, None);
     let start = file.json["bufferViews"][whole]["byteOffset"]
         .as_u64()
@@ -185,7 +182,7 @@ fn pictures_are_kept_once_and_within_a_bound() {
 
 #[test]
 fn a_file_beside_is_asked_for_once_and_counts_once() {
-    let mut file = triangle(&json!({}), |_| json!({}));
+    let mut file = bare(&json!({}));
     let length = file.bin.len();
     file.json["buffers"] = vec![json!({ "byteLength": length, "uri": "data.bin" }); 500].into();
     for view in file.json["bufferViews"].as_array_mut().expect("views") {

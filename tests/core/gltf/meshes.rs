@@ -4,13 +4,12 @@ use bindpose::model::{Front, Handedness, UpAxis};
 use glam::{Vec3, Vec4};
 use serde_json::{Value, json};
 
-use super::{CORNERS, assert_at, codes_of, posed, read, triangle};
+use super::{CORNERS, assert_at, bare, codes_of, posed, read, told_all, triangle};
 
 #[test]
 fn strips_fans_and_lists_wind_the_same_way_and_points_and_lines_are_left_out() {
-    let mut file = triangle(
+    let mut file = bare(
         &json!({ "meshes": [{ "primitives": [{}, { "mode": 5 }, { "mode": 6 }, { "mode": 0 }, { "mode": 2 }] }] }),
-        |_| json!({}),
     );
     let square = file.floats(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]);
     let ring = file.shorts(&[[0], [1], [3], [2]]);
@@ -39,10 +38,7 @@ fn strips_fans_and_lists_wind_the_same_way_and_points_and_lines_are_left_out() {
     }
     // The strip and the fan share their vertices, since they share their attributes.
     assert_eq!(mesh.vertex_count(), 7);
-    let left_out = imported
-        .diagnostics
-        .iter()
-        .filter(|finding| finding.code == "gltf-primitive-left-out");
+    let left_out = told_all(&imported, "gltf-primitive-left-out");
     assert_eq!(
         left_out.map(|finding| finding.pointer.as_deref()).collect::<Vec<_>>(),
         [Some("/meshes/0/primitives/3"), Some("/meshes/0/primitives/4")]
@@ -56,7 +52,7 @@ fn strips_fans_and_lists_wind_the_same_way_and_points_and_lines_are_left_out() {
 
 #[test]
 fn absent_normals_are_computed_and_told_and_absent_tangents_are_no_flaw() {
-    let imported = read(&triangle(&json!({}), |_| json!({})));
+    let imported = read(&bare(&json!({})));
     assert_eq!(imported.model.mesh.normals, [Vec3::Z; 3]);
     assert_eq!(codes_of(&imported), ["gltf-normals-absent"]);
     // No normal map asks for them.
@@ -151,10 +147,7 @@ fn a_static_mesh_stands_where_its_nodes_put_it_and_a_mirror_turns_its_winding() 
 
 #[test]
 fn morph_targets_are_shown_with_the_weights_of_node_or_mesh() {
-    let mut file = triangle(
-        &json!({ "meshes": [{ "primitives": [{}], "weights": [0.5, 0.0] }] }),
-        |_| json!({}),
-    );
+    let mut file = bare(&json!({ "meshes": [{ "primitives": [{}], "weights": [0.5, 0.0] }] }));
     let target = file.floats(&[[0.0, 0.0, 2.0]; 3]);
     let other = file.floats(&[[9.0, 9.0, 9.0]; 3]);
     file.json["meshes"][0]["primitives"][0]["targets"] = json!([{ "POSITION": target }, { "POSITION": other }]);

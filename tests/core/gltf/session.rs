@@ -9,7 +9,7 @@ use glam::{Affine3A, Vec2};
 use serde_json::json;
 
 use super::banner::banner;
-use super::triangle;
+use super::{bare, triangle};
 use crate::gltf_files::Gltf;
 
 /// A PNG of one pixel.
@@ -60,7 +60,7 @@ fn a_drop_of_text_data_and_picture_opens_as_one_model() {
 
 #[test]
 fn a_missing_file_is_told_with_its_name_and_place() {
-    let file = triangle(&json!({}), |_| json!({}));
+    let file = bare(&json!({}));
     let mut session = Session::new(false);
     session.apply(FileCommand::Add(vec![File::new(
         "fox.gltf",
@@ -248,10 +248,7 @@ fn an_edit_brings_over_what_gltf_has_and_light_above_one_stays() {
         "emissiveFactor": [1, 0, 0],
         "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 5 } },
     });
-    let file = triangle(
-        &json!({ "materials": [shining], "meshes": [{ "primitives": [{ "material": 0 }] }] }),
-        |_| json!({}),
-    );
+    let file = bare(&json!({ "materials": [shining], "meshes": [{ "primitives": [{ "material": 0 }] }] }));
     let mut session = opened(vec![File::new("a.glb", file.glb())]);
     let of_file = session.materials()[0].clone();
     assert_eq!(of_file.emissive, [5.0, 0.0, 0.0]);

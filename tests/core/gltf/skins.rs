@@ -4,7 +4,7 @@ use bindpose::import;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
-use super::{assert_at, codes_of, posed, read, refused, triangle};
+use super::{assert_at, codes_of, posed, read, refused, told, triangle};
 use crate::gltf_files::Gltf;
 
 /// A matrix that moves, as glTF stores it.
@@ -30,12 +30,17 @@ fn rig() -> Value {
     ])
 }
 
+/// These nodes, the first two of them roots, with a triangle whose corners follow the hip and the knee.
+fn skinned(nodes: &Value) -> Gltf {
+    triangle(
+        &json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": nodes, "skins": [{ "joints": [2, 3] }] }),
+        weights,
+    )
+}
+
 #[test]
 fn a_skin_hangs_on_its_joints_and_not_on_the_node_of_its_mesh() {
-    let mut file = triangle(
-        &json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": rig(), "skins": [{ "joints": [2, 3] }] }),
-        weights,
-    );
+    let mut file = skinned(&rig());
     let matrices = file.floats(&[moved(0.0, 0.0, 0.0), moved(0.0, -1.0, 0.0)]);
     file.json["skins"][0]["inverseBindMatrices"] = matrices.into();
     let imported = read(&file);
@@ -62,10 +67,7 @@ fn a_skin_hangs_on_its_joints_and_not_on_the_node_of_its_mesh() {
 
 #[test]
 fn without_inverse_bind_matrices_the_mesh_is_in_the_space_of_its_joints() {
-    let file = triangle(
-        &json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": rig(), "skins": [{ "joints": [2, 3] }] }),
-        weights,
-    );
+    let file = skinned(&rig());
     assert_at(
         &posed(&read(&file).model, 0.0),
         &[[2.0, 0.0, 0.0], [4.0, 2.0, 0.0], [2.0, 5.0, 0.0]],
@@ -139,10 +141,7 @@ fn a_joint_that_flattens_space_is_no_reason_to_fail() {
     let mut nodes = rig();
     nodes[3]["scale"] = json!([0.0, 0.0, 0.0]);
     nodes[3]["mesh"] = json!(0);
-    let file = triangle(
-        &json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": nodes, "skins": [{ "joints": [2, 3] }] }),
-        weights,
-    );
+    let file = skinned(&nodes);
     assert_at(&posed(&read(&file).model, 0.0)[3..], &[[2.0, 2.0, 0.0]; 3]);
 }
 
@@ -169,11 +168,7 @@ fn the_four_greatest_weights_are_kept_and_the_loss_is_told() {
         assert!((found - expected).abs() < 1e-6);
     }
     assert_eq!(influences[1].weights, [1.0, 0.0, 0.0, 0.0]);
-    let cut = imported
-        .diagnostics
-        .iter()
-        .find(|finding| finding.code == "weights-cut")
-        .expect("it is told");
+    let cut = told(&imported, "weights-cut");
     assert!(cut.message.contains("15.00 %"), "{}", cut.message);
     assert_eq!(
         codes_of(&imported),
@@ -237,10 +232,7 @@ fn bone_numbers_of_the_file_are_taken_where_all_joints_have_them() {
     nodes[0] = json!({ "children": [2], "extras": { "bindpose": { "bone": 2 } } });
     nodes[2]["extras"] = json!({ "bindpose": { "bone": 0 } });
     nodes[3]["extras"] = json!({ "bindpose": { "bone": 1 } });
-    let mut file = triangle(
-        &json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": nodes, "skins": [{ "joints": [2, 3] }] }),
-        weights,
-    );
+    let mut file = skinned(&nodes);
     let name = |file: &Gltf| {
         let skeleton = read(file).model.skeleton;
         skeleton.name(skeleton.joint_of_bone()[0]).map(str::to_owned)

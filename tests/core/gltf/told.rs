@@ -1,6 +1,6 @@
 //! What reading leaves out, and rules of glTF that change the picture: each is told with its place.
 
-use bindpose::diagnostic::{Diagnostic, Severity};
+use bindpose::diagnostic::Severity;
 use bindpose::import::Imported;
 use bindpose::import::import;
 use bindpose::model::AlphaMode;
@@ -8,20 +8,8 @@ use glam::{Quat, Vec4};
 use serde_json::{Value, json};
 
 use super::clips::moving;
-use super::{CORNERS, assert_at, posed, read, refused, triangle};
+use super::{CORNERS, assert_at, bare, posed, read, refused, told, told_all, triangle};
 use crate::gltf_files::Gltf;
-
-/// The finding of a code that stands there once.
-#[track_caller]
-fn told<'a>(imported: &'a Imported, code: &str) -> &'a Diagnostic {
-    let found: Vec<_> = imported
-        .diagnostics
-        .iter()
-        .filter(|finding| finding.code == code)
-        .collect();
-    assert_eq!(found.len(), 1, "{code} among {:?}", imported.diagnostics);
-    found[0]
-}
 
 fn is_silent(imported: &Imported, code: &str) -> bool {
     imported.diagnostics.iter().all(|finding| finding.code != code)
@@ -31,42 +19,30 @@ fn is_silent(imported: &Imported, code: &str) -> bool {
 fn other_scenes_and_objects_outside_of_the_one_that_is_shown_are_counted() {
     let scenes = json!([{ "nodes": [0] }, { "nodes": [1, 2] }, { "nodes": [] }]);
     let nodes = json!([{ "mesh": 0 }, { "mesh": 0 }, { "mesh": 0 }]);
-    let imported = read(&triangle(&json!({ "scenes": scenes, "nodes": nodes }), |_| json!({})));
+    let imported = read(&bare(&json!({ "scenes": scenes, "nodes": nodes })));
     let finding = told(&imported, "gltf-scene-left-out");
     assert_eq!(finding.message, "2 other scenes are left out: node 1, node 2.");
     assert_eq!((finding.severity, finding.count), (Severity::Note, 2));
-    assert!(is_silent(
-        &read(&triangle(&json!({}), |_| json!({}))),
-        "gltf-scene-left-out"
-    ));
+    assert!(is_silent(&read(&bare(&json!({}))), "gltf-scene-left-out"));
 }
 
 #[test]
 fn objects_that_become_one_mesh_are_named() {
     let nodes = json!([{ "mesh": 0, "name": "Body" }, { "mesh": 0 }, { "mesh": 0, "name": "Sword" }]);
-    let imported = read(&triangle(
-        &json!({ "nodes": nodes, "scenes": [{ "nodes": [0, 1, 2] }] }),
-        |_| json!({}),
-    ));
+    let imported = read(&bare(&json!({ "nodes": nodes, "scenes": [{ "nodes": [0, 1, 2] }] })));
     let finding = told(&imported, "gltf-objects-merged");
     assert_eq!(finding.message, "3 objects become one mesh: Body, node 1, Sword.");
     assert_eq!(finding.count, 3);
     let many: Vec<Value> = (0..12).map(|_| json!({ "mesh": 0 })).collect();
-    let file = triangle(
-        &json!({ "nodes": many, "scenes": [{ "nodes": (0..12).collect::<Vec<_>>() }] }),
-        |_| json!({}),
-    );
+    let file = bare(&json!({ "nodes": many, "scenes": [{ "nodes": (0..12).collect::<Vec<_>>() }] }));
     let message = &told(&read(&file), "gltf-objects-merged").message.clone();
     assert!(message.ends_with("node 1, node 2 and 9 more."), "{message}");
-    assert!(is_silent(
-        &read(&triangle(&json!({}), |_| json!({}))),
-        "gltf-objects-merged"
-    ));
+    assert!(is_silent(&read(&bare(&json!({}))), "gltf-objects-merged"));
 }
 
 #[test]
 fn shape_keys_are_told_whether_a_clip_moves_them_or_not() {
-    let mut file = triangle(&json!({}), |_| json!({}));
+    let mut file = bare(&json!({}));
     let target = file.floats(&[[0.0, 0.0, 2.0]; 3]);
     let mesh = &mut file.json["meshes"][0];
     mesh["primitives"][0]["targets"] = json!([{ "POSITION": target }, { "POSITION": target }]);
@@ -90,11 +66,8 @@ fn cameras_lights_and_nodes_without_anything_are_counted() {
         { "mesh": 0, "children": [4] }, { "camera": 0 }, { "extensions": { "KHR_lights_punctual": { "light": 0 } } },
         { "name": "Socket", "children": [5] }, { "name": "Below the mesh" }, { "name": "Below the socket" },
     ]);
-    let file = triangle(
-        &json!({ "nodes": nodes, "scenes": [{ "nodes": [0, 1, 2, 3] }],
-            "cameras": [{ "type": "perspective", "perspective": { "yfov": 1.0, "znear": 0.1 } }] }),
-        |_| json!({}),
-    );
+    let file = bare(&json!({ "nodes": nodes, "scenes": [{ "nodes": [0, 1, 2, 3] }],
+            "cameras": [{ "type": "perspective", "perspective": { "yfov": 1.0, "znear": 0.1 } }] }));
     let imported = read(&file);
     let finding = told(&imported, "gltf-nodes-left-out");
     assert_eq!(
@@ -109,7 +82,7 @@ fn extras_are_told_but_for_those_that_are_read() {
     let nodes = json!([{ "mesh": 0, "extras": { "gameplay": "hero" } }]);
     let document = json!({ "nodes": nodes, "extras": [1], "scenes": [{ "nodes": [0], "extras": { "bindpose": { "up": "y" } } }],
         "materials": [{ "extras": 7 }], "asset": { "version": "2.0", "extras": null } });
-    let imported = read(&triangle(&document, |_| json!({})));
+    let imported = read(&bare(&document));
     let finding = told(&imported, "gltf-extras-left-out");
     assert_eq!(
         finding.message,
@@ -133,10 +106,7 @@ fn attributes_that_nothing_takes_are_named() {
 #[test]
 fn whose_work_it_is_comes_along() {
     let document = json!({ "asset": { "version": "2.0", "copyright": "(c) Me" } });
-    assert_eq!(
-        read(&triangle(&document, |_| json!({}))).model.copyright.as_deref(),
-        Some("(c) Me")
-    );
+    assert_eq!(read(&bare(&document)).model.copyright.as_deref(), Some("(c) Me"));
 }
 
 #[test]
@@ -152,9 +122,8 @@ fn glass_is_blended_and_told() {
         mask,
     ]);
     let primitives: Vec<Value> = (0..5).map(|material| json!({ "material": material })).collect();
-    let file = triangle(
+    let file = bare(
         &json!({ "materials": materials, "meshes": [{ "primitives": primitives }], "extensionsUsed": ["KHR_materials_transmission"] }),
-        |_| json!({}),
     );
     let imported = read(&file);
     let drawn: Vec<_> = imported
@@ -174,10 +143,7 @@ fn glass_is_blended_and_told() {
             (cut, 0.6)
         ]
     );
-    let findings = imported
-        .diagnostics
-        .iter()
-        .filter(|finding| finding.code == "gltf-transmission");
+    let findings = told_all(&imported, "gltf-transmission");
     let pointers: Vec<_> = findings
         .map(|finding| finding.pointer.clone().unwrap_or_default())
         .collect();
@@ -289,51 +255,27 @@ fn whole_numbers_are_read_where_they_belong_told_where_they_make_sense_and_refus
     };
     // Of each place: signed and unsigned numbers of 8 bits as they are and normalised, and of 32 bits; then the same where quantized meshes
     // are required. 16 bits are as 8.
+    #[rustfmt::skip]
     let places: [(&str, [Becomes; 5], [Becomes; 5]); 12] = [
-        (
-            "/meshes/0/primitives/0/attributes/POSITION",
-            [Told, Told, Told, Told, Refused],
-            [Read, Read, Read, Read, Refused],
-        ),
-        (
-            "/meshes/0/primitives/0/attributes/NORMAL",
-            [Told, Told, Refused, Refused, Refused],
-            [Told, Read, Refused, Refused, Refused],
-        ),
-        (
-            "/meshes/0/primitives/0/attributes/TANGENT",
-            [Told, Told, Refused, Refused, Refused],
-            [Told, Read, Refused, Refused, Refused],
-        ),
-        (
-            "/meshes/0/primitives/0/attributes/TEXCOORD_0",
-            [Told, Told, Told, Read, Refused],
-            [Read, Read, Read, Read, Refused],
-        ),
-        (
-            "/meshes/0/primitives/0/attributes/COLOR_0",
-            [Refused, Refused, Told, Read, Refused],
-            [Refused, Refused, Told, Read, Refused],
-        ),
-        (
-            "/meshes/0/primitives/0/attributes/WEIGHTS_0",
-            [Refused, Refused, Told, Read, Refused],
-            [Refused, Refused, Told, Read, Refused],
-        ),
+        ("/meshes/0/primitives/0/attributes/POSITION", [Told, Told, Told, Told, Refused],
+         [Read, Read, Read, Read, Refused]),
+        ("/meshes/0/primitives/0/attributes/NORMAL", [Told, Told, Refused, Refused, Refused],
+         [Told, Read, Refused, Refused, Refused]),
+        ("/meshes/0/primitives/0/attributes/TANGENT", [Told, Told, Refused, Refused, Refused],
+         [Told, Read, Refused, Refused, Refused]),
+        ("/meshes/0/primitives/0/attributes/TEXCOORD_0", [Told, Told, Told, Read, Refused],
+         [Read, Read, Read, Read, Refused]),
+        ("/meshes/0/primitives/0/attributes/COLOR_0", [Refused, Refused, Told, Read, Refused],
+         [Refused, Refused, Told, Read, Refused]),
+        ("/meshes/0/primitives/0/attributes/WEIGHTS_0", [Refused, Refused, Told, Read, Refused],
+         [Refused, Refused, Told, Read, Refused]),
         ("/skins/0/inverseBindMatrices", [Refused; 5], [Refused; 5]),
         ("/animations/0/samplers/0/input", [Refused; 5], [Refused; 5]),
         ("/animations/0/samplers/0/output", [Refused; 5], [Refused; 5]),
-        (
-            "/animations/0/samplers/1/output",
-            [Told, Read, Told, Read, Refused],
-            [Told, Read, Told, Read, Refused],
-        ),
+        ("/animations/0/samplers/1/output", [Told, Read, Told, Read, Refused], [Told, Read, Told, Read, Refused]),
         ("/animations/0/samplers/2/output", [Refused; 5], [Refused; 5]),
-        (
-            "/meshes/0/primitives/0/attributes/JOINTS_0",
-            [Refused, Refused, Read, Read, Read],
-            [Refused, Refused, Read, Read, Read],
-        ),
+        ("/meshes/0/primitives/0/attributes/JOINTS_0", [Refused, Refused, Read, Read, Read],
+         [Refused, Refused, Read, Read, Read]),
     ];
     for (pointer, plain, quantized) in places {
         for (required, expected) in [(false, plain), (true, quantized)] {
@@ -355,10 +297,7 @@ fn whole_numbers_are_read_where_they_belong_told_where_they_make_sense_and_refus
                         (Refused, refused.error.pointer)
                     }
                     Ok(imported) => {
-                        let rules = imported
-                            .diagnostics
-                            .iter()
-                            .filter(|finding| finding.code == "gltf-rule-broken");
+                        let rules = told_all(&imported, "gltf-rule-broken");
                         let mut at = rules
                             .filter_map(|finding| finding.pointer.clone())
                             .filter(|at| at == pointer);
@@ -490,10 +429,7 @@ fn what_is_packed_is_refused_with_the_tool_that_unpacks_it() {
         ("KHR_texture_basisu", "`gltf-transform ktxdecompress IN.glb OUT.glb`"),
         ("EXT_texture_avif", "`gltf-transform png IN.glb OUT.glb`"),
     ] {
-        let file = triangle(
-            &json!({ "extensionsUsed": [name], "extensionsRequired": [name] }),
-            |_| json!({}),
-        );
+        let file = bare(&json!({ "extensionsUsed": [name], "extensionsRequired": [name] }));
         let told = refused(&file.glb());
         assert_eq!(told.code, "gltf-extension-required");
         assert!(
@@ -534,7 +470,7 @@ fn a_broken_index_is_told_with_what_it_belongs_to() {
         ),
         ("scene", json!(7), "The file names scene 7, but"),
     ] {
-        let mut file = triangle(&json!({ "nodes": [{ "mesh": 0 }] }), |_| json!({}));
+        let mut file = bare(&json!({ "nodes": [{ "mesh": 0 }] }));
         file.json[pointer] = value;
         if pointer == "meshes" {
             file.json["nodes"][0]["mesh"] = json!(2);

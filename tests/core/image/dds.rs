@@ -112,6 +112,7 @@ pub(super) fn every_layout() -> Vec<Fixture> {
 
 fn four_cc_fixtures() -> Vec<Fixture> {
     use Channels::{Grey, RedGreen, Rgb, Rgba};
+    #[rustfmt::skip]
     let rows = [
         ("DXT1", blocks::BC1_OPAQUE.to_vec(), "BC1", Rgb, blocks::BC1_OPAQUE_ROW),
         ("DXT1", blocks::BC1_HOLES.to_vec(), "BC1", Rgba, blocks::BC1_HOLES_ROW),
@@ -124,20 +125,8 @@ fn four_cc_fixtures() -> Vec<Fixture> {
         ("BC4S", blocks::bc4_signed(), "BC4 signed", Grey, blocks::BC4_SIGNED_ROW),
         ("ATI2", blocks::bc5(), "BC5", RedGreen, blocks::BC5_ROW),
         ("BC5U", blocks::bc5(), "BC5", RedGreen, blocks::BC5_ROW),
-        (
-            "BC5S",
-            blocks::bc5_signed(),
-            "BC5 signed",
-            RedGreen,
-            blocks::BC5_SIGNED_ROW,
-        ),
-        (
-            "\x71\0\0\0",
-            [blocks::HALF_TEXEL; 16].concat(),
-            "RGBA16F",
-            Rgba,
-            [blocks::HALF_RGBA8; 4],
-        ),
+        ("BC5S", blocks::bc5_signed(), "BC5 signed", RedGreen, blocks::BC5_SIGNED_ROW),
+        ("\x71\0\0\0", [blocks::HALF_TEXEL; 16].concat(), "RGBA16F", Rgba, [blocks::HALF_RGBA8; 4]),
     ];
     let fixture = |(name, texels, label, channels, first): (&'static str, Vec<u8>, _, _, [[u8; 4]; 4])| {
         let code = name.as_bytes().try_into().expect("four letters");
@@ -156,16 +145,11 @@ fn dxgi_fixtures() -> Vec<Fixture> {
     use Channels::{Alpha, Grey, RedGreen, Rgb, Rgba};
     let whole = |texel: &[u8]| texel.repeat(16);
     let bytes = [10, 20, 30, 40];
+    #[rustfmt::skip]
     let rows = [
         (10, whole(&blocks::HALF_TEXEL), "RGBA16F", Rgba, [blocks::HALF_RGBA8; 4]),
         // Red 1023, green 0, blue 512, alpha 2 of 3.
-        (
-            24,
-            whole(&0xa000_03ff_u32.to_le_bytes()),
-            "R10G10B10A2",
-            Rgba,
-            [[255, 0, 128, 170]; 4],
-        ),
+        (24, whole(&0xa000_03ff_u32.to_le_bytes()), "R10G10B10A2", Rgba, [[255, 0, 128, 170]; 4]),
         (27, whole(&bytes), "R8G8B8A8", Rgba, [[10, 20, 30, 40]; 4]),
         (28, whole(&bytes), "R8G8B8A8", Rgba, [[10, 20, 30, 40]; 4]),
         (29, whole(&bytes), "R8G8B8A8", Rgba, [[10, 20, 30, 40]; 4]),
@@ -183,20 +167,8 @@ fn dxgi_fixtures() -> Vec<Fixture> {
         (81, blocks::bc4_signed(), "BC4 signed", Grey, blocks::BC4_SIGNED_ROW),
         (83, blocks::bc5(), "BC5", RedGreen, blocks::BC5_ROW),
         (84, blocks::bc5_signed(), "BC5 signed", RedGreen, blocks::BC5_SIGNED_ROW),
-        (
-            85,
-            whole(&0xf81f_u16.to_le_bytes()),
-            "B5G6R5",
-            Rgb,
-            [[255, 0, 255, 255]; 4],
-        ),
-        (
-            86,
-            whole(&0x83e0_u16.to_le_bytes()),
-            "B5G5R5A1",
-            Rgba,
-            [[0, 255, 0, 255]; 4],
-        ),
+        (85, whole(&0xf81f_u16.to_le_bytes()), "B5G6R5", Rgb, [[255, 0, 255, 255]; 4]),
+        (86, whole(&0x83e0_u16.to_le_bytes()), "B5G5R5A1", Rgba, [[0, 255, 0, 255]; 4]),
         (87, whole(&bytes), "B8G8R8A8", Rgba, [[30, 20, 10, 40]; 4]),
         (88, whole(&bytes), "B8G8R8X8", Rgb, [[30, 20, 10, 255]; 4]),
         (91, whole(&bytes), "B8G8R8A8", Rgba, [[30, 20, 10, 40]; 4]),
@@ -206,13 +178,7 @@ fn dxgi_fixtures() -> Vec<Fixture> {
         (98, blocks::bc7(), "BC7", Rgba, blocks::BC7_ROW),
         (99, blocks::bc7(), "BC7", Rgba, blocks::BC7_ROW),
         // Alpha 8, red 4, green 2, blue 1, each of 15.
-        (
-            115,
-            whole(&0x8421_u16.to_le_bytes()),
-            "B4G4R4A4",
-            Rgba,
-            [[68, 34, 17, 136]; 4],
-        ),
+        (115, whole(&0x8421_u16.to_le_bytes()), "B4G4R4A4", Rgba, [[68, 34, 17, 136]; 4]),
     ];
     let fixture = |(format, texels, label, channels, first): (u32, Vec<u8>, _, _, [[u8; 4]; 4])| Fixture {
         name: label,
@@ -230,168 +196,33 @@ fn masked_fixtures() -> Vec<Fixture> {
     const G: u32 = 0xff00;
     const B: u32 = 0xff_0000;
     const A: u32 = 0xff00_0000;
+    #[rustfmt::skip]
     let rows: [(_, _, _, &[u8], _, _, [u8; 4]); 21] = [
         // The maps of the statics: room for alpha, all of it 0, and no mask.
-        (
-            RGB,
-            32,
-            [B, G, R, 0],
-            &[10, 20, 30, 0],
-            "B8G8R8X8",
-            Rgb,
-            [30, 20, 10, 255],
-        ),
-        (
-            RGB | ALPHA_PIXELS,
-            32,
-            [B, G, R, A],
-            &[10, 20, 30, 40],
-            "B8G8R8A8",
-            Rgba,
-            [30, 20, 10, 40],
-        ),
-        (
-            RGB | ALPHA_PIXELS,
-            32,
-            [R, G, B, A],
-            &[10, 20, 30, 40],
-            "R8G8B8A8",
-            Rgba,
-            [10, 20, 30, 40],
-        ),
-        (
-            RGB,
-            32,
-            [R, G, B, 0],
-            &[10, 20, 30, 0],
-            "R8G8B8X8",
-            Rgb,
-            [10, 20, 30, 255],
-        ),
+        (RGB, 32, [B, G, R, 0], &[10, 20, 30, 0], "B8G8R8X8", Rgb, [30, 20, 10, 255]),
+        (RGB | ALPHA_PIXELS, 32, [B, G, R, A], &[10, 20, 30, 40], "B8G8R8A8", Rgba, [30, 20, 10, 40]),
+        (RGB | ALPHA_PIXELS, 32, [R, G, B, A], &[10, 20, 30, 40], "R8G8B8A8", Rgba, [10, 20, 30, 40]),
+        (RGB, 32, [R, G, B, 0], &[10, 20, 30, 0], "R8G8B8X8", Rgb, [10, 20, 30, 255]),
         // An alpha mask without its flag, and the flag without a mask, are no alpha.
-        (
-            RGB,
-            32,
-            [B, G, R, A],
-            &[10, 20, 30, 40],
-            "B8G8R8X8",
-            Rgb,
-            [30, 20, 10, 255],
-        ),
-        (
-            RGB | ALPHA_PIXELS,
-            32,
-            [B, G, R, 0],
-            &[10, 20, 30, 40],
-            "B8G8R8X8",
-            Rgb,
-            [30, 20, 10, 255],
-        ),
+        (RGB, 32, [B, G, R, A], &[10, 20, 30, 40], "B8G8R8X8", Rgb, [30, 20, 10, 255]),
+        (RGB | ALPHA_PIXELS, 32, [B, G, R, 0], &[10, 20, 30, 40], "B8G8R8X8", Rgb, [30, 20, 10, 255]),
         (RGB, 24, [B, G, R, 0], &[10, 20, 30], "B8G8R8", Rgb, [30, 20, 10, 255]),
         (RGB, 24, [R, G, B, 0], &[10, 20, 30], "R8G8B8", Rgb, [10, 20, 30, 255]),
         // Red 16 of 31, green 32 of 63, blue 1 of 31.
-        (
-            RGB,
-            16,
-            [0xf800, 0x7e0, 0x1f, 0],
-            &[0x01, 0x84],
-            "B5G6R5",
-            Rgb,
-            [132, 130, 8, 255],
-        ),
-        (
-            RGB | ALPHA_PIXELS,
-            16,
-            [0x7c00, 0x3e0, 0x1f, 0x8000],
-            &[0x1f, 0x7c],
-            "B5G5R5A1",
-            Rgba,
-            [255, 0, 255, 0],
-        ),
-        (
-            RGB,
-            16,
-            [0x7c00, 0x3e0, 0x1f, 0],
-            &[0x1f, 0x7c],
-            "B5G5R5X1",
-            Rgb,
-            [255, 0, 255, 255],
-        ),
-        (
-            RGB | ALPHA_PIXELS,
-            16,
-            [0xf00, 0xf0, 0xf, 0xf000],
-            &[0x21, 0x84],
-            "B4G4R4A4",
-            Rgba,
-            [68, 34, 17, 136],
-        ),
+        (RGB, 16, [0xf800, 0x7e0, 0x1f, 0], &[0x01, 0x84], "B5G6R5", Rgb, [132, 130, 8, 255]),
+        (RGB | ALPHA_PIXELS, 16, [0x7c00, 0x3e0, 0x1f, 0x8000], &[0x1f, 0x7c], "B5G5R5A1", Rgba, [255, 0, 255, 0]),
+        (RGB, 16, [0x7c00, 0x3e0, 0x1f, 0], &[0x1f, 0x7c], "B5G5R5X1", Rgb, [255, 0, 255, 255]),
+        (RGB | ALPHA_PIXELS, 16, [0xf00, 0xf0, 0xf, 0xf000], &[0x21, 0x84], "B4G4R4A4", Rgba, [68, 34, 17, 136]),
         // Red 7 of 7, green 1 of 7, blue 2 of 3.
-        (
-            RGB,
-            8,
-            [0xe0, 0x1c, 0x03, 0],
-            &[0b1110_0110],
-            "B2G3R3",
-            Rgb,
-            [255, 36, 170, 255],
-        ),
-        (
-            RGB,
-            32,
-            [0x3ff, 0xf_fc00, 0x3ff0_0000, 0],
-            &[0xff, 3, 0, 0x20],
-            "R10G10B10X2",
-            Rgb,
-            [255, 0, 128, 255],
-        ),
-        (
-            RGB,
-            32,
-            [0xffff, 0xffff_0000, 0, 0],
-            &[0, 0x80, 0xff, 0xff],
-            "R16G16",
-            RedGreen,
-            [128, 255, 0, 255],
-        ),
+        (RGB, 8, [0xe0, 0x1c, 0x03, 0], &[0b1110_0110], "B2G3R3", Rgb, [255, 36, 170, 255]),
+        (RGB, 32, [0x3ff, 0xf_fc00, 0x3ff0_0000, 0], &[0xff, 3, 0, 0x20], "R10G10B10X2", Rgb, [255, 0, 128, 255]),
+        (RGB, 32, [0xffff, 0xffff_0000, 0, 0], &[0, 0x80, 0xff, 0xff], "R16G16", RedGreen, [128, 255, 0, 255]),
         (LUMINANCE, 8, [0xff, 0, 0, 0], &[10], "L8", Grey, [10, 10, 10, 255]),
-        (
-            LUMINANCE,
-            16,
-            [0xffff, 0, 0, 0],
-            &[0, 0x80],
-            "L16",
-            Grey,
-            [128, 128, 128, 255],
-        ),
-        (
-            LUMINANCE | ALPHA_PIXELS,
-            16,
-            [0xff, 0, 0, 0xff00],
-            &[10, 20],
-            "L8A8",
-            GreyAlpha,
-            [10, 10, 10, 20],
-        ),
-        (
-            LUMINANCE | ALPHA_PIXELS,
-            8,
-            [0xf, 0, 0, 0xf0],
-            &[0x21],
-            "L4A4",
-            GreyAlpha,
-            [17, 17, 17, 34],
-        ),
+        (LUMINANCE, 16, [0xffff, 0, 0, 0], &[0, 0x80], "L16", Grey, [128, 128, 128, 255]),
+        (LUMINANCE | ALPHA_PIXELS, 16, [0xff, 0, 0, 0xff00], &[10, 20], "L8A8", GreyAlpha, [10, 10, 10, 20]),
+        (LUMINANCE | ALPHA_PIXELS, 8, [0xf, 0, 0, 0xf0], &[0x21], "L4A4", GreyAlpha, [17, 17, 17, 34]),
         // Masks of green and blue mean nothing beside grey.
-        (
-            LUMINANCE,
-            8,
-            [0xff, 0xff, 0xff, 0],
-            &[10],
-            "L8",
-            Grey,
-            [10, 10, 10, 255],
-        ),
+        (LUMINANCE, 8, [0xff, 0xff, 0xff, 0], &[10], "L8", Grey, [10, 10, 10, 255]),
         (ALPHA, 8, [0, 0, 0, 0xff], &[10], "A8", Alpha, [0, 0, 0, 10]),
     ];
     let fixture = |(flags, bits, masks, pixel, label, channels, texel): (_, _, _, &[u8], _, _, _)| Fixture {

@@ -15,13 +15,10 @@ fn error_of(bytes: &[u8], name: &str) -> String {
 
 #[test]
 fn files_that_are_no_pictures_are_named() {
-    for (bytes, name, expected) in [
+    #[rustfmt::skip]
+    let cases = [
         (b"".as_slice(), "a.dds", "image-empty: a.dds: the file is empty"),
-        (
-            b"hello",
-            "t/a.txt",
-            "image-unrecognized: t/a.txt: this is none of DDS, PNG, JPEG, WebP, TGA and BMP",
-        ),
+        (b"hello", "t/a.txt", "image-unrecognized: t/a.txt: this is none of DDS, PNG, JPEG, WebP, TGA and BMP"),
         (
             b"#?RADIANCE\n",
             "studio.hdr",
@@ -32,22 +29,11 @@ fn files_that_are_no_pictures_are_named() {
             "studio.dat",
             "image-unrecognized: studio.dat: Radiance (.hdr) and OpenEXR (.exr) cannot be read yet; a cube map as .dds can",
         ),
-        (
-            b"ABCD\n",
-            "a.dds",
-            "dds-signature: a.dds: a DDS file begins with \"DDS \", and this one with \"ABCD\"",
-        ),
-        (
-            b"DDS ",
-            "a.dds",
-            "dds-header-cut: a.dds: the DDS header takes 128 bytes, and the file has 4",
-        ),
-        (
-            b"DD",
-            "a.dds",
-            "dds-header-cut: a.dds: the DDS header takes 128 bytes, and the file has 2",
-        ),
-    ] {
+        (b"ABCD\n", "a.dds", "dds-signature: a.dds: a DDS file begins with \"DDS \", and this one with \"ABCD\""),
+        (b"DDS ", "a.dds", "dds-header-cut: a.dds: the DDS header takes 128 bytes, and the file has 4"),
+        (b"DD", "a.dds", "dds-header-cut: a.dds: the DDS header takes 128 bytes, and the file has 2"),
+    ];
+    for (bytes, name, expected) in cases {
         assert_eq!(error_of(bytes, name), expected);
     }
 }
@@ -59,35 +45,18 @@ fn headers_that_cannot_be_are_told_apart() {
         dx10: Some(fields),
         ..Dds::dxgi(0, 4, 4)
     };
-    for (dds, expected) in [
-        (
-            Dds::four_cc(b"DXT1", 0, 4),
-            "image-size: a.dds: a picture of 0 × 4 cannot be shown; a side may have 1 to 16384 texels",
-        ),
-        (
-            Dds::four_cc(b"DXT1", 65_535, 65_535),
-            "image-size: a.dds: a picture of 65535 × 65535 cannot be shown; a side may have 1 to 16384 texels",
-        ),
-        (
-            bc1().mips(4),
-            "image-mip-count: a.dds: the header gives 4 mips, and a picture of 4 × 4 has at most 3",
-        ),
-        (
-            bc1().mips(u32::MAX),
-            "image-mip-count: a.dds: the header gives 4294967295 mips, and a picture of 4 × 4 has at most 3",
-        ),
-        (
-            Dds::four_cc(b"YUY2", 4, 4),
-            "dds-unsupported: a.dds: DDS pixels of the kind YUY2 are not supported",
-        ),
-        (
-            Dds::four_cc(&[116, 0, 0, 0], 4, 4),
-            "dds-unsupported: a.dds: DDS pixels of the kind 116 are not supported",
-        ),
-        (
-            Dds::dxgi(2, 4, 4),
-            "dds-unsupported: a.dds: DDS pixels of the DXGI format 2 are not supported",
-        ),
+    #[rustfmt::skip]
+    let rows = [
+        (Dds::four_cc(b"DXT1", 0, 4),
+         "image-size: a.dds: a picture of 0 × 4 cannot be shown; a side may have 1 to 16384 texels"),
+        (Dds::four_cc(b"DXT1", 65_535, 65_535),
+         "image-size: a.dds: a picture of 65535 × 65535 cannot be shown; a side may have 1 to 16384 texels"),
+        (bc1().mips(4), "image-mip-count: a.dds: the header gives 4 mips, and a picture of 4 × 4 has at most 3"),
+        (bc1().mips(u32::MAX),
+         "image-mip-count: a.dds: the header gives 4294967295 mips, and a picture of 4 × 4 has at most 3"),
+        (Dds::four_cc(b"YUY2", 4, 4), "dds-unsupported: a.dds: DDS pixels of the kind YUY2 are not supported"),
+        (Dds::four_cc(&[116, 0, 0, 0], 4, 4), "dds-unsupported: a.dds: DDS pixels of the kind 116 are not supported"),
+        (Dds::dxgi(2, 4, 4), "dds-unsupported: a.dds: DDS pixels of the DXGI format 2 are not supported"),
         (
             Dds::masked(0, 32, [1; 4], 4, 4),
             "dds-unsupported: a.dds: DDS pixels with the flags 0x0 are not supported; there must be a four-character code, colour, grey or alpha",
@@ -96,57 +65,27 @@ fn headers_that_cannot_be_are_told_apart() {
             Dds::masked(0x20, 8, [0; 4], 4, 4),
             "dds-unsupported: a.dds: DDS pixels with the flags 0x20 are not supported; there must be a four-character code, colour, grey or alpha",
         ),
-        (
-            Dds::masked(RGB, 12, [0xf, 0, 0, 0], 4, 4),
-            "dds-unsupported: a.dds: DDS pixels of 12 bits are not supported; there must be 8, 16, 24 or 32",
-        ),
-        (
-            Dds::masked(RGB, 16, [0xff, 0xf0f0, 0, 0], 4, 4),
-            "dds-mask: a.dds: the mask 0xf0f0 for green does not fit a pixel of 16 bits",
-        ),
-        (
-            Dds::masked(LUMINANCE | ALPHA_PIXELS, 8, [0xff, 0, 0, 0xff00], 4, 4),
-            "dds-mask: a.dds: the mask 0xff00 for alpha does not fit a pixel of 8 bits",
-        ),
-        (
-            Dds::masked(RGB, 32, [0; 4], 4, 4),
-            "dds-mask: a.dds: the mask 0x0 for colour and alpha does not fit a pixel of 32 bits",
-        ),
-        (
-            Dds {
-                caps2: 0x20_0000,
-                ..bc1()
-            },
-            "image-dimension: a.dds: a texture with three dimensions is not supported, only flat ones and cubes are",
-        ),
-        (
-            dx10([71, 4, 0, 1, 0]),
-            "image-dimension: a.dds: a texture with three dimensions is not supported, only flat ones and cubes are",
-        ),
-        (
-            dx10([71, 2, 0, 1, 0]),
-            "image-dimension: a.dds: a texture with one dimension is not supported, only flat ones and cubes are",
-        ),
-        (
-            dx10([71, 9, 0, 1, 0]),
-            "dds-header-field: a.dds: the DDS header gives its dimension as 9; it must be 3",
-        ),
-        (
-            dx10([71, 3, 0, 0, 0]),
-            "image-no-slices: a.dds: the array has no slices",
-        ),
-        (
-            Dds { caps2: 0x0e00, ..bc1() },
-            "image-cube: a.dds: a cube has 6 faces, and this one 2",
-        ),
-        (
-            Dds {
-                caps2: CUBE_OF_SIX,
-                ..Dds::four_cc(b"DXT1", 8, 4)
-            },
-            "image-cube: a.dds: the faces of a cube must be square, and these are 8 × 4",
-        ),
-    ] {
+        (Dds::masked(RGB, 12, [0xf, 0, 0, 0], 4, 4),
+         "dds-unsupported: a.dds: DDS pixels of 12 bits are not supported; there must be 8, 16, 24 or 32"),
+        (Dds::masked(RGB, 16, [0xff, 0xf0f0, 0, 0], 4, 4),
+         "dds-mask: a.dds: the mask 0xf0f0 for green does not fit a pixel of 16 bits"),
+        (Dds::masked(LUMINANCE | ALPHA_PIXELS, 8, [0xff, 0, 0, 0xff00], 4, 4),
+         "dds-mask: a.dds: the mask 0xff00 for alpha does not fit a pixel of 8 bits"),
+        (Dds::masked(RGB, 32, [0; 4], 4, 4),
+         "dds-mask: a.dds: the mask 0x0 for colour and alpha does not fit a pixel of 32 bits"),
+        (Dds { caps2: 0x20_0000, ..bc1() },
+         "image-dimension: a.dds: a texture with three dimensions is not supported, only flat ones and cubes are"),
+        (dx10([71, 4, 0, 1, 0]),
+         "image-dimension: a.dds: a texture with three dimensions is not supported, only flat ones and cubes are"),
+        (dx10([71, 2, 0, 1, 0]),
+         "image-dimension: a.dds: a texture with one dimension is not supported, only flat ones and cubes are"),
+        (dx10([71, 9, 0, 1, 0]), "dds-header-field: a.dds: the DDS header gives its dimension as 9; it must be 3"),
+        (dx10([71, 3, 0, 0, 0]), "image-no-slices: a.dds: the array has no slices"),
+        (Dds { caps2: 0x0e00, ..bc1() }, "image-cube: a.dds: a cube has 6 faces, and this one 2"),
+        (Dds { caps2: CUBE_OF_SIX, ..Dds::four_cc(b"DXT1", 8, 4) },
+         "image-cube: a.dds: the faces of a cube must be square, and these are 8 × 4"),
+    ];
+    for (dds, expected) in rows {
         assert_eq!(error_of(&dds.file(&[0; 1024]), "a.dds"), expected);
     }
 }
@@ -180,40 +119,20 @@ fn files_that_end_early_say_how_much_lacks_and_where() {
         dx10: Some([71, 3, 0, slices, 0]),
         ..Dds::dxgi(71, 8, 8).mips(2)
     };
-    for (dds, len, expected) in [
-        (
-            Dds::four_cc(b"DXT1", 8, 8),
-            31,
-            "the file ends 1 bytes early, in mip 0 (8 × 8) of the picture at byte 128",
-        ),
-        (
-            Dds::four_cc(b"DXT1", 8, 8).mips(2),
-            32,
-            "the file ends 8 bytes early, in mip 1 (4 × 4) of the picture at byte 160",
-        ),
+    #[rustfmt::skip]
+    let cases = [
+        (Dds::four_cc(b"DXT1", 8, 8), 31, "the file ends 1 bytes early, in mip 0 (8 × 8) of the picture at byte 128"),
+        (Dds::four_cc(b"DXT1", 8, 8).mips(2), 32,
+         "the file ends 8 bytes early, in mip 1 (4 × 4) of the picture at byte 160"),
         // 32 + 8 + 8 + 8 bytes a face.
-        (
-            cube,
-            56 * 2 + 45,
-            "the file ends 179 bytes early, in mip 2 (2 × 2) of face +y at byte 280",
-        ),
-        (
-            array(3),
-            40 + 8,
-            "the file ends 72 bytes early, in mip 0 (8 × 8) of slice 1 at byte 188",
-        ),
-        (
-            array(u32::MAX),
-            100,
-            "the file ends 171798691700 bytes early, in mip 0 (8 × 8) of slice 2 at byte 228",
-        ),
+        (cube, 56 * 2 + 45, "the file ends 179 bytes early, in mip 2 (2 × 2) of face +y at byte 280"),
+        (array(3), 40 + 8, "the file ends 72 bytes early, in mip 0 (8 × 8) of slice 1 at byte 188"),
+        (array(u32::MAX), 100, "the file ends 171798691700 bytes early, in mip 0 (8 × 8) of slice 2 at byte 228"),
         // What the header claims is never allocated.
-        (
-            Dds::dxgi(98, 16_384, 16_384),
-            5,
-            "the file ends 268435451 bytes early, in mip 0 (16384 × 16384) of the picture at byte 148",
-        ),
-    ] {
+        (Dds::dxgi(98, 16_384, 16_384), 5,
+         "the file ends 268435451 bytes early, in mip 0 (16384 × 16384) of the picture at byte 148"),
+    ];
+    for (dds, len, expected) in cases {
         assert_eq!(
             error_of(&dds.file(&vec![0; len]), "a.dds"),
             format!("image-cut: a.dds: {expected}")

@@ -159,40 +159,29 @@ fn malformed_real_files_are_named_with_their_reason() {
     if !at_hand() {
         return;
     }
-    for (file, expected) in [
-        (
-            "invalid-006b3057-841d-4c47-8af3-c352fd511b8d",
-            "dds-header-cut: the DDS header takes 148 bytes, and the file has 128",
-        ),
+    #[rustfmt::skip]
+    let cases = [
+        ("invalid-006b3057-841d-4c47-8af3-c352fd511b8d",
+         "dds-header-cut: the DDS header takes 148 bytes, and the file has 128"),
         (
             "invalid-3f308164-3aa4-4095-8fec-f48fa90ff471",
             "dds-unsupported: DDS pixels with the flags 0x0 are not supported; there must be a four-character code, colour, grey or alpha",
         ),
-        (
-            "invalid-4d9b027e-ab8b-4412-ae66-a49fe7e7120e",
-            "image-dimension: a texture with three dimensions is not supported, only flat ones and cubes are",
-        ),
-        (
-            "invalid-676e6dcc-38ae-42b6-bda7-da30d1ccdc4b",
-            "image-cube: a cube has 6 faces, and this one 0",
-        ),
-        (
-            "invalid-7bf16981-845f-4095-af74-bbb1244cd105",
-            "dds-signature: a DDS file begins with \"DDS \", and this one with \"ABCD\"",
-        ),
-        (
-            "invalid-adc8f63c-279f-4f25-9641-3324b3838a12",
-            "dds-header-field: the DDS header gives the size of its pixel format as 24; it must be 32",
-        ),
-        (
-            "invalid-dc141355-6459-4a70-b8f0-e3fcefbb2e39",
-            "image-dimension: a texture with one dimension is not supported, only flat ones and cubes are",
-        ),
+        ("invalid-4d9b027e-ab8b-4412-ae66-a49fe7e7120e",
+         "image-dimension: a texture with three dimensions is not supported, only flat ones and cubes are"),
+        ("invalid-676e6dcc-38ae-42b6-bda7-da30d1ccdc4b", "image-cube: a cube has 6 faces, and this one 0"),
+        ("invalid-7bf16981-845f-4095-af74-bbb1244cd105",
+         "dds-signature: a DDS file begins with \"DDS \", and this one with \"ABCD\""),
+        ("invalid-adc8f63c-279f-4f25-9641-3324b3838a12",
+         "dds-header-field: the DDS header gives the size of its pixel format as 24; it must be 32"),
+        ("invalid-dc141355-6459-4a70-b8f0-e3fcefbb2e39",
+         "image-dimension: a texture with one dimension is not supported, only flat ones and cubes are"),
         (
             "unsupported-daab5194-837d-4578-932d-423a7338f4c4",
             "dds-unsupported: DDS pixels with the flags 0x0 are not supported; there must be a four-character code, colour, grey or alpha",
         ),
-    ] {
+    ];
+    for (file, expected) in cases {
         let name = format!("malformed/{file}.dds");
         let bytes = std::fs::read(Path::new(FOLDER).join(&name)).expect("the file can be read");
         let error = decode(&bytes, &name).expect_err("the file is malformed");

@@ -14,26 +14,15 @@ fn with_weights(weights: [f32; 4]) -> Document {
 
 #[test]
 fn weights_are_normalised_and_the_fourth_is_kept() {
+    #[rustfmt::skip]
     let cases = [
         // Rounded to 7 digits in the file: nothing to tell.
         ([0.25, 0.25, 0.25, 0.2500001], [0.25, 0.25, 0.25, 0.25], None),
         ([0.5, 0.25, 0.125, 0.125], [0.5, 0.25, 0.125, 0.125], None),
-        (
-            [2.0, 1.0, 1.0, 4.0],
-            [0.25, 0.125, 0.125, 0.5],
-            Some("weights-not-normalized"),
-        ),
-        (
-            [0.5, 0.0, 0.0, 0.0],
-            [1.0, 0.0, 0.0, 0.0],
-            Some("weights-not-normalized"),
-        ),
+        ([2.0, 1.0, 1.0, 4.0], [0.25, 0.125, 0.125, 0.5], Some("weights-not-normalized")),
+        ([0.5, 0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], Some("weights-not-normalized")),
         ([f32::MAX; 4], [0.25; 4], Some("weights-not-normalized")),
-        (
-            [1e-40, 0.0, 0.0, 0.0],
-            [1.0, 0.0, 0.0, 0.0],
-            Some("weights-not-normalized"),
-        ),
+        ([1e-40, 0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], Some("weights-not-normalized")),
         ([0.0; 4], [0.0; 4], Some("weights-all-zero")),
         ([1.0, -0.5, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], Some("weights-invalid")),
         ([f32::NAN, 1.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], Some("weights-invalid")),
@@ -59,20 +48,14 @@ fn words_of_the_findings() {
     document.vertices[1].blend_weights = [0.9, 0.0, 0.0, 0.0];
     document.vertices[2].blend_weights = [0.0; 4];
     document.vertices[3].blend_weights = [1.0, 0.0, f32::INFINITY, 0.0];
-    for (code, words) in [
-        (
-            "weights-not-normalized",
-            "2 vertices have blend weights whose sum is off from 1 by more than 0.001; normalised.",
-        ),
-        (
-            "weights-all-zero",
-            "1 vertex has no blend weight; not moved by any bone.",
-        ),
-        (
-            "weights-invalid",
-            "1 vertex has a blend weight that is negative or not finite; taken as 0.",
-        ),
-    ] {
+    #[rustfmt::skip]
+    let rows = [
+        ("weights-not-normalized",
+         "2 vertices have blend weights whose sum is off from 1 by more than 0.001; normalised."),
+        ("weights-all-zero", "1 vertex has no blend weight; not moved by any bone."),
+        ("weights-invalid", "1 vertex has a blend weight that is negative or not finite; taken as 0."),
+    ];
+    for (code, words) in rows {
         assert_eq!(message_of(&document, code), words);
     }
 }

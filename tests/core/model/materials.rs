@@ -3,7 +3,7 @@
 use bindpose::format::{Document, Subset};
 use bindpose::model::{Material, Reflectance, Submesh, roughness_from_power};
 
-use crate::documents::{arm, material, message_of, model_of, quad, subset};
+use crate::documents::{arm, assert_told, material, message_of, model_of, quad, subset};
 
 fn submesh(triangle_start: u32, triangle_count: u32, material: u32) -> Submesh {
     Submesh {
@@ -85,49 +85,35 @@ fn subset_i_is_drawn_with_material_i() {
 fn a_subset_without_material_gets_the_default_one() {
     let mut document = quad();
     document.subsets = vec![subset(0, 1), subset(1, 1)];
-    let (model, codes) = model_of(&document);
+    let (model, _) = model_of(&document);
     assert_eq!(model.mesh.submeshes, [submesh(0, 1, 0), submesh(1, 1, 1)]);
     assert_eq!(model.materials[1].name, "default");
-    assert_eq!(codes, ["subset-without-material"]);
-    assert_eq!(
-        message_of(&document, "subset-without-material"),
-        "1 subset has no material; drawn in a default grey."
-    );
+    let words = "1 subset has no material; drawn in a default grey.";
+    assert_told(&document, "subset-without-material", words);
 }
 
 #[test]
 fn without_subsets_all_triangles_are_drawn() {
     let mut document = quad();
     document.subsets.clear();
-    let (model, codes) = model_of(&document);
+    let (model, _) = model_of(&document);
     assert_eq!(model.mesh.submeshes, [submesh(0, 2, 0)]);
-    assert_eq!(codes, ["no-subsets"]);
-    assert_eq!(
-        message_of(&document, "no-subsets"),
-        "The file has no subset; all 2 triangles are drawn with the first material."
-    );
+    let words = "The file has no subset; all 2 triangles are drawn with the first material.";
+    assert_told(&document, "no-subsets", words);
     document.materials.clear();
     assert_eq!(model_of(&document).0.materials.len(), 1);
 }
 
 #[test]
 fn ranges_are_cut_to_the_triangles_there_are() {
+    #[rustfmt::skip]
     let ranges = [
-        (
-            subset(0, 5),
-            submesh(0, 2, 0),
-            "Subset 0 asks for 5 triangles from 0 on, but the file has 2; 2 of them are drawn.",
-        ),
-        (
-            subset(7, 1),
-            submesh(2, 0, 0),
-            "Subset 0 asks for 1 triangles from 7 on, but the file has 2; 0 of them are drawn.",
-        ),
-        (
-            subset(1, u32::MAX),
-            submesh(1, 1, 0),
-            "Subset 0 asks for 4294967295 triangles from 1 on, but the file has 2; 1 of them are drawn.",
-        ),
+        (subset(0, 5), submesh(0, 2, 0),
+         "Subset 0 asks for 5 triangles from 0 on, but the file has 2; 2 of them are drawn."),
+        (subset(7, 1), submesh(2, 0, 0),
+         "Subset 0 asks for 1 triangles from 7 on, but the file has 2; 0 of them are drawn."),
+        (subset(1, u32::MAX), submesh(1, 1, 0),
+         "Subset 0 asks for 4294967295 triangles from 1 on, but the file has 2; 1 of them are drawn."),
     ];
     for (stored, drawn, words) in ranges {
         let mut document = quad();

@@ -12,7 +12,7 @@ use bindpose::model::{
 use glam::Affine3A;
 
 use crate::chains::{mirrored, mirrored_model};
-use crate::documents::{arm, figure, model_of, offset, real_file, reordered};
+use crate::documents::{arm, figure, model_of, offset, reordered, soldier};
 
 fn pairs(model: &Model) -> Vec<MirrorPair> {
     let world_from_model = world_from_model(model.handedness, model.up_axis, model.front);
@@ -222,9 +222,7 @@ fn kept_names_read_back_what_was_written_whatever_they_are() {
 
 #[test]
 fn the_soldiers_limbs_are_pairs() {
-    let Some(parsed) = real_file("d3d12/soldier") else {
-        return;
-    };
+    let Some(parsed) = soldier() else { return };
     let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     let pairs = pairs(&model);
     let world = world_from_model(model.handedness, model.up_axis, model.front);

@@ -4,7 +4,7 @@ use bindpose::import::m3d;
 use bindpose::model::{Handedness, Track, UpAxis};
 use glam::Vec3;
 
-use crate::documents::{REAL_FILES, read_parsed, real_file};
+use crate::documents::{REAL_FILES, read_parsed, real_file, soldier};
 
 /// Bounds are known to one digit behind the point.
 const BOUNDS_TOLERANCE: f32 = 0.06;
@@ -45,9 +45,7 @@ fn counts_hands_and_axes() {
 
 #[test]
 fn the_soldier() {
-    let Some(parsed) = real_file("d3d12/soldier") else {
-        return;
-    };
+    let Some(parsed) = soldier() else { return };
     let (model, findings) = read_parsed(&parsed);
     assert_eq!(model.skeleton.joint_count(), 58);
     assert!(model.skeleton.file_bones().iter().copied().eq(0..58));

@@ -8,7 +8,7 @@ use glam::Affine3A;
 use proptest::prelude::*;
 
 use crate::chains::mirrored_model;
-use crate::documents::{arm, model_of, quad, real_file};
+use crate::documents::{arm, model_of, quad, soldier};
 
 fn skeleton(parents: Vec<Option<u32>>) -> Skeleton {
     let count = parents.len();
@@ -114,9 +114,7 @@ fn what_is_not_there_has_no_branch() {
 
 #[test]
 fn the_soldiers_counts_are_those_of_a_walk_over_all_parents() {
-    let Some(parsed) = real_file("d3d12/soldier") else {
-        return;
-    };
+    let Some(parsed) = soldier() else { return };
     let (model, _) = m3d::from_parsed(&parsed).expect("sound");
     check_tree(&model.skeleton);
     check_counts(&model);

@@ -10,7 +10,7 @@ use bindpose::scene::{
 use glam::{Affine3A, Vec2, Vec3};
 
 use crate::chains::mirrored_model;
-use crate::documents::{arm, model_of, real_file};
+use crate::documents::{arm, model_of, soldier};
 
 /// Bones of a model at half of its first clip, in a world that mirrors.
 fn placed(model: &Model) -> Bones {
@@ -352,9 +352,7 @@ fn labels_stand_at_their_joints_apart_from_each_other_the_chosen_first() {
 
 #[test]
 fn the_soldiers_joints_are_picked_where_they_are_drawn() {
-    let Some(parsed) = real_file("d3d12/soldier") else {
-        return;
-    };
+    let Some(parsed) = soldier() else { return };
     let bones = placed(&m3d::from_parsed(&parsed).expect("sound").0);
     check_pick(&bones, &screen(&bones, Camera::default().projection));
 }

@@ -8,6 +8,7 @@ use proptest::prelude::*;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
+use super::dropped;
 use super::models::{broken, document, file, still};
 
 /// An archive of these files.
@@ -37,12 +38,6 @@ fn model_and_map() -> [(String, Vec<u8>); 2] {
     ]
 }
 
-fn added(files: Vec<File>) -> Session {
-    let mut session = Session::new(false);
-    session.apply(FileCommand::Add(files));
-    session
-}
-
 /// The code and the message of the error on show.
 fn error(session: &Session) -> (&str, &str) {
     let error = session.error().expect("it is refused");
@@ -61,7 +56,7 @@ fn an_archive_is_opened_as_its_folder() {
     for method in [CompressionMethod::Stored, CompressionMethod::Deflated] {
         let entries = files.iter().map(|(name, bytes)| (name.as_str(), &bytes[..]));
         let entries: Vec<_> = hidden.into_iter().chain(entries).collect();
-        let session = added(vec![zipped("drop/box.ZIP", method, &entries)]);
+        let session = dropped(vec![zipped("drop/box.ZIP", method, &entries)]);
         assert_eq!(session.error(), None);
         let open = session.open_model().expect("the model in it");
         assert_eq!(open.file.path, "drop/art/box.m3d");
@@ -73,7 +68,7 @@ fn an_archive_is_opened_as_its_folder() {
 #[test]
 fn what_is_exported_with_its_maps_is_opened_again() {
     let files = model_and_map();
-    let session = added(files.map(|(name, bytes)| File::new(&name, bytes)).to_vec());
+    let session = dropped(files.map(|(name, bytes)| File::new(&name, bytes)).to_vec());
     let options = ExportOptions {
         format: ExportFormat::D3d11,
         ..ExportOptions::default()
@@ -81,7 +76,7 @@ fn what_is_exported_with_its_maps_is_opened_again() {
     let exported = session.export_job(&options).expect("a model is open").run();
     let exported = exported.expect("it can be written");
     assert_eq!(exported.name, "box-d3d11.zip");
-    let again = added(vec![File::new(&exported.name, exported.bytes)]);
+    let again = dropped(vec![File::new(&exported.name, exported.bytes)]);
     assert_eq!(again.error(), None);
     let [before, after] = [&session, &again].map(|session| session.open_model().expect("a model"));
     assert_eq!(before.model.mesh.positions, after.model.mesh.positions);
@@ -93,7 +88,7 @@ fn what_is_exported_with_its_maps_is_opened_again() {
 fn an_archive_beside_a_model_brings_its_maps() {
     let [(_, model), (map, picture)] = model_and_map();
     let coats = zipped("coats.zip", CompressionMethod::Deflated, &[(&map, &picture)]);
-    let session = added(vec![File::new("box.m3d", model), coats]);
+    let session = dropped(vec![File::new("box.m3d", model), coats]);
     assert_eq!((session.error(), session.maps().used().count()), (None, 1));
 }
 
@@ -130,7 +125,7 @@ fn an_archive_that_cannot_be_unpacked_is_refused_with_its_reason() {
         ),
         (nothing, "box.zip cannot be unpacked: there is no file in it."),
     ] {
-        let mut session = added(vec![still("open.m3d")]);
+        let mut session = dropped(vec![still("open.m3d")]);
         session.apply(FileCommand::Add(vec![archive]));
         let (code, message) = error(&session);
         assert_eq!(code, "archive-unreadable");
@@ -144,14 +139,14 @@ fn an_archive_that_cannot_be_unpacked_is_refused_with_its_reason() {
 fn files_in_an_archive_are_refused_as_other_files() {
     let bad = broken("bad.m3d");
     let archive = zipped("a.zip", CompressionMethod::Deflated, &[("bad.m3d", &bad.bytes)]);
-    let session = added(vec![archive]);
-    let refused = added(vec![bad]);
+    let session = dropped(vec![archive]);
+    let refused = dropped(vec![bad]);
     assert_eq!(error(&session), error(&refused));
     let pictures = zipped("a.zip", CompressionMethod::Stored, &[("a.dds", b"-"), ("b.png", b"-")]);
-    assert_eq!(error(&added(vec![pictures])).0, "no-model");
+    assert_eq!(error(&dropped(vec![pictures])).0, "no-model");
     // Other formats are archives too, but no folders of models.
     let sheet = zipped("a.xlsx", CompressionMethod::Stored, &[("a.xml", b"-")]);
-    assert!(error(&added(vec![sheet])).1.contains("ZIP archive"));
+    assert!(error(&dropped(vec![sheet])).1.contains("ZIP archive"));
 }
 
 proptest! {
@@ -173,7 +168,7 @@ proptest! {
         if is_cut {
             bytes.truncate(length.index(bytes.len()));
         }
-        let session = added(vec![File::new("a.zip", bytes)]);
+        let session = dropped(vec![File::new("a.zip", bytes)]);
         prop_assert!(session.error().is_some() != session.open_model().is_some());
     }
 }

@@ -10,8 +10,8 @@ use bindpose::session::{
 use glam::{Affine3A, Vec2, Vec3};
 
 use super::models::{jointed, moving, still};
-use super::opened;
-use crate::documents::shared_bytes;
+use super::{in_picture, on_screen, opened, orbit, zoom};
+use crate::documents::soldier_bytes;
 
 fn set(session: &mut Session, count: usize, seed: u32) {
     session.apply(CrowdCommand::Set { count, seed });
@@ -399,11 +399,8 @@ fn models_without_clips_or_bones_have_crowds_too() {
     }
 }
 
-/// The corners of what an instance reaches.
-fn in_picture(session: &mut Session, world: Vec3) -> bool {
-    let frame = session.frame();
-    let clip_from_world = frame.camera.clip_from_view(1.0, &frame.world_bounds) * frame.camera.view_from_world();
-    let place = clip_from_world.project_point3(world);
+fn is_in_picture(session: &mut Session, world: Vec3) -> bool {
+    let place = in_picture(session, world);
     place.truncate().abs().max_element() <= 1.0 && (0.0..=1.0).contains(&place.z)
 }
 
@@ -426,7 +423,7 @@ fn the_camera_frames_all_and_then_one_again() {
                 "{corner} {bounds:?}"
             );
         }
-        assert!(in_picture(&mut session, place), "{place}");
+        assert!(is_in_picture(&mut session, place), "{place}");
     }
     let of_all = *session.camera();
     session.apply(CameraCommand::FrameSelection);
@@ -451,9 +448,7 @@ fn middle_of(session: &mut Session, instance: usize) -> Vec2 {
     let place = all(session)[instance].0 - selected(session).0;
     let bind = session.open_model().expect("open").bind_bounds;
     let middle = bind.transformed(session.frame().world_from_model).center() + place;
-    let frame = session.frame();
-    let clip_from_world = frame.camera.clip_from_view(1.0, &frame.world_bounds) * frame.camera.view_from_world();
-    clip_from_world.project_point3(middle).truncate()
+    on_screen(session, middle)
 }
 
 /// The nearest hit of every instance on its own.
@@ -650,10 +645,7 @@ fn deep(mode: QualityMode) -> Session {
     session.apply(QualityCommand::SetMode(mode));
     set(&mut session, 300, 1);
     session.advance(1.0);
-    session.apply(CameraCommand::Zoom {
-        factor: 0.3,
-        pointer: Vec2::ZERO,
-    });
+    session.apply(zoom(0.3));
     session
 }
 
@@ -726,10 +718,7 @@ fn those_in_sight_come_first_and_buffers_stay_where_they_are() {
     let mut session = deep(QualityMode::Auto);
     let mut places = std::collections::BTreeSet::new();
     for step in 0..30 {
-        session.apply(CameraCommand::Orbit {
-            yaw_radians: 0.3,
-            pitch_radians: if step % 2 == 0 { 0.1 } else { -0.1 },
-        });
+        session.apply(orbit(0.3, if step % 2 == 0 { 0.1 } else { -0.1 }));
         pass(&mut session, 0.016);
         let bounds: Aabb = session.world_bounds();
         let frame = session.frame();
@@ -752,9 +741,7 @@ fn those_in_sight_come_first_and_buffers_stay_where_they_are() {
 
 #[test]
 fn a_thousand_soldiers_stand_apart_and_are_posed_exactly() {
-    let Some(bytes) = shared_bytes("models/d3d12/soldier.m3d") else {
-        return;
-    };
+    let Some(bytes) = soldier_bytes() else { return };
     let mut session = opened(File::new("soldier.m3d", bytes));
     set(&mut session, MAX_CROWD, 1);
     session.advance(1.0);

@@ -16,7 +16,7 @@ use image::{ImageFormat, Rgb, RgbImage};
 use serde_json::json;
 
 use super::models::{document, file, moving, skinned, still};
-use super::opened;
+use super::{dropped, opened};
 use crate::gltf_files::Gltf;
 
 fn options(format: ExportFormat) -> ExportOptions {
@@ -64,11 +64,7 @@ fn a_glb_has_pictures_that_gltf_takes_as_they_are_and_others_as_png() {
     picture.write_to(&mut tga, ImageFormat::Tga).expect("a picture");
     for (bytes, mime, is_kept) in [(jpeg, "image/jpeg", true), (tga.into_inner(), "image/png", false)] {
         let name = if is_kept { "red.jpg" } else { "red.tga" };
-        let mut session = Session::new(false);
-        session.apply(FileCommand::Add(vec![
-            file("box.m3d", &document),
-            File::new(name, bytes.clone()),
-        ]));
+        let session = dropped(vec![file("box.m3d", &document), File::new(name, bytes.clone())]);
         let glb = written(&session, &options(ExportFormat::Glb)).bytes;
         let has = |part: &[u8]| glb.windows(part.len()).any(|window| window == part);
         assert!(has(mime.as_bytes()), "{name}");
@@ -318,8 +314,7 @@ fn pictures_come_along_with_a_file_of_the_books_and_are_inside_a_glb() {
     }
     let names: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
     assert_eq!(names, ["box-d3d12.m3d", "red.png"]);
-    let mut reopened = Session::new(false);
-    reopened.apply(FileCommand::Add(files));
+    let reopened = dropped(files);
     assert_eq!(reopened.maps().used().count(), 1, "the picture is found by its name");
 
     let glb = written(&session, &options(ExportFormat::Glb));
@@ -336,11 +331,7 @@ fn for_the_books_demo_all_maps_come_along_as_dds_with_mips() {
     document.materials[0].diffuse_map = Some("coats/red.dds".to_owned());
     let texels = [255, 0, 0, 255].repeat(4 * 4);
     let png = encode_png(&texels, 4, 4).expect("a picture");
-    let mut session = Session::new(false);
-    session.apply(FileCommand::Add(vec![
-        file("box.m3d", &document),
-        File::new("RED.png", png),
-    ]));
+    let mut session = dropped(vec![file("box.m3d", &document), File::new("RED.png", png)]);
     let asked = ExportOptions {
         for_book: true,
         ..options(ExportFormat::D3d12)
@@ -423,10 +414,7 @@ fn what_was_left_out_on_reading_is_a_loss_and_no_change() {
 
 /// The files of a drop that was exported: an archive opens as what is in it.
 fn reopened(file: ExportedFile) -> Session {
-    let mut session = Session::new(false);
-    session.apply(FileCommand::Add(vec![File::new(&file.name, file.bytes)]));
-    assert_eq!(session.error(), None);
-    session
+    opened(File::new(&file.name, file.bytes))
 }
 
 /// Where green of the normal map's first texel leads on the surface of each vertex, as it is drawn.
@@ -445,11 +433,7 @@ fn green_of_normal_maps_is_written_as_it_was_chosen() {
     let mut document = document();
     document.materials[0].normal_map = Some("bumps.png".to_owned());
     let bumps = encode_png(&[128, 200, 230, 255], 1, 1).expect("a picture");
-    let mut session = Session::new(false);
-    session.apply(FileCommand::Add(vec![
-        file("box.m3d", &document),
-        File::new("bumps.png", bumps),
-    ]));
+    let mut session = dropped(vec![file("box.m3d", &document), File::new("bumps.png", bumps)]);
     let written_as = |session: &mut Session, format, flipped| {
         session.apply(LookCommand::SetNormalGreenFlipped(flipped));
         let file = written(session, &options(format));
@@ -550,10 +534,7 @@ fn what_is_told_of_one_clip_does_not_speak_of_others() {
 
 /// A box with maps of these names in a `.gltf`, whose pictures are inside; damaged where they have no bytes.
 fn with_pictures(pictures: &[(&str, Vec<u8>)]) -> Session {
-    let mut file = Gltf::new(&json!({
-        "scenes": [{ "nodes": [0] }],
-        "nodes": [{ "mesh": 0 }],
-    }));
+    let mut file = Gltf::new(&json!({ "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }] }));
     let positions = file.floats(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
     let tex_coords = file.floats(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
     let primitive = |material: usize| {
@@ -617,8 +598,8 @@ fn names_of_pictures_become_names_that_every_system_takes() {
     });
     let session = with_pictures(&pictures);
     for asked in [options(ExportFormat::D3d12), for_book(ExportFormat::D3d12)] {
-        let job = session.export_job(&asked).expect("a model is open");
-        let written = job.run_apart().expect("it can be written");
+        let written = session.export_job(&asked).expect("a model is open").run_apart();
+        let written = written.expect("it can be written");
         let text = String::from_utf8(written.bytes).expect("text");
         let found: Vec<&str> = written.maps.iter().map(|(name, _)| name.as_str()).collect();
         assert!(found.len() >= names.len(), "{found:?}");
@@ -717,12 +698,16 @@ fn without_pictures_the_demos_plain_maps_are_named() {
             .expect("it can be written")
     };
     let written = job(ExportFormat::D3d12, true);
-    let material = &bindpose::format::parse(&written.bytes)
-        .expect("it is sound")
-        .document
-        .materials[0];
-    let named = [&material.diffuse_map, &material.normal_map].map(|name| name.as_deref());
-    assert_eq!(named, [Some("white1x1.dds"), Some("default_nmap.dds")]);
+    let maps_in = |bytes: &[u8]| {
+        let material = bindpose::format::parse(bytes)
+            .expect("it is sound")
+            .document
+            .materials
+            .remove(0);
+        [material.diffuse_map, material.normal_map]
+    };
+    let plain_maps = ["white1x1.dds", "default_nmap.dds"].map(|name| Some(name.to_owned()));
+    assert_eq!(maps_in(&written.bytes), plain_maps);
     assert!(written.plan.changes.iter().any(|change| change.code == "maps-added"));
     assert_eq!(written.maps, [], "they lie beside the demo");
     let reading = bindpose::check::book::read(bindpose::check::book::Book::D3d12, &written.bytes);
@@ -737,12 +722,7 @@ fn without_pictures_the_demos_plain_maps_are_named() {
             .any(|loss| loss.code == "book-map-format" && loss.count == 2),
         "{told:?}"
     );
-    let plain = job(ExportFormat::D3d12, false);
-    let material = &bindpose::format::parse(&plain.bytes)
-        .expect("it is sound")
-        .document
-        .materials[0];
-    assert_eq!((&material.diffuse_map, &material.normal_map), (&None, &None));
+    assert_eq!(maps_in(&job(ExportFormat::D3d12, false).bytes), [None, None]);
 }
 
 #[test]
@@ -768,11 +748,8 @@ fn metalness_of_a_picture_comes_along_in_the_diffuse_map_and_is_told() {
         (for_book(ExportFormat::D3d12), "shine.dds"),
         (options(ExportFormat::D3d11), "shine.png"),
     ] {
-        let written = session
-            .export_job(&asked)
-            .expect("a model is open")
-            .run_apart()
-            .expect("it can be written");
+        let written = session.export_job(&asked).expect("a model is open").run_apart();
+        let written = written.expect("it can be written");
         let told = written
             .plan
             .changes

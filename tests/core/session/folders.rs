@@ -8,6 +8,7 @@ use bindpose::image::encode_png;
 use bindpose::session::{File, FileCommand, Session};
 
 use super::models;
+use super::{dropped, noted};
 
 const FILES: usize = 20_000;
 
@@ -58,8 +59,7 @@ fn a_folder_of_twenty_thousand_pictures_opens_soon_and_decodes_what_the_model_na
 
 #[test]
 fn twenty_thousand_pictures_without_a_model_join_the_open_one_soon() {
-    let mut session = Session::new(false);
-    session.apply(FileCommand::Add(vec![mapped(50)]));
+    let mut session = dropped(vec![mapped(50)]);
     soon("named and strange", || {
         session.apply(FileCommand::Add(pictures(FILES).collect()))
     });
@@ -74,10 +74,7 @@ fn twenty_thousand_pictures_without_a_model_join_the_open_one_soon() {
     soon("strange alone", || {
         session.apply(FileCommand::Add((0..FILES).map(strange).collect()))
     });
-    let unused = session
-        .diagnostics()
-        .find(|notice| notice.code == "map-unused")
-        .expect("a note");
+    let unused = noted(&session, "map-unused");
     assert_eq!(
         unused.message,
         "strange_0.png, strange_1.png, strange_2.png and 19997 more fit no name of the model's maps."
@@ -112,10 +109,7 @@ fn one_name_in_twenty_thousand_folders_is_found_soon_and_the_note_spells_out_a_f
     let mut session = Session::new(false);
     soon("rivals", || session.apply(FileCommand::Add(files)));
     assert_eq!(session.maps().used().count(), 1);
-    let ambiguous = session
-        .diagnostics()
-        .find(|notice| notice.code == "map-ambiguous")
-        .expect("a note");
+    let ambiguous = noted(&session, "map-ambiguous");
     let name = &session.open_model().expect("open").model.materials[0].name;
     assert_eq!(
         ambiguous.message,

@@ -88,16 +88,10 @@ fn each_kind_of_edit_is_a_step_with_its_words() {
     let mut session = opened(three_parts("a.m3d"));
     let extra = models::file("more.m3d", &parted(models::skinned(&[("Walk", 0.0, 9)])));
     let painted = paint(&session, 1, 0.25);
+    #[rustfmt::skip]
     let edits: [(Command, &str); 19] = [
         (hide(1), "hide Y"),
-        (
-            SubmeshCommand::SetVisible {
-                submesh: 1,
-                visible: true,
-            }
-            .into(),
-            "show Y",
-        ),
+        (SubmeshCommand::SetVisible { submesh: 1, visible: true }.into(), "show Y"),
         (SubmeshCommand::Solo(2).into(), "show Z alone"),
         (SubmeshCommand::ShowAll.into(), "show all subsets"),
         (painted, "edit Y"),
@@ -108,16 +102,10 @@ fn each_kind_of_edit_is_a_step_with_its_words() {
         (PlayCommand::SetRangeStart(Some(0.25)).into(), "set the range"),
         (PlayCommand::SetRangeEnd(Some(0.5)).into(), "set the range"),
         (PlayCommand::SelectClip(1).into(), "clear the range"),
-        (
-            PlayCommand::SetWrapMode(WrapMode::BookDemo).into(),
-            "loop: As the book's demo",
-        ),
+        (PlayCommand::SetWrapMode(WrapMode::BookDemo).into(), "loop: As the book's demo"),
         (Command::SetHandedness(Some(Handedness::Right)), "set the handedness"),
         (Command::SetUpAxis(Some(UpAxis::Z)), "set the up axis"),
-        (
-            LookCommand::SetNormalGreenFlipped(true).into(),
-            "flip green of normal maps",
-        ),
+        (LookCommand::SetNormalGreenFlipped(true).into(), "flip green of normal maps"),
         (FileCommand::AddClips(vec![extra.clone()]).into(), "add clip Walk"),
         (
             FileCommand::AddClips(vec![models::file(

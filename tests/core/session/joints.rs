@@ -12,9 +12,9 @@ use bindpose::session::{
 use glam::{Affine3A, Vec2, Vec3};
 
 use super::models::{self, jointed, moving, still};
-use super::opened;
+use super::{on_screen, opened, viewport, zoom};
 use crate::chains::mirrored;
-use crate::documents::shared_bytes;
+use crate::documents::soldier_bytes;
 
 use JointCommand::{
     Hover, HoverAt, Select, SelectAt, SelectChild, SelectParent, SelectVertex, SetAllFolded, SetFolded,
@@ -51,13 +51,6 @@ pub(super) fn over_model(session: &mut Session) -> OverlayGeometry {
 pub(super) fn skin_colors(session: &mut Session) -> Vec<[u8; 4]> {
     let colors = session.frame().vertex_colors;
     colors.map(|colors| colors.colors_srgb.to_vec()).unwrap_or_default()
-}
-
-/// Where a world point is drawn.
-fn on_screen(session: &mut Session, point: Vec3) -> Vec2 {
-    let frame = session.frame();
-    let clip_from_world = frame.camera.clip_from_view(1.0, &frame.world_bounds) * frame.camera.view_from_world();
-    clip_from_world.project_point3(point).truncate()
 }
 
 #[test]
@@ -118,47 +111,39 @@ fn the_picture_is_another_one_exactly_when_what_stands_out_or_is_shown_changed()
         session.picture_revision() != before
     };
     let (first, none) = (Some(JointIndex(1)), None);
-    assert!(
-        changes(Hover(first).into())
-            && !changes(Hover(first).into())
-            && changes(Hover(none).into())
-            && !changes(Hover(none).into())
-    );
-    assert!(
-        changes(Select(first).into())
-            && !changes(Select(first).into())
-            && changes(SelectParent.into())
-            && !changes(SelectParent.into())
-    );
-    assert!(changes(SelectVertex(Some(2)).into()) && !changes(SelectVertex(Some(2)).into()));
-    assert!(changes(SetBonesVisible(true).into()) && !changes(SetBonesVisible(true).into()));
-    assert!(changes(SetBoneStyle(BoneStyle::Axes).into()) && !changes(SetBoneStyle(BoneStyle::Axes).into()));
-    assert!(changes(SetLabelsVisible(true).into()) && !changes(SetLabelsVisible(true).into()));
-    assert!(
-        changes(SetSkinView(Some(SkinView::Stretch)).into()) && !changes(SetSkinView(Some(SkinView::Stretch)).into())
-    );
-    assert!(changes(ToggleTrail(JointIndex(1)).into()) && changes(ClearTrails.into()) && !changes(ClearTrails.into()));
-    let named = || NameCommand::Rename {
+    let named = NameCommand::Rename {
         joint: JointIndex(1),
         name: "arm".to_owned(),
     };
-    assert!(
-        changes(named().into())
-            && !changes(named().into())
-            && changes(NameCommand::Clear.into())
-            && !changes(NameCommand::Clear.into())
-    );
+    // Each changes the picture, and once more changes nothing.
+    for command in [
+        Command::from(Hover(first)),
+        Hover(none).into(),
+        Select(first).into(),
+        SelectParent.into(),
+        SelectVertex(Some(2)).into(),
+        SetBonesVisible(true).into(),
+        SetBoneStyle(BoneStyle::Axes).into(),
+        SetLabelsVisible(true).into(),
+        SetSkinView(Some(SkinView::Stretch)).into(),
+        named.into(),
+        NameCommand::Clear.into(),
+    ] {
+        assert!(changes(command.clone()), "{command:?}");
+        assert!(!changes(command.clone()), "{command:?} once more");
+    }
+    assert!(changes(ToggleTrail(JointIndex(1)).into()) && changes(ClearTrails.into()) && !changes(ClearTrails.into()));
     assert!(!changes(SetAllFolded(true).into()), "the tree is beside the picture");
 }
 
 #[test]
 fn what_the_model_has_not_is_left_alone() {
     for mut session in [opened(moving("a.m3d")), opened(still("a.m3d")), Session::new(false)] {
-        let before = (
-            session.joints().clone(),
-            session.look().clone(),
-            session.joint_names().clone(),
-        );
+        let state = |session: &Session| {
+            let (joints, look, names) = (session.joints(), session.look(), session.joint_names());
+            (joints.clone(), look.clone(), names.clone())
+        };
+        let before = state(&session);
         let none = JointIndex(u32::MAX);
         for command in [
             Command::from(Select(Some(none))),
@@ -179,12 +164,7 @@ fn what_the_model_has_not_is_left_alone() {
             })),
         ] {
             session.apply(command.clone());
-            let after = (
-                session.joints().clone(),
-                session.look().clone(),
-                session.joint_names().clone(),
-            );
-            assert_eq!(after, before, "{command:?}");
+            assert_eq!(state(&session), before, "{command:?}");
         }
         assert_eq!(session.inspect_joint(none), None);
         assert_eq!(session.explain_vertex(), None);
@@ -444,35 +424,24 @@ fn names_stand_only_where_bones_are_drawn_and_bring_them() {
         assert_eq!(places.is_empty(), !session.look().labels_visible());
         (session.look().bones_visible, session.look().labels_visible())
     };
-    let mut after = |command| {
+    for (command, bones_and_names, why) in [
+        (SetLabelsVisible(true), (true, true), "names without bones say nothing"),
+        (SetBonesVisible(false), (false, false), "they go with the bones"),
+        (SetBonesVisible(true), (true, true), "and come back with them"),
+        (SetBonesVisible(false), (false, false), ""),
+        (SetLabelsVisible(true), (true, true), "asked for alone, with the bones"),
+        (SetLabelsVisible(false), (true, false), "bones stay without names"),
+        (SetBonesVisible(false), (false, false), ""),
+        (
+            SetLabelsVisible(false),
+            (false, false),
+            "nothing comes by being left out",
+        ),
+        (SetBonesVisible(true), (true, false), ""),
+    ] {
         session.apply(command);
-        shown(&mut session)
-    };
-    assert_eq!(
-        after(SetLabelsVisible(true)),
-        (true, true),
-        "names without bones say nothing"
-    );
-    assert_eq!(after(SetBonesVisible(false)), (false, false), "they go with the bones");
-    assert_eq!(after(SetBonesVisible(true)), (true, true), "and come back with them");
-    assert_eq!(after(SetBonesVisible(false)), (false, false));
-    assert_eq!(
-        after(SetLabelsVisible(true)),
-        (true, true),
-        "asked for alone, with the bones"
-    );
-    assert_eq!(
-        after(SetLabelsVisible(false)),
-        (true, false),
-        "bones stay without names"
-    );
-    assert_eq!(after(SetBonesVisible(false)), (false, false));
-    assert_eq!(
-        after(SetLabelsVisible(false)),
-        (false, false),
-        "nothing comes by being left out"
-    );
-    assert_eq!(after(SetBonesVisible(true)), (true, false));
+        assert_eq!(shown(&mut session), bones_and_names, "{command:?}: {why}");
+    }
 }
 
 #[test]
@@ -556,9 +525,7 @@ fn trails_are_of_the_chosen_joints_through_the_clip_on_show() {
 
 #[test]
 fn the_soldier_is_inspected_explained_and_coloured() {
-    let Some(bytes) = shared_bytes("models/d3d12/soldier.m3d") else {
-        return;
-    };
+    let Some(bytes) = soldier_bytes() else { return };
     let mut session = opened(File::new("soldier.m3d", bytes));
     session.apply(PlayCommand::Seek { time_secs: 0.517 });
     session.apply(SetSkinView(Some(SkinView::Weight)));
@@ -658,10 +625,7 @@ fn a_selected_vertex_is_where_it_is_drawn() {
     let expected = on_screen(&mut session, world);
     let at = session.place_in_picture(place).expect("in view");
     assert!(at.distance(expected) < 1e-5, "{at} {expected}");
-    session.apply(CameraCommand::Zoom {
-        factor: 0.05,
-        pointer: Vec2::ZERO,
-    });
+    session.apply(zoom(0.05));
     assert_eq!(session.place_in_picture(place), None, "beside the picture");
 }
 
@@ -710,20 +674,14 @@ fn the_camera_comes_to_what_is_selected_and_goes_back_to_all_of_it() {
     assert_eq!(*session.camera(), near);
 
     // It stays there when the window changes, which would frame all of the model otherwise.
-    session.apply(CameraCommand::SetViewport {
-        aspect: 1.3,
-        insets: Default::default(),
-    });
+    session.apply(viewport(1.3));
     assert_eq!(session.camera().distance, near.distance);
 
     session.apply(CameraCommand::FrameModel);
     assert!(session.camera().distance > 1.5 * near.distance);
     session.apply(Select(None));
     session.apply(SubmeshCommand::Select(Some(0)));
-    session.apply(CameraCommand::Zoom {
-        factor: 8.0,
-        pointer: Vec2::ZERO,
-    });
+    session.apply(zoom(8.0));
     let far = session.camera().distance;
     session.apply(CameraCommand::FrameSelection);
     // The subset is all of the mesh.

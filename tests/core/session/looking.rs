@@ -7,7 +7,7 @@ use bindpose::session::{CameraCommand, Command, File, FileCommand, LookCommand, 
 use glam::{Vec2, Vec3};
 
 use super::models::{self, moving, still};
-use super::opened;
+use super::{opened, orbit, viewport, zoom};
 
 const FREE: Insets = Insets {
     left: 0.0,
@@ -41,26 +41,13 @@ fn reached_in_picture(session: &mut Session, aspect: f32) -> Vec<Vec3> {
 /// margin that framing leaves, but not out of the free part.
 #[test]
 fn a_framed_model_lies_in_what_panels_leave_free_at_every_time() {
+    #[rustfmt::skip]
     let all_insets = [
         FREE,
-        Insets {
-            top: 0.06,
-            bottom: 0.1,
-            ..FREE
-        },
-        Insets {
-            left: 0.3,
-            top: 0.06,
-            bottom: 0.1,
-            ..FREE
-        },
+        Insets { top: 0.06, bottom: 0.1, ..FREE },
+        Insets { left: 0.3, top: 0.06, bottom: 0.1, ..FREE },
         Insets { right: 0.3, ..FREE },
-        Insets {
-            left: 0.2,
-            right: 0.2,
-            top: 0.2,
-            bottom: 0.3,
-        },
+        Insets { left: 0.2, right: 0.2, top: 0.2, bottom: 0.3 },
     ];
     for file in [moving("a.m3d"), still("a.m3d")] {
         let mut session = opened(file);
@@ -105,14 +92,8 @@ fn a_framed_model_lies_in_what_panels_leave_free_at_every_time() {
 
 #[test]
 fn a_framed_model_stays_framed_in_another_window_and_a_panned_one_stays_put() {
-    let narrow = CameraCommand::SetViewport {
-        aspect: 0.25,
-        insets: FREE,
-    };
-    let wide = CameraCommand::SetViewport {
-        aspect: 2.0,
-        insets: FREE,
-    };
+    let narrow = viewport(0.25);
+    let wide = viewport(2.0);
     let mut session = opened(still("a.m3d"));
     session.apply(wide.clone());
     let in_wide = session.camera().distance;
@@ -121,10 +102,7 @@ fn a_framed_model_stays_framed_in_another_window_and_a_panned_one_stays_put() {
     session.apply(wide.clone());
     assert!((session.camera().distance / in_wide - 1.0).abs() < 1e-3);
 
-    session.apply(CameraCommand::Orbit {
-        yaw_radians: 0.4,
-        pitch_radians: 0.1,
-    });
+    session.apply(orbit(0.4, 0.1));
     session.apply(narrow.clone());
     assert!(session.camera().distance > in_wide * 1.2, "turning leaves it framed");
 
@@ -132,10 +110,7 @@ fn a_framed_model_stays_framed_in_another_window_and_a_panned_one_stays_put() {
         CameraCommand::Pan {
             drag: Vec2::new(0.1, 0.0),
         },
-        CameraCommand::Zoom {
-            factor: 0.9,
-            pointer: Vec2::ZERO,
-        },
+        zoom(0.9),
     ] {
         session.apply(CameraCommand::FrameModel);
         session.apply(command);
@@ -199,14 +174,8 @@ fn what_is_no_number_leaves_the_camera_alone() {
     let mut session = opened(moving("a.m3d"));
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let before = *session.camera();
-        session.apply(CameraCommand::Orbit {
-            yaw_radians: bad,
-            pitch_radians: 0.1,
-        });
-        session.apply(CameraCommand::Orbit {
-            yaw_radians: 0.1,
-            pitch_radians: bad,
-        });
+        session.apply(orbit(bad, 0.1));
+        session.apply(orbit(0.1, bad));
         session.apply(CameraCommand::Pan {
             drag: Vec2::new(bad, 0.0),
         });
@@ -221,10 +190,7 @@ fn what_is_no_number_leaves_the_camera_alone() {
         assert!(session.camera().target.is_finite());
     }
     let before = *session.camera();
-    session.apply(CameraCommand::Zoom {
-        factor: f32::NAN,
-        pointer: Vec2::ZERO,
-    });
+    session.apply(zoom(f32::NAN));
     assert_eq!(session.camera(), &before);
 }
 
@@ -336,15 +302,9 @@ fn the_picture_is_another_one_exactly_when_something_in_it_changed() {
         PlayCommand::SeekEnd.into(),
         PlayCommand::SelectClip(1).into(),
         PlayCommand::CycleClip(1).into(),
-        Command::Camera(CameraCommand::Orbit {
-            yaw_radians: 0.1,
-            pitch_radians: 0.0,
-        }),
+        orbit(0.1, 0.0).into(),
         CameraCommand::Pan { drag: Vec2::X }.into(),
-        Command::Camera(CameraCommand::Zoom {
-            factor: 0.5,
-            pointer: Vec2::ZERO,
-        }),
+        zoom(0.5).into(),
         CameraCommand::FrameModel.into(),
         CameraCommand::LookFrom(ViewPreset::Left).into(),
         CameraCommand::ToggleProjection.into(),
@@ -354,10 +314,7 @@ fn the_picture_is_another_one_exactly_when_something_in_it_changed() {
         Command::Look(LookCommand::SetOverlay(Overlay::Grid, false)),
         Command::Look(LookCommand::ToggleOverlay(Overlay::Grid)),
         Command::SetTheme(Theme::Light),
-        Command::Camera(CameraCommand::SetViewport {
-            aspect: 0.5,
-            insets: FREE,
-        }),
+        viewport(0.5).into(),
         FileCommand::Add(vec![moving("a.m3d")]).into(),
         FileCommand::Add(vec![moving("b.m3d")]).into(),
     ];
@@ -383,10 +340,7 @@ fn the_picture_is_another_one_exactly_when_something_in_it_changed() {
         CameraCommand::Pan { drag: Vec2::ZERO }.into(),
         Command::Look(LookCommand::SetOverlay(Overlay::Grid, true)),
         Command::SetTheme(Theme::Light),
-        Command::Camera(CameraCommand::SetViewport {
-            aspect: 0.5,
-            insets: FREE,
-        }),
+        viewport(0.5).into(),
         Command::SetHandedness(None),
         Command::SetUpAxis(Some(UpAxis::Y)),
         FileCommand::Open("nowhere".to_owned()).into(),
@@ -416,10 +370,7 @@ fn with_nothing_open_everything_is_in_order() {
     for command in [
         Command::from(PlayCommand::Play),
         CameraCommand::FrameModel.into(),
-        Command::Camera(CameraCommand::Zoom {
-            factor: 0.5,
-            pointer: Vec2::ZERO,
-        }),
+        zoom(0.5).into(),
         PlayCommand::SelectClip(0).into(),
         FileCommand::Open("a.m3d".to_owned()).into(),
     ] {

@@ -7,6 +7,7 @@ use bindpose::image::encode_png;
 use bindpose::model::MapSlot;
 use bindpose::session::{File, FileCommand, Session};
 
+use super::dropped;
 use super::models;
 use crate::documents::shared_bytes;
 
@@ -26,8 +27,7 @@ pub(super) fn mapped(path: &str, diffuse: &str, normal: &str) -> File {
 }
 
 fn opened(files: Vec<File>) -> Session {
-    let mut session = Session::new(false);
-    session.apply(FileCommand::Add(files));
+    let session = dropped(files);
     assert!(session.error().is_none(), "{:?}", session.error());
     session
 }

@@ -7,7 +7,7 @@ use bindpose::session::{CameraCommand, FileCommand, Session};
 use glam::{Vec2, Vec3};
 
 use super::models::still;
-use super::opened;
+use super::{opened, orbit, viewport, zoom};
 
 const STEP_SECS: f32 = 1.0 / 60.0;
 
@@ -24,13 +24,6 @@ fn glide(command: CameraCommand) -> CameraCommand {
 
 fn fly(direction: Vec3) -> CameraCommand {
     CameraCommand::Fly { direction, fast: false }
-}
-
-fn orbit(yaw_radians: f32) -> CameraCommand {
-    CameraCommand::Orbit {
-        yaw_radians,
-        pitch_radians: 0.0,
-    }
 }
 
 /// Lets time pass until nothing moves; how long it took.
@@ -76,12 +69,9 @@ fn a_turn_that_is_let_go_runs_on_and_out_in_as_many_steps_as_one_likes() {
 fn whatever_a_person_does_next_ends_a_fling_and_a_glide() {
     for start in [fling(3.0, 0.0), glide(CameraCommand::LookFrom(ViewPreset::Back))] {
         for stop in [
-            orbit(0.1),
+            orbit(0.1, 0.0),
             CameraCommand::Pan { drag: Vec2::X },
-            CameraCommand::Zoom {
-                factor: 0.9,
-                pointer: Vec2::ZERO,
-            },
+            zoom(0.9),
             CameraCommand::FrameModel,
             CameraCommand::LookFrom(ViewPreset::Top),
             CameraCommand::Reset,
@@ -187,10 +177,7 @@ fn sent_again_on_its_way_it_goes_on_from_there() {
 
 #[test]
 fn a_window_that_changes_on_the_way_changes_the_goal() {
-    let narrow = CameraCommand::SetViewport {
-        aspect: 0.3,
-        insets: Insets::default(),
-    };
+    let narrow = viewport(0.3);
     let mut session = opened(still("a.m3d"));
     session.apply(narrow.clone());
     session.apply(CameraCommand::LookFrom(ViewPreset::Back));
@@ -253,10 +240,7 @@ fn a_projection_that_changes_on_the_way_stays_changed() {
 fn neither_loading_nor_another_window_glides_and_what_sends_the_camera_nowhere_is_just_done() {
     let mut session = opened(still("a.m3d"));
     assert!(!session.is_moving());
-    session.apply(CameraCommand::SetViewport {
-        aspect: 0.3,
-        insets: Insets::default(),
-    });
+    session.apply(viewport(0.3));
     assert!(!session.is_moving());
     session.apply(glide(CameraCommand::FrameModel));
     assert!(!session.is_moving(), "it is there already");
@@ -294,7 +278,7 @@ fn the_turntable_turns_once_in_twelve_seconds_and_waits_while_the_camera_is_held
 
     session.apply(CameraCommand::BeginDrag);
     assert!(!session.is_moving());
-    session.apply(orbit(0.5));
+    session.apply(orbit(0.5, 0.0));
     let held = *session.camera();
     session.advance(1.0);
     assert_eq!(session.camera(), &held);
@@ -374,10 +358,7 @@ fn flight_ends_far_outside_and_a_flown_camera_stays_put_in_another_window() {
     session.apply(fly(Vec3::NAN));
     assert!(!session.is_moving());
     let here = *session.camera();
-    session.apply(CameraCommand::SetViewport {
-        aspect: 0.3,
-        insets: Insets::default(),
-    });
+    session.apply(viewport(0.3));
     assert_eq!(session.camera(), &here);
 }
 

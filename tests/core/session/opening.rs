@@ -9,7 +9,7 @@ use bindpose::session::{
 use glam::Vec2;
 
 use super::models::{self, broken, jointed, moving, still};
-use super::opened;
+use super::{dropped, opened, orbit};
 
 fn picture(path: &str) -> File {
     File::new(path, *b"not looked at")
@@ -56,10 +56,7 @@ fn the_same_file_again_keeps_camera_clip_time_and_playing() {
         session.apply(PlayCommand::SetSpeed(0.5));
         session.apply(PlayCommand::SetLoopMode(LoopMode::PingPong));
         session.apply(Command::SetHandedness(Some(Handedness::Right)));
-        session.apply(CameraCommand::Orbit {
-            yaw_radians: 1.0,
-            pitch_radians: 0.2,
-        });
+        session.apply(orbit(1.0, 0.2));
         session.apply(CameraCommand::Pan {
             drag: Vec2::new(0.1, 0.2),
         });
@@ -163,8 +160,7 @@ fn a_failed_load_keeps_the_model_and_says_why() {
 
 #[test]
 fn the_next_success_takes_the_error_away_and_the_next_failure_replaces_it() {
-    let mut session = Session::new(false);
-    session.apply(FileCommand::Add(vec![broken("a.m3d")]));
+    let mut session = dropped(vec![broken("a.m3d")]);
     session.apply(FileCommand::Add(vec![File::new("b.m3d", *b"")]));
     assert_eq!(session.error().map(|error| error.diagnostic.code), Some("empty-file"));
     session.apply(FileCommand::Add(vec![still("c.m3d")]));
@@ -204,8 +200,7 @@ fn the_largest_of_a_drop_opens_and_the_rest_can_be_opened() {
 #[test]
 fn the_same_drop_again_opens_the_model_that_was_chosen_of_it() {
     let drop = || vec![still("x/small.m3d"), moving("x/large.m3d")];
-    let mut session = Session::new(false);
-    session.apply(FileCommand::Add(drop()));
+    let mut session = dropped(drop());
     session.apply(FileCommand::Open("x/small.m3d".to_owned()));
     let mut with_a_map = drop();
     with_a_map.push(picture("skin.png"));
@@ -273,37 +268,27 @@ fn a_model_can_be_closed_and_the_one_beside_it_comes_in_its_place() {
     ]));
     session.apply(FileCommand::Add(vec![still("d.m3d")]));
     let revision = session.model_revision();
-    let mut close = |path: &str| {
-        session.apply(FileCommand::Close(path.to_owned()));
-        let listed: Vec<_> = listed(&session).into_iter().map(str::to_owned).collect();
+    for (closed, open, still_listed, replaced, why) in [
         (
-            open_path(&session).map(str::to_owned),
-            listed.join(" "),
-            session.model_revision(),
-        )
-    };
-    let now = |open: &str, listed: &str, revision| (Some(open.to_owned()), listed.to_owned(), revision);
-    assert_eq!(close("none.m3d"), now("d.m3d", "a.m3d b.m3d c.m3d d.m3d", revision));
-    assert_eq!(
-        close("a.m3d"),
-        now("d.m3d", "b.m3d c.m3d d.m3d", revision),
-        "not on screen"
-    );
-    assert_eq!(
-        close("d.m3d"),
-        now("c.m3d", "b.m3d c.m3d", revision + 1),
-        "the last: the one before"
-    );
-    assert_eq!(
-        close("b.m3d"),
-        now("c.m3d", "c.m3d", revision + 1),
-        "another of the same drop"
-    );
-    assert_eq!(
-        close("c.m3d"),
-        now("c.m3d", "c.m3d", revision + 1),
-        "the only one stays"
-    );
+            "none.m3d",
+            "d.m3d",
+            "a.m3d b.m3d c.m3d d.m3d",
+            0,
+            "there is none of that name",
+        ),
+        ("a.m3d", "d.m3d", "b.m3d c.m3d d.m3d", 0, "not on screen"),
+        ("d.m3d", "c.m3d", "b.m3d c.m3d", 1, "the last: the one before"),
+        ("b.m3d", "c.m3d", "c.m3d", 1, "another of the same drop"),
+        ("c.m3d", "c.m3d", "c.m3d", 1, "the only one stays"),
+    ] {
+        session.apply(FileCommand::Close(closed.to_owned()));
+        assert_eq!(
+            (open_path(&session), listed(&session).join(" ")),
+            (Some(open), still_listed.to_owned()),
+            "{why}"
+        );
+        assert_eq!(session.model_revision(), revision + replaced, "{why}");
+    }
     assert_eq!(session.files().files().len(), 2, "with its picture");
     session.apply(FileCommand::Add(vec![still("b.m3d"), moving("c.m3d"), still("e.m3d")]));
     session.apply(FileCommand::Open("b.m3d".to_owned()));
@@ -389,8 +374,7 @@ fn what_was_too_slow_for_one_model_is_tried_again_with_the_next() {
 
 #[test]
 fn the_list_of_a_drop_outlives_a_drop_that_failed() {
-    let mut session = Session::new(false);
-    session.apply(FileCommand::Add(vec![still("small.m3d"), moving("large.m3d")]));
+    let mut session = dropped(vec![still("small.m3d"), moving("large.m3d")]);
     session.apply(FileCommand::Add(vec![broken("bad.m3d")]));
     assert_eq!(session.files().models().len(), 2);
     session.apply(FileCommand::Add(vec![picture("a.png")]));

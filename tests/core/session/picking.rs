@@ -4,13 +4,13 @@ use bindpose::anim;
 use bindpose::image::encode_png;
 use bindpose::model::Mesh;
 use bindpose::scene::{Hit, ViewPreset};
-use bindpose::session::{CameraCommand, File, FileCommand, MaterialCommand, PlayCommand, Session, SubmeshCommand};
+use bindpose::session::{CameraCommand, File, MaterialCommand, PlayCommand, Session, SubmeshCommand};
 use glam::{DVec3, Vec2, Vec3};
 
 use super::models::{self, document, moving};
-use super::opened;
 use super::submeshes::parted;
-use crate::documents::shared_bytes;
+use super::{dropped, on_screen, opened, viewport};
+use crate::documents::soldier_bytes;
 
 /// The vertices of now, world space.
 fn posed(session: &mut Session) -> Vec<Vec3> {
@@ -126,10 +126,7 @@ fn the_first_triangle_of_the_pose_on_show_is_met_from_every_side() {
     for toggled in [false, true] {
         let mut session = opened(moving("a.m3d"));
         let aspect = 1.6;
-        session.apply(CameraCommand::SetViewport {
-            aspect,
-            insets: bindpose::scene::Insets::default(),
-        });
+        session.apply(viewport(aspect));
         if toggled {
             session.apply(CameraCommand::ToggleProjection);
         }
@@ -151,16 +148,14 @@ fn a_corner_that_is_seen_is_met_where_it_is_drawn() {
     let mut session = opened(moving("a.m3d"));
     session.apply(PlayCommand::Seek { time_secs: 0.26 });
     let world = posed(&mut session);
-    let frame = session.frame();
-    let clip_from_world = frame.camera.clip_from_view(1.0, &frame.world_bounds) * frame.camera.view_from_world();
     let mesh = session.open_model().expect("open").model.mesh.clone();
     let mut seen = 0;
     for corners in mesh.indices.as_chunks::<3>().0 {
         let [a, b, c] = corners.map(|corner| world[corner as usize]);
         // Just inside the first corner.
         let point = a * 0.98 + b * 0.01 + c * 0.01;
-        let hit = session.pick(clip_from_world.project_point3(point).truncate());
-        let hit = hit.expect("it is drawn there");
+        let pointer = on_screen(&mut session, point);
+        let hit = session.pick(pointer).expect("it is drawn there");
         if hit.position.distance(point) < 1e-3 {
             assert_eq!(hit.vertex, corners[0]);
             seen += 1;
@@ -174,11 +169,8 @@ fn no_ray_slips_through_the_edges_between_triangles() {
     let mut session = opened(models::still("a.m3d"));
     session.apply(CameraCommand::LookFrom(ViewPreset::Front));
     // Along the edge that divides the front, in steps of no round number.
-    let [from, to] = [Vec3::new(-0.5, 0.0, -1.0), Vec3::new(1.5, 4.0, -1.0)].map(|corner| {
-        let frame = session.frame();
-        let clip_from_world = frame.camera.clip_from_view(1.0, &frame.world_bounds) * frame.camera.view_from_world();
-        clip_from_world.project_point3(corner).truncate()
-    });
+    let [from, to] =
+        [Vec3::new(-0.5, 0.0, -1.0), Vec3::new(1.5, 4.0, -1.0)].map(|corner| on_screen(&mut session, corner));
     for step in 1..2000 {
         let point = from.lerp(to, step as f32 / 2000.0);
         let hit = session.pick(point).expect("the front is closed");
@@ -208,16 +200,12 @@ fn what_alpha_cuts_is_looked_through_only_where_the_material_cuts() {
         let mut document = document();
         document.materials[0].alpha_clip = alpha_clip;
         document.materials[0].diffuse_map = Some("leaf.dds".to_owned());
-        let mut session = Session::new(false);
-        session.apply(FileCommand::Add(vec![models::file("a.m3d", &document), map.clone()]));
+        let mut session = dropped(vec![models::file("a.m3d", &document), map.clone()]);
         session.apply(CameraCommand::LookFrom(ViewPreset::Front));
         // On the front, z = −1, u runs along x and v along y: v > 0.5 is the upper part, and the lower rows of the map.
         let world = |session: &mut Session, y: f32| {
             let point = Vec3::new(0.5, y, -1.0);
-            let frame = session.frame();
-            let clip_from_world =
-                frame.camera.clip_from_view(1.0, &frame.world_bounds) * frame.camera.view_from_world();
-            let point = clip_from_world.project_point3(point).truncate();
+            let point = on_screen(session, point);
             session.pick(point).map(|hit| (hit.position.z + 1.0).abs() < 1e-3)
         };
         assert_eq!(world(&mut session, 3.0), Some(true), "kept");
@@ -244,9 +232,7 @@ fn with_nothing_open_or_no_place_nothing_is_met() {
 
 #[test]
 fn the_running_soldier_is_met_where_it_is_drawn() {
-    let Some(bytes) = shared_bytes("models/d3d12/soldier.m3d") else {
-        return;
-    };
+    let Some(bytes) = soldier_bytes() else { return };
     let mut session = opened(File::new("soldier.m3d", bytes));
     session.apply(PlayCommand::Seek { time_secs: 0.517 });
     let met = check_picks(&mut session, 1.0, 9, 2e-3);

@@ -1,14 +1,15 @@
 //! What was recorded plays again: the same commands and times give the same state, to the bit.
 
 use bindpose::anim::Palette;
-use bindpose::scene::{Insets, RenderFrame};
+use bindpose::scene::RenderFrame;
 use bindpose::session::{CameraCommand, Changes, Command, CrowdCommand, File, FileCommand, PlayCommand, Session};
 use glam::Vec3;
 use proptest::prelude::*;
 
 use super::models::{moving, still};
 use super::random::{command, number};
-use crate::documents::shared_bytes;
+use super::{dropped, viewport};
+use crate::documents::soldier_bytes;
 
 /// A command, or time that goes by.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,8 +76,7 @@ fn snapshot(session: &mut Session) -> String {
 }
 
 fn run(start: &[File], steps: &[Step]) -> Vec<String> {
-    let mut session = Session::new(false);
-    session.apply(FileCommand::Add(start.to_vec()));
+    let mut session = dropped(start.to_vec());
     steps
         .iter()
         .map(|step| {
@@ -146,8 +146,7 @@ proptest! {
 
 /// After each step the picture is told as changed if the frame differs.
 fn each_change_is_told(steps: Vec<Step>) -> Result<(), TestCaseError> {
-    let mut session = Session::new(false);
-    session.apply(FileCommand::Add(vec![moving("a.m3d"), still("c.m3d")]));
+    let mut session = dropped(vec![moving("a.m3d"), still("c.m3d")]);
     let mut before = (told_to_renderer(&mut session), session.picture_revision());
     for step in steps {
         let changes = take(&mut session, step.clone());
@@ -166,10 +165,7 @@ fn another_shape_of_a_crowds_picture_is_told() {
         direction: Vec3::new(2.143_096_7, 0.0, -0.639_14),
         fast: false,
     };
-    let narrow = CameraCommand::SetViewport {
-        aspect: 0.231_031_75,
-        insets: Insets::default(),
-    };
+    let narrow = viewport(0.231_031_75);
     each_change_is_told(vec![
         Step::Apply(CrowdCommand::Set { count: 2, seed: 0 }.into()),
         Step::Advance(0.182_157_43),
@@ -182,9 +178,7 @@ fn another_shape_of_a_crowds_picture_is_told() {
 
 #[test]
 fn a_session_with_a_real_file_plays_again() {
-    let Some(bytes) = shared_bytes("models/d3d12/soldier.m3d") else {
-        return;
-    };
+    let Some(bytes) = soldier_bytes() else { return };
     let soldier = File::new("soldier.m3d", bytes);
     let mut steps = vec![
         Step::Apply(FileCommand::AddClips(vec![soldier.clone()]).into()),

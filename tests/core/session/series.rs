@@ -5,6 +5,7 @@ use std::f32::consts::TAU;
 use bindpose::scene::{Camera, Frames, RenderFrame, Shot};
 use bindpose::session::{CameraCommand, FileCommand, PlayCommand, Series, Session};
 
+use super::dropped;
 use super::models::{moving, still};
 
 fn open(file: bindpose::session::File) -> Session {
@@ -71,8 +72,7 @@ fn a_camera_that_was_moved_by_hand_stays() {
     let first = series.frame(0).camera;
     assert_eq!((first.target, first.distance), (camera.target, camera.distance));
     // A glide that is under way is where it leads to.
-    let mut session = Session::new(false);
-    session.apply(FileCommand::Add(vec![moving("a.m3d")]));
+    let mut session = dropped(vec![moving("a.m3d")]);
     let goal = {
         let mut there = session.clone();
         there.apply(CameraCommand::LookFrom(bindpose::scene::ViewPreset::Top));

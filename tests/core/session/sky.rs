@@ -5,7 +5,7 @@ use bindpose::scene::Background;
 use bindpose::session::{File, FileCommand, HistoryCommand, LookCommand, News, Session};
 
 use super::models::{self, cube, still};
-use super::opened;
+use super::{dropped, opened};
 use crate::documents::shared_bytes;
 
 fn cut(mut file: File) -> File {
@@ -158,8 +158,7 @@ fn a_sky_is_a_step_that_undo_takes_back_with_its_background() {
 
 #[test]
 fn a_cube_needs_no_model_and_flat_pictures_do() {
-    let mut session = Session::new(false);
-    session.apply(FileCommand::Add(vec![cube("sky.dds", 4, [9; 4])]));
+    let mut session = dropped(vec![cube("sky.dds", 4, [9; 4])]);
     assert_eq!((session.error(), sky_name(&session)), (None, Some("sky.dds")));
     assert_eq!(session.take_news(), [News::SkyUsed("sky.dds".to_owned())]);
     session.apply(FileCommand::Add(vec![
@@ -183,8 +182,7 @@ fn pictures_of_environments_that_cannot_be_read_yet_are_refused_in_words() {
         assert_eq!((error.diagnostic.code, &*error.diagnostic.message), ("no-model", words));
         assert!(session.maps().pictures().is_empty(), "it is no map");
     }
-    let mut session = Session::new(false);
-    session.apply(FileCommand::Add(vec![still("a.m3d"), hdr()]));
+    let session = dropped(vec![still("a.m3d"), hdr()]);
     let noted: Vec<_> = session.diagnostics().map(|notice| &*notice.message).collect();
     assert_eq!(
         (session.error(), noted),

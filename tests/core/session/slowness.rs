@@ -6,7 +6,7 @@ use bindpose::scene::{FrameCost, Pass, Passes, TimedPass};
 use bindpose::session::{CameraCommand, Command, LookCommand, PassChoice, QualityCommand, QualityMode, Session};
 
 use super::models::{moving, still};
-use super::opened;
+use super::{opened, orbit};
 
 /// A slow frame with all its pixels, s.
 const SLOW: f32 = 0.2;
@@ -81,7 +81,7 @@ impl Window {
     fn drag(&mut self, moves: u32) {
         self.pass(0.0, &[CameraCommand::BeginDrag.into()]);
         for _ in 0..moves {
-            self.pass(0.0, &[orbit()]);
+            self.pass(0.0, &[turn()]);
         }
         self.event(0.0, &[CameraCommand::EndDrag.into()]);
     }
@@ -92,11 +92,8 @@ impl Window {
     }
 }
 
-fn orbit() -> Command {
-    Command::Camera(CameraCommand::Orbit {
-        yaw_radians: 0.01,
-        pitch_radians: 0.0,
-    })
+fn turn() -> Command {
+    orbit(0.01, 0.0).into()
 }
 
 #[test]
@@ -141,7 +138,7 @@ fn a_quick_device_keeps_everything_however_long_the_pointer_rests() {
         // Between two drags, and in one.
         window.event(5.0, &[CameraCommand::BeginDrag.into()]);
         for _ in 0..5 {
-            window.event(2.0, &[orbit()]);
+            window.event(2.0, &[turn()]);
         }
         window.event(2.0, &[CameraCommand::EndDrag.into()]);
     }
@@ -157,7 +154,7 @@ fn a_quick_device_keeps_everything_however_long_the_pointer_rests() {
 fn single_pictures_are_not_measured() {
     let mut window = Window::new(opened(still("a.m3d")), SLOW);
     for _ in 0..40 {
-        window.event(0.0, &[orbit()]);
+        window.event(0.0, &[turn()]);
         window.event(0.5, &[LookCommand::ToggleLight.into()]);
     }
     assert_eq!(window.session.quality().lowered(), None);

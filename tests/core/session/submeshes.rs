@@ -33,12 +33,14 @@ fn three_parts() -> Session {
     opened(models::file("a.m3d", &parted(document())))
 }
 
-fn hide(session: &mut Session, subset: usize) {
+fn hide(session: &mut Session, submesh: usize) {
     let visible = false;
-    session.apply(SetVisible {
-        submesh: subset,
-        visible,
-    });
+    session.apply(SetVisible { submesh, visible });
+}
+
+/// What is left out, and which one is alone.
+fn left_out_and_solo(session: &mut Session) -> (Vec<bool>, Option<usize>) {
+    (left_out(session), session.submeshes().solo())
 }
 
 fn left_out(session: &mut Session) -> Vec<bool> {
@@ -66,15 +68,9 @@ fn one_alone_and_again_brings_back_what_was_hidden_before() {
     session.apply(Solo(0));
     assert_eq!(left_out(&mut session), [false, true, true], "a hidden one is shown too");
     session.apply(Solo(2));
-    assert_eq!(
-        (left_out(&mut session), session.submeshes().solo()),
-        (vec![true, true, false], Some(2))
-    );
+    assert_eq!(left_out_and_solo(&mut session), (vec![true, true, false], Some(2)));
     session.apply(Solo(2));
-    assert_eq!(
-        (left_out(&mut session), session.submeshes().solo()),
-        (vec![true, false, false], None)
-    );
+    assert_eq!(left_out_and_solo(&mut session), (vec![true, false, false], None));
 }
 
 #[test]
@@ -85,10 +81,7 @@ fn showing_another_beside_the_one_alone_keeps_the_rest_out() {
         submesh: 1,
         visible: true,
     });
-    assert_eq!(
-        (left_out(&mut session), session.submeshes().solo()),
-        (vec![false, false, true], None)
-    );
+    assert_eq!(left_out_and_solo(&mut session), (vec![false, false, true], None));
 }
 
 #[test]

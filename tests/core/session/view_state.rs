@@ -5,8 +5,8 @@ use bindpose::session::{Command, FileCommand, JointCommand, PlayCommand, Session
 use proptest::prelude::*;
 
 use super::models::{moving, still};
-use super::opened;
 use super::random::{command, number};
+use super::{dropped, opened};
 
 /// Commands that change how a model is looked at, and not which one.
 fn looking() -> impl Strategy<Value = Command> {
@@ -21,9 +21,7 @@ fn looking() -> impl Strategy<Value = Command> {
 }
 
 fn start() -> Session {
-    let mut session = Session::new(false);
-    session.apply(FileCommand::Add(vec![moving("a.m3d"), still("c.m3d")]));
-    session
+    dropped(vec![moving("a.m3d"), still("c.m3d")])
 }
 
 fn json(state: &ViewState) -> String {

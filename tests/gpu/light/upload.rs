@@ -6,7 +6,7 @@ use wgpu::util::DeviceExt as _;
 
 use super::evaluate::evaluate;
 use super::{ANGLES, QUANTITIES, ROUGHNESSES, Room};
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, nothing};
 
 impl Room<'_> {
     /// Uploads as a renderer does: uniform, cube with its levels, table, sampler.
@@ -90,15 +90,7 @@ impl Room<'_> {
         );
         let files = STUDIO_LIGHT.iter().chain([&TONE_MAP_WGSL]).map(|file| file.source);
         let source: String = files.chain([constants.as_str(), include_str!("probe.wgsl")]).collect();
-        let nothing = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: None,
-            entries: &[],
-        });
-        let nothing_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &nothing,
-            entries: &[],
-        });
+        let (nothing, nothing_group) = nothing(gpu);
         let environment = environment_layout(device);
         let group = self.bind(gpu, &environment);
         let groups = [

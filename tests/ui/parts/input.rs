@@ -5,27 +5,18 @@ use std::collections::VecDeque;
 use bindpose::ui::for_tests::first_pass;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2};
 
+use crate::page::{button_event, key_event};
+
 fn moved() -> Event {
     Event::PointerMoved(Pos2::ZERO)
 }
 
 fn button(pressed: bool) -> Event {
-    Event::PointerButton {
-        pos: Pos2::ZERO,
-        button: PointerButton::Primary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    }
+    button_event(Pos2::ZERO, PointerButton::Primary, pressed, Modifiers::NONE)
 }
 
 fn key(key: Key, pressed: bool) -> Event {
-    Event::Key {
-        key,
-        physical_key: None,
-        pressed,
-        repeat: false,
-        modifiers: Modifiers::NONE,
-    }
+    key_event(key, pressed)
 }
 
 fn text() -> Event {
