@@ -357,23 +357,33 @@ fn textures_are_kept_while_a_window_is_resized() {
     assert!(!target.resize(device, [100, 100], [100, 100]), "much too large is");
 }
 
-/// Composites onto a surface as egui's, which is not sRGB, and reads that.
+/// Composites onto a surface and reads that.
 fn composite(gpu: &Gpu, target: &Target) -> Picture {
+    let mut compositor = Compositor::new(&gpu.open.device, SURFACE_FORMAT);
+    compositor.prepare(&gpu.open.device, &gpu.open.queue, target);
+    on_surface(gpu, &compositor, [target.texture().width(), target.texture().height()])
+}
+
+/// As egui's, which is not sRGB.
+pub(crate) const SURFACE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// What a compositor brings onto a surface of this size.
+pub(crate) fn on_surface(gpu: &Gpu, compositor: &Compositor, [width, height]: [u32; 2]) -> Picture {
     let device = &gpu.open.device;
-    let [width, height] = [target.texture().width(), target.texture().height()];
-    let format = wgpu::TextureFormat::Rgba8Unorm;
     let surface = device.create_texture(&wgpu::TextureDescriptor {
         label: None,
-        size: target.texture().size(),
+        size: wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: 1,
+        },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format,
+        format: SURFACE_FORMAT,
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
         view_formats: &[],
     });
-    let mut compositor = Compositor::new(device, format);
-    compositor.prepare(device, &gpu.open.queue, target);
     let view = surface.create_view(&wgpu::TextureViewDescriptor::default());
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     {
