@@ -55,6 +55,9 @@ pub mod model;
 mod modes;
 #[cfg(feature = "render")]
 #[allow(missing_docs, reason = "used by this package alone, where a name says it")]
+pub mod painter;
+#[cfg(feature = "render")]
+#[allow(missing_docs, reason = "used by this package alone, where a name says it")]
 pub mod render;
 pub mod scene;
 pub mod script;

@@ -158,7 +158,7 @@ async function boot() {
   try {
     const { Viewer } = await program;
     const { theme, light, split } = kept();
-    const wanted = { renderScale: addressedScale(), quality: addressedQuality(), displaySecs: displaySecs(), theme, light, split, mirrored: true };
+    const wanted = { renderScale: addressedScale(), quality: addressedQuality(), displaySecs: displaySecs(), theme, light, split };
     viewer = new Viewer(wanted, onEvent);
     addEventListener("storage", ({ key }) => key?.startsWith("bindpose.names.") && !hasFailed() && viewer.readNames());
     choices = choicesNow();

@@ -40,7 +40,7 @@ const MOST_ANSWERS = 4;
 let mirrors = 0;
 
 /**
- * Mirrors the controls of `viewer`, which was made with `mirrored`, behind the canvas that it runs on. `pick(what)` opens the dialog for
+ * Mirrors the controls of `viewer` behind the canvas that it runs on. `pick(what)` opens the dialog for
  * "files" or "clips"; a browser may let it only within the click. Gives what takes the viewer's `mirror` events, and `remove()`.
  */
 export function mirrorOf(viewer, canvas, pick) {
@@ -64,6 +64,7 @@ export function mirrorOf(viewer, canvas, pick) {
   /** What opens over the rest, with the element that had the focus before it. */
   const openers = new Map();
   let focus = null; // What has the focus in the viewer.
+  let start = null; // What was clicked last on the canvas, while nothing has the focus.
   let follows = false; // The viewer's focus is being followed, and need not be told of it.
   /** What the viewer was asked to focus, until it says so; `undefined` when nothing is asked. What it says meanwhile is of before. */
   let asked;
@@ -243,7 +244,7 @@ export function mirrorOf(viewer, canvas, pick) {
     if (within && root.contains(had) && !hasFocus()) giveFocus(had);
     for (const id of opened) openers.set(id, idOf(had));
     let moved = changes.focus !== focus;
-    focus = changes.focus;
+    ({ focus, start } = changes);
     if (asked !== undefined) {
       // One that cannot have the focus never answers.
       if (focus === asked || ++answers === MOST_ANSWERS) asked = undefined;
@@ -375,14 +376,14 @@ export function mirrorOf(viewer, canvas, pick) {
     if (turned.has(event.code)) release();
   });
 
-  // Tab leaves the canvas for the element that the viewer's focus is at, and goes on from there.
+  // Tab leaves the canvas for the element that the viewer's focus is at, or that was clicked last, and goes on from there.
   const onTab = (event) => {
     if (event.key !== "Tab") return;
     tabbing = true;
     setTimeout(() => (tabbing = false));
     if (![canvas, input].includes(active())) return;
     event.stopImmediatePropagation();
-    const from = elementOf(asked === undefined ? focus : asked);
+    const from = elementOf(asked === undefined ? focus : asked) ?? elementOf(start);
     if (from) giveFocus(from);
     else if (!event.shiftKey && active() !== canvas) canvas.focus({ preventScroll: true });
   };

@@ -38,11 +38,12 @@ use window::{chips, layout, message, split, viewport};
 /// The camera frames the model in no less of the window's height. Chips lie over it where they leave less.
 const LEAST_BELOW_CHIPS: f32 = 0.1;
 
-/// Gives a context what the interface needs: fonts, styles, and the order of input.
+/// Gives a context what the interface needs: fonts, styles, the order of input, and what watches its widgets for the page.
 pub fn install(ctx: &egui::Context) {
     theme::install(ctx);
     ctx.options_mut(|options| options.max_passes = MOST_PASSES);
     ctx.add_plugin(InputOrder::default());
+    ctx.add_plugin(Mirror::default());
 }
 
 /// One pass over the whole window. Returns what the person asked for, in order.

@@ -20,7 +20,6 @@ const FRAMES_AFTER_INPUT: u8 = 3;
 /// What comes in and goes out between two frames.
 #[derive(Debug, Default)]
 pub(super) struct MirrorLink {
-    wanted: bool,
     input: RefCell<MirrorInput>,
     /// Frames that tell at once.
     eager: Cell<u8>,
@@ -31,20 +30,9 @@ pub(super) struct MirrorLink {
 }
 
 impl MirrorLink {
-    /// `wanted`: the page makes elements of it. Else no tree is made.
-    pub(super) fn new(wanted: bool) -> Self {
-        Self {
-            wanted,
-            ..Self::default()
-        }
-    }
-
-    /// Gives a new context what watches its widgets.
-    pub(super) fn install(&self, ctx: &Context) {
-        if self.wanted {
-            ctx.add_plugin(Mirror::default());
-            self.eager.set(FRAMES_AFTER_INPUT);
-        }
+    /// Tells all of a new start at once.
+    pub(super) fn begin(&self) {
+        self.eager.set(FRAMES_AFTER_INPUT);
     }
 
     /// Does what was asked of an element: `{node, action, value}`. An unknown one is ignored.
@@ -96,9 +84,6 @@ impl MirrorLink {
 
     /// Adds what came in to the input of a frame.
     pub(super) fn begin_frame(&self, ctx: &Context, input: &mut RawInput) {
-        if !self.wanted {
-            return;
-        }
         self.input.borrow_mut().begin_frame(ctx, input);
         let only_moves = |event: &Event| {
             matches!(
@@ -123,7 +108,7 @@ impl MirrorLink {
 impl MirrorLink {
     /// Whether a frame tells the page, once it has ended.
     pub(super) fn tells(&self) -> bool {
-        self.wanted && !self.due.get()
+        !self.due.get()
     }
 
     /// Waits until a frame without input may tell again, and asks for one if there was something to tell. Once at a time.

@@ -71,9 +71,9 @@ impl Running {
 }
 
 impl Shared {
-    pub(super) fn new(session: Session, mirror: MirrorLink, listener: Function) -> Self {
+    pub(super) fn new(session: Session, listener: Function) -> Self {
         Self {
-            mirror,
+            mirror: MirrorLink::default(),
             session: Rc::new(RefCell::new(session)),
             running: RefCell::new(None),
             ui: Rc::default(),
@@ -233,7 +233,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
             Box::new(move |creation| {
                 let gpu = creation.wgpu_render_state.clone().ok_or("the viewer needs wgpu")?;
                 watch_device(&gpu.device, &creation.egui_ctx, tell_of_loss);
-                shell.shared.mirror.install(&creation.egui_ctx);
+                shell.shared.mirror.begin();
                 let (session, state) = (Rc::clone(&shell.shared.session), Rc::clone(&shell.shared.ui));
                 let options = AppOptions {
                     coarse_pointer: coarse_pointer(),

@@ -10,7 +10,6 @@ use web_sys::HtmlCanvasElement;
 
 use super::arguments::{checked, given};
 use super::backend::Preference;
-use super::mirror::MirrorLink;
 use super::picture::AppSlot;
 use super::run::{self, Shared};
 use super::{field, picture, promise, reduced_motion, state};
@@ -31,11 +30,11 @@ pub struct Viewer {
 impl Viewer {
     /// Makes a viewer with nothing open and no canvas.
     ///
-    /// `options`: `{renderScale: number, quality: "auto" | "full" | "low", displaySecs: number, mirrored: boolean}`, 1, `auto` and false where
+    /// `options`: `{renderScale: number, quality: "auto" | "full" | "low", displaySecs: number}`, 1 and `auto` where
     /// they are absent; `displaySecs` is how often the display shows a picture, 60 times a second where it is absent. `theme`, `light` and
     /// `split` are as the state has them. `on_event(type, detail)` hears of `load`, `error`, `play`, `pause`, `timeupdate` and `playbackchange`; of `devicelost` (`{reason}`); and of what only the page
     /// can do: `pickfiles`, `pickclips`, `readagain`, `picture` (`{name, bytes}`, and `choosesPlace` where the person asks where to save it),
-    /// `picturefailed` (`{message}`), `greetingclosed` after `greet`, `save` (`{name, contents, type}`: a file to save, as text or bytes), `explain` (`{code}`: its place on the page of codes) and `announce` (`{text, assertive}`). A viewer that is mirrored also tells of its controls, for
+    /// `picturefailed` (`{message}`), `greetingclosed` after `greet`, `save` (`{name, contents, type}`: a file to save, as text or bytes), `explain` (`{code}`: its place on the page of codes) and `announce` (`{text, assertive}`). It also tells of its controls, for
     /// `web/mirror.js`: `mirror` (`{changes, view}`). The callback may call any method but `free`.
     #[wasm_bindgen(constructor)]
     pub fn new(options: &JsValue, on_event: Function) -> Self {
@@ -57,8 +56,7 @@ impl Viewer {
         if let Some(split) = field(options, "split").as_f64() {
             session.apply(LookCommand::SetSplit(Some(split as f32)));
         }
-        let mirror = MirrorLink::new(field(options, "mirrored").is_truthy());
-        let shared = Shared::new(session, mirror, on_event);
+        let shared = Shared::new(session, on_event);
         shared.ui.borrow_mut().theme = named("theme").and_then(|name| Theme::from_name(&name));
         Self {
             shared: Rc::new(shared),

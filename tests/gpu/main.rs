@@ -44,6 +44,7 @@ mod map_uploads;
 mod maps;
 mod normal_maps;
 mod over_model;
+mod painter;
 mod parts;
 mod passes;
 mod performance;

@@ -357,14 +357,19 @@ fn textures_are_kept_while_a_window_is_resized() {
     assert!(!target.resize(device, [100, 100], [100, 100]), "much too large is");
 }
 
-/// Composites onto a surface as egui's, which is not sRGB, and reads that.
+/// Composites onto a surface and reads that.
 fn composite(gpu: &Gpu, target: &Target) -> Picture {
-    let device = &gpu.open.device;
-    let [width, height] = [target.texture().width(), target.texture().height()];
-    let format = wgpu::TextureFormat::Rgba8Unorm;
-    let mut compositor = Compositor::new(device, format);
-    compositor.prepare(device, &gpu.open.queue, target);
-    let rgba = drawn(gpu, format, [width, height], |pass| {
+    let mut compositor = Compositor::new(&gpu.open.device, SURFACE_FORMAT);
+    compositor.prepare(&gpu.open.device, &gpu.open.queue, target);
+    on_surface(gpu, &compositor, [target.texture().width(), target.texture().height()])
+}
+
+/// As egui's, which is not sRGB.
+pub(crate) const SURFACE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// What a compositor brings onto a surface of this size.
+pub(crate) fn on_surface(gpu: &Gpu, compositor: &Compositor, [width, height]: [u32; 2]) -> Picture {
+    let rgba = drawn(gpu, SURFACE_FORMAT, [width, height], |pass| {
         // As egui hands it to a paint callback.
         let mut pass: wgpu::RenderPass<'static> = pass.forget_lifetime();
         compositor.paint(&mut pass);

@@ -121,7 +121,7 @@ fn a_chip_is_pressed_by_the_keyboard_and_by_a_screen_reader() {
     window.apply(PlayCommand::ToggleBindPose);
     for _ in 0..80 {
         if window.focused().as_deref() != Some("Leave bind pose") {
-            window.press(Modifiers::NONE, Key::Tab);
+            window.tab(false);
         }
     }
     window.press(Modifiers::NONE, Key::Enter);

@@ -128,7 +128,7 @@ fn arrow_keys_move_the_handle_too() {
     let mut window = open();
     let half = top(&window);
     while window.focused().as_deref() != Some("Close the sheet") {
-        window.press(Modifiers::NONE, Key::Tab);
+        window.tab(false);
     }
     window.press(Modifiers::NONE, Key::ArrowUp);
     assert!(top(&window) < half);

@@ -64,7 +64,7 @@ fn esc_shuts_the_menu_and_gives_the_focus_back_to_the_name() {
     let name = Some("Open model: Middle.m3d · 2 of 3");
     for _ in 0..100 {
         if window.focused().as_deref() != name {
-            window.press(Modifiers::NONE, Key::Tab);
+            window.tab(false);
         }
     }
     window.press(Modifiers::NONE, Key::Enter);

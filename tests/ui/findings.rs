@@ -343,7 +343,7 @@ fn a_finding_can_be_reached_and_opened_by_keys_and_shows_that_it_can_be_clicked(
         if window.focused().is_some_and(|name| name.starts_with(OF_BONE)) {
             break;
         }
-        window.press(Modifiers::NONE, Key::Tab);
+        window.tab(false);
     }
     window.press(Modifiers::NONE, Key::Enter);
     assert_eq!(selected(&window), Some(1));

@@ -84,7 +84,7 @@ fn a_tiny_window_and_an_open_sheet_have_no_greeting() {
 fn the_greeting_is_reached_by_tab() {
     let mut window = greeted(WIDE, false);
     for _ in 0..80 {
-        window.press(Modifiers::NONE, Key::Tab);
+        window.tab(false);
         if window.focused().as_deref() == Some("Choose files to open") {
             window.press(Modifiers::NONE, Key::Enter);
             assert_eq!(window.harness.state().requests, [Request::PickFiles]);

@@ -1,4 +1,4 @@
-//! The keyboard focus: in which order it goes, what takes it, who gets it back, and that it is seen.
+//! The keyboard focus: in which order Tab takes it through what the page mirrors, what takes it, who gets it back, and that it is seen.
 
 use bindpose::ui::theme::{Contrast, Tokens};
 use egui::{Key, Modifiers, Shape};
@@ -12,7 +12,7 @@ const PLAIN: Modifiers = Modifiers::NONE;
 fn order(window: &mut Window) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for _ in 0..200 {
-        window.press(PLAIN, Key::Tab);
+        window.tab(false);
         let name = window.focused().expect("Tab always finds a control");
         if names.first() == Some(&name) {
             return names;
@@ -43,18 +43,10 @@ fn tab_goes_in_reading_order_and_every_stop_is_seen() {
         let found = names.iter().position(|name| name.starts_with(start));
         found.unwrap_or_else(|| panic!("no {start:?} in {names:?}"))
     };
-    let places = [
-        "View mode",
-        "Help (?)",
-        "Panel: Model",
-        "Findings",
-        "Model view",
-        "Play",
-    ]
-    .map(place);
+    let places = ["View mode", "Help (?)", "Panel: Model", "Findings", "Play"].map(place);
     assert!(places.is_sorted(), "{places:?} of {names:?}");
     for _ in &names {
-        window.press(PLAIN, Key::Tab);
+        window.tab(false);
         assert!(ring_is_seen(&window), "no ring round {:?}", window.focused());
     }
 }
@@ -64,7 +56,7 @@ fn backward_is_the_same_way() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     let names = order(&mut window);
     for name in names.iter().rev() {
-        window.press(Modifiers::SHIFT, Key::Tab);
+        window.tab(true);
         assert_eq!(window.focused().as_ref(), Some(name));
     }
 }
@@ -77,7 +69,7 @@ fn the_first_tab_after_a_click_goes_on_from_there() {
     window.click("Turntable");
     assert_eq!(window.focused(), None, "the mouse focuses nothing");
     assert!(!ring_is_seen(&window));
-    window.press(PLAIN, Key::Tab);
+    window.tab(false);
     assert_eq!(window.focused().as_ref(), names.get(turntable + 1));
     assert!(ring_is_seen(&window));
 }
@@ -95,7 +87,7 @@ fn what_opens_takes_the_focus_and_gives_it_back() {
     ] {
         let mut window = window(WIDE, vec![moving("a.m3d")]);
         while !window.focused().is_some_and(|name| name.starts_with(button)) {
-            window.press(PLAIN, Key::Tab);
+            window.tab(false);
         }
         window.press(PLAIN, Key::Enter);
         let inside = window.focused().unwrap_or_default();
@@ -114,7 +106,7 @@ fn tab_goes_into_what_the_mouse_opened() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     window.click("Lighting");
     assert_eq!(window.focused(), None);
-    window.press(PLAIN, Key::Tab);
+    window.tab(false);
     assert!(window.focused().is_some_and(|name| name.starts_with("Light: ")));
 }
 
@@ -124,7 +116,7 @@ fn what_is_scrolled_out_comes_into_view_with_the_focus() {
     window.click("More");
     window.click("Light and background");
     for _ in 0..60 {
-        window.press(PLAIN, Key::Tab);
+        window.tab(false);
         window.wait(0.2);
         let name = window.focused().unwrap_or_default();
         if name == "Model view" {

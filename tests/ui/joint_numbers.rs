@@ -287,7 +287,7 @@ fn the_keys_open_at_the_one_in_force_and_keys_walk_through_them() {
         if window.focused().is_some_and(|name| name.starts_with(&in_force)) {
             break;
         }
-        window.press(Modifiers::NONE, Key::Tab);
+        window.tab(false);
     }
     window.press(Modifiers::NONE, Key::ArrowDown);
     assert_eq!(window.time_secs(), 1.5, "the focus alone does not move the time");

@@ -102,7 +102,7 @@ fn tab_to(window: &mut Window, start: &str) {
         if window.focused().is_some_and(|name| name.starts_with(start)) {
             return;
         }
-        window.press(Modifiers::NONE, Key::Tab);
+        window.tab(false);
     }
     panic!("Tab does not come to {start:?}");
 }

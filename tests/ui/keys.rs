@@ -432,7 +432,7 @@ fn keys_of_the_browser_do_nothing_here() {
 fn a_focused_control_keeps_space_for_itself() {
     let mut window = open();
     for _ in 0..40 {
-        window.press(PLAIN, Key::Tab);
+        window.tab(false);
         let focused = window.focused();
         if focused.as_deref() == Some("Turntable") {
             window.press(PLAIN, Key::Space);
@@ -620,7 +620,7 @@ fn a_name_whose_row_is_scrolled_out_of_sight_is_taken() {
 #[track_caller]
 fn tab_to(window: &mut Window, start: &str) {
     for _ in 0..80 {
-        window.press(PLAIN, Key::Tab);
+        window.tab(false);
         if window.focused().is_some_and(|name| name.starts_with(start)) {
             return;
         }
@@ -640,7 +640,7 @@ fn what_hung_from_a_button_gives_it_the_keyboard_back() {
         );
         for steps in [0, 1, 3] {
             for _ in 0..steps {
-                window.press(PLAIN, Key::Tab);
+                window.tab(false);
             }
             window.press(PLAIN, Key::Escape);
             let focused = window.focused();

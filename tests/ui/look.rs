@@ -72,7 +72,7 @@ fn sliders_follow_the_pointer_and_the_arrows_and_go_back_with_a_double_click() {
 
     let stops = window.session().look().exposure_stops;
     while window.focused().as_deref() != Some("Exposure") {
-        window.press(Modifiers::NONE, Key::Tab);
+        window.tab(false);
     }
     window.press(Modifiers::NONE, Key::ArrowRight);
     assert!(window.session().look().exposure_stops > stops);

@@ -58,7 +58,7 @@ fn it_stays_under_the_pointer_and_while_it_has_the_focus() {
     let mut window = saved(window);
     for _ in 0..80 {
         if window.focused().as_deref() != Some("Save the picture as…") {
-            window.press(Modifiers::NONE, Key::Tab);
+            window.tab(false);
         }
     }
     window.wait(8.0);

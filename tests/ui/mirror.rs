@@ -9,9 +9,7 @@ use crate::{models, rigs};
 
 /// A window that is mirrored, all of which was told.
 fn mirrored(files: Vec<File>) -> (Window, Vec<MirrorNode>) {
-    let mut window = window(WIDE, files);
-    window.harness.ctx.add_plugin(Mirror::default());
-    window.pass_on();
+    let window = window(WIDE, files);
     let all = changes(&window).expect("nothing was told yet");
     assert!(all.fresh);
     (window, all.changed)

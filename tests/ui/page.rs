@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use bindpose::app::{App, AppOptions};
 use bindpose::session::{Command, ExportedFile, File, FileCommand, Session};
-use bindpose::ui::{self, DrawerPage, Request, UiState};
+use bindpose::ui::{self, DrawerPage, Mirror, MirrorAction, MirrorNode, Request, UiState};
 use egui::accesskit::{Action, ActionData, ActionRequest, Role};
 use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, Rect, TouchPhase, Vec2};
 use egui_kittest::kittest::{AccessKitNode, NodeT as _};
@@ -307,6 +307,13 @@ impl Window {
         self.pass_on();
     }
 
+    /// Tab, as the page has it.
+    pub(crate) fn tab(&mut self, backward: bool) {
+        let event = tab(&self.harness.ctx, backward);
+        self.harness.event(event);
+        self.pass_on();
+    }
+
     pub(crate) fn press(&mut self, modifiers: Modifiers, key: Key) {
         self.harness.key_press_modifiers(modifiers, key);
         self.pass_on();
@@ -361,6 +368,24 @@ pub(crate) fn app_options(coarse_pointer: bool) -> AppOptions {
         coarse_pointer,
         now_secs: || 0.0,
     }
+}
+
+/// What Tab asks for on the page: the focus for the next of the elements that mirror the controls, after the focused one or what was
+/// clicked last. The view comes before all of them, and after them.
+pub(crate) fn tab(ctx: &egui::Context, backward: bool) -> egui::Event {
+    let mirror = ctx.plugin::<Mirror>();
+    let mirror = mirror.lock();
+    let mut nodes = mirror.in_order();
+    if backward {
+        nodes.reverse();
+    }
+    let start = mirror.tab_start();
+    let from = nodes.iter().position(|node| Some(node.id) == start);
+    let after = from.map_or(0, |from| from + 1);
+    nodes.rotate_left(after);
+    let is_stop = |node: &&&MirrorNode| node.focusable && node.stop && !node.disabled;
+    let next = nodes.iter().find(is_stop).expect("something takes the focus");
+    MirrorAction::Focus.event(next.id)
 }
 
 /// The window without the margin that the harness keeps: the page has none.

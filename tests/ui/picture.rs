@@ -21,7 +21,7 @@ use image::RgbaImage;
 use image::imageops::{self, FilterType};
 
 use crate::models::broken;
-use crate::page::{PHONE, WIDE, new_app, whole_window};
+use crate::page::{PHONE, WIDE, new_app, tab, whole_window};
 use crate::rigs::chain;
 
 /// Drivers round and antialias differently: a channel may be off by this much anywhere …
@@ -95,7 +95,7 @@ fn draw_with(
     harness.run();
     for start in clicks {
         if *start == TAB {
-            harness.key_press(egui::Key::Tab);
+            harness.event(tab(&harness.ctx, false));
             harness.run();
             continue;
         }

@@ -23,7 +23,6 @@ struct Told {
 
 impl Told {
     fn of(window: &mut Window) -> Self {
-        window.harness.ctx.add_plugin(Mirror::default());
         *window.harness.ctx.plugin::<Mirror>().lock() = Mirror::default();
         window.pass_on();
         let plugin = window.harness.ctx.plugin::<Mirror>();

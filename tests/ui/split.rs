@@ -60,7 +60,7 @@ fn a_double_click_brings_it_to_the_middle() {
 fn the_keyboard_moves_it_too() {
     let mut window = divided(0.5);
     for _ in 0..60 {
-        window.press(Modifiers::NONE, Key::Tab);
+        window.tab(false);
         if window.focused().as_deref() == Some("Split") {
             window.press(Modifiers::NONE, Key::ArrowLeft);
             assert_split(&window, 0.49);

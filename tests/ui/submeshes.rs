@@ -84,7 +84,7 @@ fn the_list_says_its_states_and_arrows_walk_it() {
 
     for _ in 0..80 {
         if window.focused().as_deref() != Some("Painted, 6 triangles") {
-            window.press(Modifiers::NONE, Key::Tab);
+            window.tab(false);
         }
     }
     for (key, name) in [

@@ -527,7 +527,7 @@ fn tab_goes_through_the_strip_in_reading_order_and_choices_have_values() {
     let mut order = Vec::new();
     for _ in 0..17 {
         order.push(window.focused().expect("something has the focus"));
-        window.press(Modifiers::NONE, Key::Tab);
+        window.tab(false);
     }
     let starts = [
         "First frame",

@@ -80,7 +80,7 @@ fn a_slider_that_is_dragged_is_one_step() {
 fn an_arrow_key_on_a_slider_is_a_step_and_one_that_is_held_too() {
     let mut window = open();
     while window.focused().as_deref() != Some("Roughness") {
-        window.press(Modifiers::NONE, Key::Tab);
+        window.tab(false);
     }
     for _ in 0..3 {
         window.press(Modifiers::NONE, Key::ArrowLeft);

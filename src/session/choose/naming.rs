@@ -92,7 +92,7 @@ impl Session {
     }
 
     /// The number of a joint in the file.
-    pub(in crate::session) fn bone_number(&self, joint: JointIndex) -> u32 {
+    pub fn bone_number(&self, joint: JointIndex) -> u32 {
         self.bone_of(joint).unwrap_or(joint.0)
     }
 

@@ -120,11 +120,10 @@ fn ghosts<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
         let size = vec2((ui.available_width() - 2.0 * gap) / 3.0, control_size(ui));
         let muted = Tokens::of(ui).muted;
         let [past, future] = [0, 1].map(|ghost| ghost_color(ui, ghost));
-        let mut field = |label: &str, color: Color32, value: u32, range| {
+        let mut field = |[short, label]: [&str; 2], color: Color32, value: u32, range| {
             ui.vertical(|ui| {
                 ui.set_width(size.x);
                 let (name, _) = ui.allocate_exact_size(vec2(size.x, 15.0), Sense::hover());
-                let short = label.rsplit(' ').next().unwrap_or(label);
                 let font = FontId::proportional(11.0);
                 ui.painter()
                     .text(name.center(), Align2::CENTER_CENTER, short, font, color);
@@ -133,9 +132,14 @@ fn ghosts<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
             .inner
             .map(|number| number.round() as u32)
         };
-        let before = field("Ghosts before", past, plan.before, 0.0..=MOST_GHOSTS);
-        let after = field("Ghosts after", future, plan.after, 0.0..=MOST_GHOSTS);
-        let step = field("Ghosts every frames", muted, plan.step_frames, 1.0..=MOST_STEP);
+        let before = field(["before", "Ghosts before"], past, plan.before, 0.0..=MOST_GHOSTS);
+        let after = field(["after", "Ghosts after"], future, plan.after, 0.0..=MOST_GHOSTS);
+        let step = field(
+            ["frames", "Ghosts every frames"],
+            muted,
+            plan.step_frames,
+            1.0..=MOST_STEP,
+        );
         let asked = GhostPlan {
             before: before.unwrap_or(plan.before),
             after: after.unwrap_or(plan.after),

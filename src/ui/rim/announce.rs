@@ -262,12 +262,8 @@ fn selection(session: &Session, now: &Seen) -> String {
         return format!("Vertex {}.", grouped(vertex as usize));
     }
     if let Some(joint) = now.joint {
-        let label = session.numbered_joint_label(joint);
-        return if label.starts_with("Bone") {
-            format!("{label}.")
-        } else {
-            format!("Bone {label}.")
-        };
+        let name = session.joint_name(joint).map(|name| format!(" {name}"));
+        return format!("Bone {}{}.", session.bone_number(joint), name.unwrap_or_default());
     }
     match now.submesh {
         Some(submesh) => format!("Subset {}.", session.submesh_name(submesh)),
@@ -348,23 +344,21 @@ pub fn view_in_words(session: &Session) -> String {
         });
     }
     let look = session.look();
-    let joint = session.joints().selected().map(|joint| session.joint_label(joint));
+    let joint = session
+        .joints()
+        .selected()
+        .map(|joint| match session.joint_name(joint) {
+            Some(name) => name.to_owned(),
+            None => format!("bone {}", session.bone_number(joint)),
+        });
     match (look.skin_view, joint) {
-        (Some(SkinView::Weight), Some(joint)) => parts.push(format!("weights of {}", lower_bone(&joint))),
+        (Some(SkinView::Weight), Some(joint)) => parts.push(format!("weights of {joint}")),
         (Some(view), _) => parts.push(view.label().to_lowercase()),
-        (None, Some(joint)) => parts.push(format!("{} selected", lower_bone(&joint))),
+        (None, Some(joint)) => parts.push(format!("{joint} selected")),
         (None, None) => {}
     }
     if look.skin_view.is_none() && look.view_mode != ViewMode::default() {
         parts.push(look.view_mode.label().to_lowercase());
     }
     parts.join(", ")
-}
-
-/// `bone 12` inside of a sentence; names stay as they are.
-fn lower_bone(label: &str) -> String {
-    match label.strip_prefix("Bone ") {
-        Some(number) => format!("bone {number}"),
-        None => label.to_owned(),
-    }
 }

@@ -185,6 +185,16 @@ test("Shift and Tab go from the canvas to where Tab would come from, also after 
   assert.equal(at("first").page.focused, at("first"));
 });
 
+test("Tab goes on from what was clicked on the canvas", () => {
+  const { at, canvas, tell, down } = mirrorWith([button("first"), button("second"), button("third")]);
+  for (const [shiftKey, next] of [[false, "third"], [true, "first"]]) {
+    canvas.focus();
+    tell([], { focus: null, start: "second" });
+    down("Tab", { shiftKey });
+    assert.equal(at(next).page.focused, at(next));
+  }
+});
+
 test("who comes to the view by Tab sees that it has the focus; a script or a click shows nothing", () => {
   const { at, canvas, down } = mirrorWith([button("first")]);
   canvas.focus();

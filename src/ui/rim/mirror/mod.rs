@@ -10,7 +10,7 @@ mod record;
 use std::collections::{BTreeMap, HashMap};
 
 use egui::accesskit::{Action, HasPopup, Node, NodeId, Role, Toggled, TreeUpdate};
-use egui::{Context, FullOutput, Rect};
+use egui::{Context, FullOutput, Id, Rect};
 
 use aria::{Branch, among_others, around, first_words, is_overlay, is_pressed, items_of, role_of, settle};
 pub use input::MirrorInput;
@@ -29,6 +29,7 @@ struct Snapshot {
     nodes: BTreeMap<MirrorId, MirrorNode>,
     children: Vec<MirrorId>,
     focus: Option<MirrorId>,
+    start: Option<MirrorId>,
 }
 
 impl egui::Plugin for Mirror {
@@ -41,6 +42,8 @@ impl egui::Plugin for Mirror {
         // A pass that is done over has half of the tree.
         if let Some(update) = output.accesskit_update.as_ref().filter(|_| !output.requested_discard()) {
             self.now = Snapshot::of(update, &visible_rects(ctx));
+            let clicked = ctx.data(|data| data.get_temp::<Option<Id>>(tab_start_id()));
+            self.now.start = clicked.flatten().map(|id| MirrorId(id.value()));
         }
     }
 }
@@ -62,8 +65,27 @@ impl Mirror {
             removed: told.nodes.keys().filter(is_gone).copied().collect(),
             children: now.children.clone(),
             focus: now.focus,
+            start: now.start,
             fresh,
         })
+    }
+
+    /// All records, in the order in which they are read.
+    pub fn in_order(&self) -> Vec<&MirrorNode> {
+        fn collect<'a>(snapshot: &'a Snapshot, ids: &[MirrorId], nodes: &mut Vec<&'a MirrorNode>) {
+            for node in ids.iter().filter_map(|id| snapshot.nodes.get(id)) {
+                nodes.push(node);
+                collect(snapshot, &node.children, nodes);
+            }
+        }
+        let mut nodes = Vec::new();
+        collect(&self.now, &self.now.children, &mut nodes);
+        nodes
+    }
+
+    /// After what Tab goes on: what has the focus, or else what was clicked last.
+    pub fn tab_start(&self) -> Option<MirrorId> {
+        self.now.focus.or(self.now.start)
     }
 
     /// The text of each element as it was seen last, indented: its role, name and state.
@@ -89,6 +111,15 @@ impl Mirror {
         write(&self.now, &self.now.children, 0, &mut text);
         text
     }
+}
+
+/// Notes what was clicked last, while nothing has the focus.
+pub(in crate::ui) fn set_tab_start(ctx: &Context, clicked: Option<Id>) {
+    ctx.data_mut(|data| data.insert_temp(tab_start_id(), clicked));
+}
+
+fn tab_start_id() -> Id {
+    Id::unique("after what Tab goes on")
 }
 
 /// The visible part of each widget of the pass that has ended. Negative where a widget is scrolled out of view.

@@ -88,6 +88,8 @@ pub struct MirrorChanges {
     pub children: Vec<MirrorId>,
     /// What has the keyboard focus in egui; it may be no record, as a row that is still out of view.
     pub focus: Option<MirrorId>,
+    /// After what Tab goes on while nothing has the focus: what was clicked last.
+    pub start: Option<MirrorId>,
     /// Nothing was told before, so that older elements are of another start.
     pub fresh: bool,
 }

@@ -122,8 +122,7 @@ fn range<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
         cx.push(PlayCommand::ClearRange);
     }
     let [start_secs, end_secs] = playback.played_secs();
-    for (name, secs) in [("In", start_secs), ("Out", end_secs)] {
-        let begins = name == "In";
+    for (begins, name, secs) in [(true, "In", start_secs), (false, "Out", end_secs)] {
         let typed = format!("{secs:.3}");
         let frame = format!("frame {}", clip.frame_at(secs));
         let read = |typed: &str| {

@@ -1,0 +1,303 @@
+//! Draws a session on a GPU, for whoever has a surface: what changed is uploaded, what the GPU refuses is taken back, and a picture is drawn
+//! when it would differ. It knows no window and no interface; a lost GPU takes it along, and another one brings all of it back.
+
+use std::task::{Context, Poll, Waker};
+
+use crate::render::{
+    Compositor, GpuAnswer, Picture, PictureError, PictureTarget, Renderer, RendererOptions, SampleCount, Target,
+    UploadError, watched,
+};
+use crate::scene::{FrameCost, FrameOptions, RenderFrame};
+use crate::session::{Quality, Session};
+
+/// Texels along each edge of the shadow map where fingers are the pointer: a phone has less memory to write to.
+const SMALL_SHADOW_MAP_SIDE: u32 = 1024;
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Drawn {
+    picture: u64,
+    size: [u32; 2],
+}
+
+/// Sizes of the picture, pixels.
+#[derive(Clone, Copy)]
+struct Sizes {
+    now: [u32; 2],
+    at_rest: [u32; 2],
+}
+
+/// What a painter is told of where it runs.
+#[derive(Clone, Copy, Debug)]
+pub struct PainterOptions {
+    /// As many as [`device::sample_count`](crate::render::device::sample_count) says of the adapter.
+    pub samples: SampleCount,
+    pub coarse_pointer: bool,
+    /// Seconds since some moment.
+    pub now_secs: fn() -> f64,
+}
+
+/// Draws a session: the renderer, the targets, and the revisions of what was uploaded and drawn.
+pub struct SessionPainter {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    samples: SampleCount,
+    now_secs: fn() -> f64,
+    renderer: Renderer,
+    target: Target,
+    /// With one sample a pixel, for pictures without smooth edges.
+    plain_target: Target,
+    model: Option<u64>,
+    maps: Option<u64>,
+    materials: Option<u64>,
+    sky: Option<u64>,
+    drawn: Option<Drawn>,
+    frames_rendered: u64,
+    /// Uploads that the GPU has not confirmed yet.
+    answers: Vec<GpuAnswer>,
+    /// A resized target that the GPU has not confirmed yet.
+    target_answer: Option<GpuAnswer>,
+    /// Asks for another picture when an answer arrives.
+    waker: Waker,
+}
+
+impl SessionPainter {
+    /// `waker` is woken when the GPU has answered: then [`SessionPainter::draw`] is due.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, options: PainterOptions, waker: Waker) -> Self {
+        let samples = options.samples;
+        let mut of_renderer = RendererOptions {
+            samples,
+            ..RendererOptions::default()
+        };
+        if options.coarse_pointer {
+            of_renderer.shadow_map_side = SMALL_SHADOW_MAP_SIDE;
+        }
+        Self {
+            renderer: Renderer::new(device, queue, of_renderer),
+            target: Target::with_samples(device, 1, 1, samples),
+            plain_target: Target::with_samples(device, 1, 1, SampleCount::One),
+            device: device.clone(),
+            queue: queue.clone(),
+            samples,
+            now_secs: options.now_secs,
+            model: None,
+            maps: None,
+            materials: None,
+            sky: None,
+            drawn: None,
+            frames_rendered: 0,
+            answers: Vec::new(),
+            target_answer: None,
+            waker,
+        }
+    }
+
+    /// How large the picture is to be now, and at rest, in a window of this size in pixels.
+    fn sizes(&self, quality: &Quality, window: [f32; 2]) -> Sizes {
+        let affordable = Target::affordable_scale(window.map(|side| side as u32), self.samples);
+        let scaled = |scale: f32| window.map(|side| (side * scale * affordable).round().max(1.0) as u32);
+        Sizes {
+            now: scaled(quality.scale_now()),
+            at_rest: scaled(quality.render_scale().fraction()),
+        }
+    }
+
+    /// Draws for a window of this size in pixels, if the picture would differ from the last one. Returns what that cost, if it drew; the
+    /// compositor then shows it.
+    pub fn draw(&mut self, session: &mut Session, window: [f32; 2], compositor: &mut Compositor) -> Option<FrameCost> {
+        let sizes = self.sizes(session.quality(), window);
+        self.update(session);
+        let wanted = Drawn {
+            picture: session.picture_revision(),
+            size: sizes.now,
+        };
+        self.poll_target(session);
+        if self.drawn == Some(wanted) {
+            return None;
+        }
+        let (target, largest) = if session.quality().smooths_edges_now() {
+            (&mut self.target, sizes.at_rest)
+        } else {
+            (&mut self.plain_target, sizes.now)
+        };
+        let start_secs = (self.now_secs)();
+        let mut cost;
+        if target.size() == sizes.now {
+            cost = self.renderer.render(&session.frame(), target);
+        } else {
+            let device = self.device.clone();
+            let stayed;
+            let answer;
+            ((stayed, cost), answer) = watched(&device, || {
+                let stayed = target.resize(&device, sizes.now, largest);
+                (stayed, self.renderer.render(&session.frame(), target))
+            });
+            // Maps of the light go with the picture's size, but they are small.
+            if !stayed {
+                self.target_answer = Some(answer);
+            }
+        }
+        cost.cpu_secs = Some(((self.now_secs)() - start_secs) as f32);
+        compositor.prepare(&self.device, &self.queue, target);
+        self.poll_target(session);
+        self.drawn = Some(wanted);
+        self.frames_rendered += 1;
+        Some(cost)
+    }
+
+    /// Shows the GPU's error about a resized target in the session, if there is one.
+    fn poll_target(&mut self, session: &mut Session) {
+        let Some(mut answer) = self.target_answer.take() else {
+            return;
+        };
+        match answer.as_mut().poll(&mut Context::from_waker(&self.waker)) {
+            Poll::Ready(Ok(())) => {}
+            Poll::Ready(Err(error)) => session.note_undrawn(&error.to_string()),
+            Poll::Pending => self.target_answer = Some(answer),
+        }
+    }
+
+    /// Draws the session's view into a target of its own. A picture may take its time: what the window leaves out for speed is drawn.
+    /// `adjust` may change how it looks.
+    ///
+    /// # Errors
+    /// When the device draws no picture of this size; whether it could draw this one comes with its pixels.
+    pub fn draw_snapshot(
+        &mut self,
+        session: &mut Session,
+        size: [u32; 2],
+        adjust: impl FnOnce(&mut FrameOptions),
+    ) -> Result<Picture, PictureError> {
+        self.update(session);
+        let mut frame = session.frame_at_rest();
+        adjust(&mut frame.options);
+        self.renderer.picture(&frame, size)
+    }
+
+    /// Brings the GPU up to date with the session. Whether it then has all that another session shows, but for the view.
+    pub fn has_uploaded(&mut self, session: &mut Session, other: &Session) -> bool {
+        self.update(session);
+        !self.is_behind(other)
+    }
+
+    /// Draws a frame of what the GPU has into a target of its own.
+    ///
+    /// # Errors
+    /// When the device draws no picture of this size.
+    pub fn picture_into(
+        &mut self,
+        frame: &RenderFrame<'_>,
+        target: &mut PictureTarget,
+    ) -> Result<Picture, PictureError> {
+        self.renderer.picture_into(frame, target)
+    }
+
+    /// Whether the picture that was drawn last is of what the session shows.
+    pub fn is_current(&self, session: &Session) -> bool {
+        session.picture_revision() == self.drawn.map_or(0, |drawn| drawn.picture)
+    }
+
+    /// Whether pipelines are left to be built of those that a person may soon ask for. When there is nothing else to do, it builds one.
+    pub fn prepares(&mut self, session: &Session, is_idle: bool) -> bool {
+        let lowered = session.quality().lowered();
+        let is_plain = lowered.is_some_and(|lowered| lowered.without_smooth_edges);
+        let samples = &[SampleCount::One, self.samples][usize::from(!is_plain)..];
+        !self.renderer.is_prepared(samples) && (!is_idle || self.renderer.prepare_next(samples))
+    }
+
+    /// How many pictures were drawn: stands still while nothing changes.
+    pub fn frames_rendered(&self) -> u64 {
+        self.frames_rendered
+    }
+
+    /// The longest side of a picture that the device can draw, in pixels.
+    pub fn longest_side(&self) -> u32 {
+        self.device.limits().max_texture_dimension_2d
+    }
+
+    /// Uploads what changed in the session. When that fails, the session goes back to what was open before, and that is uploaded.
+    fn update(&mut self, session: &mut Session) {
+        // The GPU may refuse what it accepted before. Then the session opens nothing, which always works.
+        for _ in 0..3 {
+            match self.try_update(session) {
+                Err(reason) => {
+                    session.go_back(&reason);
+                    self.forget();
+                }
+                Ok(()) => return,
+            }
+        }
+    }
+
+    /// Uploads what changed in the session, and polls the GPU's answers to all uploads. An error is the reason why one failed.
+    fn try_update(&mut self, session: &mut Session) -> Result<(), String> {
+        let device = self.device.clone();
+        if self.is_behind(session) {
+            let (uploaded, answer) = watched(&device, || self.upload(session));
+            self.answers.push(answer);
+            uploaded.map_err(|error| error.to_string())?;
+        }
+        if self.answers.is_empty() {
+            return Ok(());
+        }
+        let mut context = Context::from_waker(&self.waker);
+        let mut waiting = Vec::new();
+        for mut answer in self.answers.drain(..) {
+            match answer.as_mut().poll(&mut context) {
+                Poll::Ready(Ok(())) => {}
+                Poll::Ready(Err(error)) => return Err(error.to_string()),
+                Poll::Pending => waiting.push(answer),
+            }
+        }
+        self.answers = waiting;
+        if self.answers.is_empty() {
+            session.confirm_uploads();
+        }
+        Ok(())
+    }
+
+    /// Forgets all that was uploaded.
+    pub fn forget(&mut self) {
+        self.renderer.clear_model();
+        self.answers.clear();
+        (self.model, self.maps, self.materials, self.sky, self.drawn) = (None, None, None, None, None);
+    }
+
+    fn is_behind(&self, session: &Session) -> bool {
+        let of_model = [
+            (self.model, session.model_revision()),
+            (self.maps, session.maps_revision()),
+            (self.materials, session.materials_revision()),
+        ];
+        let lacks_model = session.open_model().is_some() && of_model.iter().any(|&(held, wanted)| held != Some(wanted));
+        lacks_model || self.sky != Some(session.sky_revision())
+    }
+
+    fn upload(&mut self, session: &Session) -> Result<(), UploadError> {
+        self.drawn = None;
+        let sky = session.sky_revision();
+        if self.sky != Some(sky) {
+            self.renderer.set_sky(session.sky().map(|image| &**image));
+            self.sky = Some(sky);
+        }
+        let Some(open) = session.open_model() else {
+            return Ok(());
+        };
+        let (model, maps) = (session.model_revision(), session.maps_revision());
+        if self.model != Some(model) {
+            self.renderer.set_model(&open.model)?;
+            self.model = Some(model);
+            self.maps = None;
+            self.materials = None;
+        }
+        if self.maps != Some(maps) {
+            self.renderer.set_maps(&session.maps().images().collect::<Vec<_>>());
+            self.maps = Some(maps);
+        }
+        let materials = session.materials_revision();
+        if self.materials != Some(materials) {
+            self.renderer.set_materials(session.materials());
+            self.materials = Some(materials);
+        }
+        Ok(())
+    }
+}
