@@ -8,6 +8,8 @@ mod imported;
 mod keys;
 pub mod m3d;
 mod normals;
+mod offsets;
+mod scene;
 mod tangents;
 mod weights;
 

@@ -5,21 +5,14 @@ use std::collections::BTreeSet;
 
 use serde_json::Value;
 
-use super::nodes::Nodes;
-use super::skeleton::{MeshUse, Rig};
+use super::skeleton::Rig;
 use crate::diagnostic::collect::{Diagnostics, Place, counted, few};
 use crate::diagnostic::{Code, codes};
 use crate::gltf::{Node, Root, is_attribute};
+use crate::import::scene::Scene;
 
-/// Notes what is left out of a scene whose meshes are used so. `second_tex_coords`: a map takes them.
-pub(super) fn note(
-    root: &Root,
-    nodes: &Nodes,
-    uses: &[MeshUse],
-    rig: &Rig,
-    second_tex_coords: bool,
-    diagnostics: &mut Diagnostics,
-) {
+/// Notes what of a document is not in its scene and the skeleton of it. `second_tex_coords`: a map takes them.
+pub(super) fn note(root: &Root, scene: &Scene, rig: &Rig, second_tex_coords: bool, diagnostics: &mut Diagnostics) {
     let mut tell = |code: &Code, count: usize, pointer: &str, [one, many]: [&str; 2], names: Vec<String>| {
         if count > 0 {
             let listed = if names.is_empty() { "" } else { ": " };
@@ -27,7 +20,8 @@ pub(super) fn note(
             diagnostics.add(code, Place::pointer(pointer).counting(count), message);
         }
     };
-    let in_scene = |node: &(usize, &Node)| nodes.in_scene[node.0];
+    let uses = &scene.uses;
+    let in_scene = |node: &(usize, &Node)| scene.nodes[node.0].in_scene;
     let all = || root.nodes().iter().enumerate();
     let name = |(index, node): (usize, &Node)| node.name.clone().unwrap_or_else(|| format!("node {index}"));
     let scenes = root.scenes().len().saturating_sub(1);
@@ -83,7 +77,7 @@ pub(super) fn note(
     let mut is_taken: Vec<bool> = rig.joint_of_node.iter().map(Option::is_some).collect();
     uses.iter().for_each(|mesh| is_taken[mesh.node as usize] = true);
     let has_model = is_taken.contains(&true);
-    nodes.mark_above(&mut is_taken);
+    scene.mark_above(&mut is_taken);
     let mut counts = [0; 3];
     for (index, node) in all().filter(|node| in_scene(node) && has_model) {
         match (node.camera, node.extensions.light) {

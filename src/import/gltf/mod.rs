@@ -6,7 +6,6 @@
 //!
 //! The file's names of nodes are the names of the joints until a person gives others.
 
-mod binding;
 mod clips;
 mod images;
 mod influences;
@@ -19,7 +18,6 @@ mod vertices;
 
 use self::images::Images;
 use self::meshes::Source;
-use self::nodes::Nodes;
 use super::{FileFormat, Imported, Refused};
 use crate::diagnostic::collect::{Diagnostics, Place};
 use crate::diagnostic::{Diagnostic, Severity, codes};
@@ -124,20 +122,20 @@ fn model(
     diagnostics: &mut Diagnostics,
 ) -> Result<(Model, Images, Effort), Fault> {
     let reader = Reader::new(root, buffers, container.json.len() as u64);
-    let nodes = Nodes::read(root, diagnostics)?;
+    let mut scene = nodes::scene(root, diagnostics)?;
     let images = Images::read(root, &reader, find, diagnostics)?;
     let mut materials = materials::materials(root, &images, diagnostics)?;
-    let uses = skeleton::meshes_in_scene(root, &nodes, diagnostics)?;
-    let rig = skeleton::rig(root, &reader, &nodes, &uses, diagnostics)?;
+    skeleton::find_meshes(root, &mut scene, diagnostics)?;
+    let rig = skeleton::rig(root, &reader, &mut scene, diagnostics)?;
     let source = Source {
         root,
         reader: &reader,
-        nodes: &nodes,
+        scene: &scene,
         rig: &rig,
         second_tex_coords: materials::take_second_tex_coords(&materials),
         normal_maps: materials::have_normal_maps(&materials),
     };
-    let mesh = meshes::mesh(&source, &uses, diagnostics)?;
+    let mesh = meshes::mesh(&source, diagnostics)?;
     // The last one is for primitives without any.
     if !mesh
         .submeshes
@@ -147,7 +145,7 @@ fn model(
         materials.pop();
     }
     let clips = clips::clips(root, &reader, &rig, diagnostics)?;
-    left_out::note(root, &nodes, &uses, &rig, source.second_tex_coords, diagnostics);
+    left_out::note(root, &scene, &rig, source.second_tex_coords, diagnostics);
     if mesh.positions.is_empty() && rig.skeleton.joint_count() == 0 {
         let message = codes::GLTF_EMPTY.sentence.to_owned();
         diagnostics.add(&codes::GLTF_EMPTY, Place::default(), message);
