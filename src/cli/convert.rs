@@ -182,7 +182,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
         model: open.model.clone(),
         names: &JointNames::default(),
         changes: open.mended(clips).collect(),
-        losses: open.left_out(clips).collect(),
+        losses: open.left_out(clips, is_glb).collect(),
         edits: arguments.edits(format, &open.model),
         maps: &maps,
         format,

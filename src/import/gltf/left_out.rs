@@ -1,7 +1,7 @@
 //! What a model does not take from a document, told: scenes and nodes that are not shown, objects that become one mesh, shape keys,
 //! attributes that nothing takes, and `extras`.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
 use serde_json::Value;
 
@@ -9,10 +9,18 @@ use super::skeleton::Rig;
 use crate::diagnostic::collect::{Diagnostics, Place, counted, few};
 use crate::diagnostic::{Code, codes};
 use crate::gltf::{Node, Root, is_attribute};
-use crate::import::scene::Scene;
+use crate::import::scene::{MeshUse, Scene};
+use crate::model::Object;
 
 /// Notes what of a document is not in its scene and the skeleton of it. `second_tex_coords`: a map takes them.
-pub(super) fn note(root: &Root, scene: &Scene, rig: &Rig, second_tex_coords: bool, diagnostics: &mut Diagnostics) {
+pub(super) fn note(
+    root: &Root,
+    scene: &Scene,
+    rig: &Rig,
+    objects: &[(MeshUse, Object)],
+    second_tex_coords: bool,
+    diagnostics: &mut Diagnostics,
+) {
     let mut tell = |code: &Code, count: usize, pointer: &str, [one, many]: [&str; 2], names: Vec<String>| {
         if count > 0 {
             let listed = if names.is_empty() { "" } else { ": " };
@@ -96,7 +104,7 @@ pub(super) fn note(root: &Root, scene: &Scene, rig: &Rig, second_tex_coords: boo
     let what = ["node is left out", "nodes are left out"];
     tell(&codes::GLTF_NODES_LEFT_OUT, counts.iter().sum(), "/nodes", what, names);
 
-    let extras = extras(root);
+    let extras = extras(root, objects);
     let what = [
         "part of the file has extras (custom properties), which are left out",
         "parts of the file have extras (custom properties), which are left out",
@@ -105,18 +113,28 @@ pub(super) fn note(root: &Root, scene: &Scene, rig: &Rig, second_tex_coords: boo
     tell(&codes::GLTF_EXTRAS_LEFT_OUT, extras.len(), &first, what, extras);
 }
 
-/// Where there are `extras` that are not read.
-fn extras(root: &Root) -> Vec<String> {
-    // Names of shape keys are told with these.
-    let is_read = |key: &String| key == "bindpose" || key == "targetNames";
-    let is_foreign = |extras: &Value| match extras {
-        Value::Object(keys) => !keys.keys().all(is_read),
+/// Whether a key of `extras` means something here. Names of shape keys are told with these.
+pub(super) fn is_read(key: &str) -> bool {
+    key == "bindpose" || key == "targetNames"
+}
+
+/// Whether there is more in `extras` than what means something here.
+pub(super) fn is_foreign(extras: &Value) -> bool {
+    match extras {
+        Value::Object(keys) => !keys.keys().all(|key| is_read(key)),
         extras => !extras.is_null(),
-    };
+    }
+}
+
+/// Where there are `extras` that are not read. Those of objects come through.
+fn extras(root: &Root, objects: &[(MeshUse, Object)]) -> Vec<String> {
+    let kept = objects.iter();
+    let kept = kept.flat_map(|(of, _)| [format!("/nodes/{}", of.node), format!("/meshes/{}", of.mesh)]);
+    let kept: HashSet<String> = kept.collect();
     let mut found = Vec::new();
     let mut look = |extras: &Option<Value>, at: &dyn Fn() -> String| {
         if extras.as_ref().is_some_and(is_foreign) {
-            found.push(at() + "/extras");
+            found.extend(Some(at()).filter(|at| !kept.contains(at)).map(|at| at + "/extras"));
         }
     };
     look(&root.extras, &String::new);

@@ -12,7 +12,7 @@ use crate::diagnostic::codes;
 use crate::diagnostic::collect::{Diagnostics, Place, counted};
 use crate::gltf::{Fault, Primitive, Reader, Root, fault, out_of_range};
 use crate::import::scene::{MeshBuilder, MeshUse, Rig, Scene, Vertices};
-use crate::model::{Influences, Mesh, index_out_of_range};
+use crate::model::{Influences, Mesh, Object, index_out_of_range};
 
 /// What is kept of a mesh on each node: all streams of a vertex, three indices, and a submesh with its name.
 const BYTES_PER_VERTEX: u64 = 104;
@@ -58,11 +58,14 @@ struct Part<'a> {
     corners: Vec<u32>,
 }
 
-/// The mesh of a scene.
+/// The mesh of a scene, and its objects.
 ///
 /// # Errors
 /// When a primitive names what is not there, or numbers of the wrong kind.
-pub(super) fn mesh(source: &Source<'_>, diagnostics: &mut Diagnostics) -> Result<Mesh, Fault> {
+pub(super) fn mesh(
+    source: &Source<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Result<(Mesh, Vec<(MeshUse, Object)>), Fault> {
     let mut meshes = Meshes {
         source,
         builder: MeshBuilder::new(source.normal_maps, source.second_tex_coords),
@@ -72,7 +75,8 @@ pub(super) fn mesh(source: &Source<'_>, diagnostics: &mut Diagnostics) -> Result
     for uses in source.scene.uses.chunk_by(|a, b| a.mesh == b.mesh) {
         meshes.add(uses)?;
     }
-    meshes.builder.finish(diagnostics)
+    let objects = meshes.builder.objects(source.scene);
+    Ok((meshes.builder.finish(diagnostics)?, objects))
 }
 
 struct Meshes<'a> {
@@ -96,7 +100,8 @@ impl<'a> Meshes<'a> {
         let of_triangles = parts
             .iter()
             .map(|part| BYTES_PER_SUBMESH + BYTES_PER_TRIANGLE * triangle_count(part) as u64);
-        let once = of_vertices.chain(of_triangles).fold(0, u64::saturating_add);
+        let tag = self.source.scene.meshes[uses[0].mesh].len() as u64;
+        let once = of_vertices.chain(of_triangles).fold(tag, u64::saturating_add);
         let at = format_args!("/meshes/{}", uses[0].mesh);
         self.source.reader.keep(once.saturating_mul(uses.len() as u64), at)?;
         for mesh in uses {
@@ -114,6 +119,7 @@ impl<'a> Meshes<'a> {
                 let is_mirrored = placement.matrix3.determinant() < 0.0;
                 self.add_triangles(part, start, is_mirrored)?;
             }
+            self.builder.end_object(*mesh);
         }
         Ok(())
     }

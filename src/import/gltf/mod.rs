@@ -135,7 +135,7 @@ fn model(
         second_tex_coords: materials::take_second_tex_coords(&materials),
         normal_maps: materials::have_normal_maps(&materials),
     };
-    let mesh = meshes::mesh(&source, diagnostics)?;
+    let (mesh, objects) = meshes::mesh(&source, diagnostics)?;
     // The last one is for primitives without any.
     if !mesh
         .submeshes
@@ -145,7 +145,7 @@ fn model(
         materials.pop();
     }
     let clips = clips::clips(root, &reader, &rig, diagnostics)?;
-    left_out::note(root, &scene, &rig, source.second_tex_coords, diagnostics);
+    left_out::note(root, &scene, &rig, &objects, source.second_tex_coords, diagnostics);
     if mesh.positions.is_empty() && rig.skeleton.joint_count() == 0 {
         let message = codes::GLTF_EMPTY.sentence.to_owned();
         diagnostics.add(&codes::GLTF_EMPTY, Place::default(), message);
@@ -153,6 +153,7 @@ fn model(
     let model = Model {
         materials,
         mesh,
+        objects: objects.into_iter().map(|(_, object)| object).collect(),
         skeleton: rig.skeleton,
         clips,
         handedness: Handedness::Right,

@@ -1,12 +1,16 @@
 //! Nodes as trees: who is whose parent, where each is at rest, and which are in the scene.
 
-use glam::{DAffine3, DMat4, DVec4, Mat4, Quat, Vec3};
+use std::sync::Arc;
 
+use glam::{DAffine3, DMat4, DVec4, Mat4, Quat, Vec3};
+use serde_json::Value;
+
+use super::left_out::{is_foreign, is_read};
 use crate::diagnostic::codes;
 use crate::diagnostic::collect::{Diagnostics, Place};
 use crate::gltf::{Fault, Node, Path, Root, fault, out_of_range};
 use crate::import::scene::{self, Scene, mark_below};
-use crate::model::{LocalJoint, unit_rotation};
+use crate::model::{LocalJoint, Tag, unit_rotation};
 
 /// A rotation whose length is off by more than this was not meant to be rounded.
 const UNIT_TOLERANCE: f32 = 1e-3;
@@ -29,19 +33,34 @@ pub(super) fn scene(root: &Root, diagnostics: &mut Diagnostics) -> Result<Scene,
     let in_scene = in_scene(root, &parents, &order, diagnostics)?;
     let moved = moved_nodes(root);
     let nodes = root.nodes().iter().enumerate().map(|(index, node)| scene::Node {
-        name: node.name.clone().unwrap_or_default(),
+        tag: tag(node.name.as_ref(), node.extras.as_ref()),
         local: local[index],
         model_from_node: model_from_node[index],
         in_scene: in_scene[index],
         is_moved: moved[index],
         bone: bone_number(node),
     });
+    let meshes = root.meshes().iter();
+    let meshes = meshes.map(|mesh| Arc::new(tag(mesh.name.as_ref(), mesh.extras.as_ref())));
     Ok(Scene {
         nodes: nodes.collect(),
+        meshes: meshes.collect(),
         parents,
         order,
         ..Scene::default()
     })
+}
+
+/// Name and `extras` as they are written again: without what means something here.
+fn tag(name: Option<&String>, extras: Option<&Value>) -> Tag {
+    let mut extras = extras.filter(|extras| is_foreign(extras)).cloned();
+    if let Some(Value::Object(keys)) = &mut extras {
+        keys.retain(|key, _| !is_read(key));
+    }
+    Tag {
+        name: name.cloned().unwrap_or_default(),
+        extras,
+    }
 }
 
 /// The number that the document gives a bone.

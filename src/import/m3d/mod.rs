@@ -65,6 +65,7 @@ pub fn from_document(document: &Document, lines: &LineMap) -> Result<(Model, Vec
     let model = Model {
         materials,
         mesh,
+        objects: Vec::new(),
         skeleton,
         clips,
         handedness,

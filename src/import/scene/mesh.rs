@@ -1,13 +1,17 @@
 //! One mesh of all uses of meshes, in bind space: vertices where their skin or node has them, mended, in the order in which they come.
 
+use std::ops::Range;
+use std::sync::Arc;
+
 use glam::{DAffine3, DMat3, Vec2, Vec3, Vec4};
 
+use super::{MeshUse, Scene};
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Code, Fault, Subject, codes};
 use crate::import::normals::{is_direction, mend_normals};
 use crate::import::tangents::mend_tangents;
 use crate::import::weights;
-use crate::model::{Handedness, Influences, Mesh, Submesh};
+use crate::model::{Handedness, Influences, Mesh, Object, Submesh};
 
 /// Attributes of the vertices of a part of a mesh. Those that are absent are empty; all others have one length.
 #[derive(Clone, Default)]
@@ -24,6 +28,7 @@ pub(in crate::import) struct Vertices {
 #[derive(Default)]
 pub(in crate::import) struct MeshBuilder {
     mesh: Mesh,
+    objects: Vec<(MeshUse, Range<usize>)>,
     /// Whether a material has a normal map, which asks for tangents.
     normal_maps: bool,
     /// Whether a map of some material takes the second texture coordinates.
@@ -47,6 +52,15 @@ impl MeshBuilder {
 
     pub(in crate::import) fn vertex_count(&self) -> usize {
         self.mesh.vertex_count()
+    }
+
+    /// Says of which use all submeshes are that were added since the last call.
+    pub(in crate::import) fn end_object(&mut self, of: MeshUse) {
+        let start = self.objects.last().map_or(0, |(_, submeshes)| submeshes.end);
+        let submeshes = start..self.mesh.submeshes.len();
+        if !submeshes.is_empty() {
+            self.objects.push((of, submeshes));
+        }
     }
 
     /// Adds vertices, brought into bind space; `influences` are none in a model without joints. What is absent is 0.
@@ -190,6 +204,17 @@ impl MeshBuilder {
             material,
         });
         Ok(())
+    }
+
+    /// The objects that were added.
+    pub(in crate::import) fn objects(&self, scene: &Scene) -> Vec<(MeshUse, Object)> {
+        let object = |of: MeshUse, submeshes: &Range<usize>| Object {
+            node: scene.nodes[of.node as usize].tag.clone(),
+            mesh: Arc::clone(&scene.meshes[of.mesh]),
+            submeshes: submeshes.clone(),
+        };
+        let objects = self.objects.iter();
+        objects.map(|(of, submeshes)| (*of, object(*of, submeshes))).collect()
     }
 
     /// The mesh, with what is absent computed. What was mended is told.

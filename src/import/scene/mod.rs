@@ -7,6 +7,7 @@ mod skeleton;
 
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
+use std::sync::Arc;
 
 use glam::DAffine3;
 
@@ -14,13 +15,12 @@ pub(super) use binding::is_invertible;
 pub(super) use mesh::{MeshBuilder, Vertices};
 pub(super) use skeleton::Rig;
 
-use crate::model::LocalJoint;
+use crate::model::{LocalJoint, Tag};
 
 /// A node of a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
-    /// Empty where the file has none.
-    pub(super) name: String,
+    pub(super) tag: Tag,
     /// Relative to the parent, in parts.
     pub(super) local: LocalJoint,
     /// Relative to the model, with all that matrices say.
@@ -59,6 +59,8 @@ pub(super) struct Scene {
     pub(super) parents: Vec<Option<u32>>,
     /// All nodes, parents before children.
     pub(super) order: Vec<u32>,
+    /// Of each mesh of the file.
+    pub(super) meshes: Vec<Arc<Tag>>,
     /// In the order of the file's skins; `None` for one that no mesh uses, unless there are no meshes.
     pub(super) skins: Vec<Option<Skin>>,
     /// In the order of the file's meshes, then of its nodes.

@@ -67,7 +67,9 @@ impl Rig {
         }
         let extra = binding.parents[order.len()..].iter().flatten();
         let node_of = order.iter().chain(extra.map(|&joint| &order[joint as usize]));
-        let names = node_of.map(|&node| scene.nodes[node as usize].name.clone()).collect();
+        let names = node_of
+            .map(|&node| scene.nodes[node as usize].tag.name.clone())
+            .collect();
         let mut file_bones: Vec<u32> = order.iter().filter_map(|&node| bones[node as usize]).collect();
         file_bones.extend(order.len() as u32..binding.parents.len() as u32);
         Ok(Self {

@@ -209,9 +209,11 @@ impl OpenModel {
             .map(|Loss { code, message, .. }| Change { code, message })
     }
 
-    /// What of the file was left out while it was read, as losses: no file that is written has it. `clips` as for [`OpenModel::mended`].
-    pub fn left_out(&self, clips: Option<&[String]>) -> impl Iterator<Item = Loss> {
-        self.of_reading(clips, is_loss)
+    /// What of the file was left out while it was read, as losses: no file that is written has it. A format that `keeps_objects` has them
+    /// apart again. `clips` as for [`OpenModel::mended`].
+    pub fn left_out(&self, clips: Option<&[String]>, keeps_objects: bool) -> impl Iterator<Item = Loss> {
+        let is_kept = move |finding: &Diagnostic| keeps_objects && finding.code == codes::GLTF_OBJECTS_MERGED.name;
+        self.of_reading(clips, move |finding| is_loss(finding) && !is_kept(finding))
     }
 
     fn of_reading(
