@@ -24,7 +24,7 @@ const TRIANGLE_STRIP: u64 = 5;
 const TRIANGLE_FAN: u64 = 6;
 
 /// What of the document a mesh is made of.
-pub(super) struct Source<'a> {
+pub(super) struct Primitives<'a> {
     pub(super) root: &'a Root,
     pub(super) reader: &'a Reader<'a>,
     pub(super) scene: &'a Scene,
@@ -50,6 +50,8 @@ struct Shared<'a> {
 struct Part<'a> {
     of_file: &'a Primitive,
     pointer: String,
+    /// Its mesh, and its number there.
+    place: [u32; 2],
     mode: u64,
     material: u32,
     /// Which vertices it has among the mesh's.
@@ -58,30 +60,42 @@ struct Part<'a> {
     corners: Vec<u32>,
 }
 
+/// The meshes of a scene as one.
+pub(super) struct Meshed {
+    pub(super) mesh: Mesh,
+    pub(super) objects: Vec<(MeshUse, Object)>,
+    /// Mesh and primitive of each submesh.
+    pub(super) places: Vec<[u32; 2]>,
+}
+
 /// The mesh of a scene, and its objects.
 ///
 /// # Errors
 /// When a primitive names what is not there, or numbers of the wrong kind.
-pub(super) fn mesh(
-    source: &Source<'_>,
-    diagnostics: &mut Diagnostics,
-) -> Result<(Mesh, Vec<(MeshUse, Object)>), Fault> {
+pub(super) fn mesh(source: &Primitives<'_>, diagnostics: &mut Diagnostics) -> Result<Meshed, Fault> {
     let mut meshes = Meshes {
         source,
         builder: MeshBuilder::new(source.normal_maps, source.second_tex_coords),
+        places: Vec::new(),
         diagnostics,
     };
     // They are in the order of their meshes.
     for uses in source.scene.uses.chunk_by(|a, b| a.mesh == b.mesh) {
         meshes.add(uses)?;
     }
-    let objects = meshes.builder.objects(source.scene);
-    Ok((meshes.builder.finish(diagnostics)?, objects))
+    let (builder, places) = (meshes.builder, meshes.places);
+    Ok(Meshed {
+        objects: builder.objects(source.scene),
+        mesh: builder.finish(diagnostics)?,
+        places,
+    })
 }
 
 struct Meshes<'a> {
-    source: &'a Source<'a>,
+    source: &'a Primitives<'a>,
     builder: MeshBuilder,
+    /// Of each submesh.
+    places: Vec<[u32; 2]>,
     diagnostics: &'a mut Diagnostics,
 }
 
@@ -118,6 +132,7 @@ impl<'a> Meshes<'a> {
                 let placement = self.source.rig.placement(mesh, is_skinned(part.of_file));
                 let is_mirrored = placement.matrix3.determinant() < 0.0;
                 self.add_triangles(part, start, is_mirrored)?;
+                self.places.push(part.place);
             }
             self.builder.end_object(*mesh);
         }
@@ -162,6 +177,7 @@ impl<'a> Meshes<'a> {
             parts.push(Part {
                 of_file: part,
                 pointer,
+                place: [mesh as u32, index as u32],
                 mode,
                 material,
                 shared: of_shared,

@@ -14,6 +14,8 @@ use crate::model::{Influences, Skeleton};
 pub(in crate::import) struct Rig {
     pub(in crate::import) skeleton: Skeleton,
     pub(in crate::import) joint_of_node: Vec<Option<u32>>,
+    /// A joint that stands in for another has its node.
+    pub(in crate::import) node_of_joint: Vec<u32>,
     /// Of each skin that is used: the joint of each of its slots, and what its vertices are moved by.
     skins: Vec<Option<BoundSkin>>,
     /// Of each node that carries a mesh without a skin: its joint, `None` in a model without joints, and what the vertices are moved by.
@@ -67,14 +69,17 @@ impl Rig {
         }
         let extra = binding.parents[order.len()..].iter().flatten();
         let node_of = order.iter().chain(extra.map(|&joint| &order[joint as usize]));
-        let names = node_of
-            .map(|&node| scene.nodes[node as usize].tag.name.clone())
-            .collect();
+        let node_of_joint: Vec<u32> = node_of.copied().collect();
+        let names = node_of_joint
+            .iter()
+            .map(|&node| scene.nodes[node as usize].tag.name.clone());
+        let names = names.collect();
         let mut file_bones: Vec<u32> = order.iter().filter_map(|&node| bones[node as usize]).collect();
         file_bones.extend(order.len() as u32..binding.parents.len() as u32);
         Ok(Self {
             skeleton: binding.skeleton(file_bones, names)?,
             joint_of_node,
+            node_of_joint,
             skins,
             on_nodes,
         })
