@@ -50,7 +50,11 @@ fn parsing(criterion: &mut Criterion) {
         || {
             let imported = import();
             let compiled = CompiledClip::all(&imported.model.clips);
-            drop(black_box(check::model(&imported.model, &compiled, &imported.lines)));
+            drop(black_box(check::model(
+                &imported.model,
+                &compiled,
+                &*imported.source.places(&bytes),
+            )));
         },
     );
     let file = File::new("model.m3d", bytes.as_slice());

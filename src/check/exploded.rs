@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use crate::anim::{CompiledClip, Palette, PoseBuffers, skin_position};
 use crate::diagnostic::collect::{Diagnostics, Place};
-use crate::diagnostic::{Moment, Subject, codes};
+use crate::diagnostic::{Moment, Places, Row, Subject, codes};
 use crate::model::{Mesh, Model};
 
 /// Triangles looked at for a clip, spread over the mesh: enough to estimate a fraction.
@@ -27,7 +27,7 @@ const TORN_FRACTION: f64 = 0.05;
 pub(super) fn note_exploded(
     model: &Model,
     compiled: &[CompiledClip],
-    clip_lines: &[u32],
+    places: &dyn Places,
     diagnostics: &mut Diagnostics,
 ) {
     if model.mesh.influences.is_empty() {
@@ -42,7 +42,7 @@ pub(super) fn note_exploded(
         if torn > TORN_FRACTION {
             diagnostics.add(
                 &codes::EXPLODED,
-                Place::of(Subject::Clip(index), clip_lines).at([Moment {
+                Place::on(Subject::Clip(index), places.line(Row::Clip(index))).at([Moment {
                     time_secs: Some(clip.start_secs),
                     bone: None,
                 }]),

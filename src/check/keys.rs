@@ -2,8 +2,7 @@
 
 use crate::anim::JointChange;
 use crate::diagnostic::collect::{Diagnostics, Moments, Place, counted};
-use crate::diagnostic::{Moment, Subject, codes};
-use crate::format::LineMap;
+use crate::diagnostic::{Moment, Places, Row, Subject, codes};
 use crate::model::{Clip, JointIndex, Model, Track};
 
 /// Up to this many equal keys of a bone are none too many: the first and the last are a common way to say how long it keeps still.
@@ -13,12 +12,12 @@ const FEW_KEYS: usize = 2;
 const WORTH_WHILE: f64 = 0.1;
 
 /// Notes clips of which a good part are equal keys of bones that keep still.
-pub(super) fn note_still_tracks(model: &Model, lines: &LineMap, diagnostics: &mut Diagnostics) {
+pub(super) fn note_still_tracks(model: &Model, places: &dyn Places, diagnostics: &mut Diagnostics) {
     for (index, clip) in (0u32..).zip(&model.clips) {
         let of_bones = model.skeleton.file_bones().iter().zip(&clip.tracks);
         let mut still = Moments::default();
         for (&bone, _) in of_bones.filter(|(_, track)| is_still(track)) {
-            still.add(Moment::of_bone(bone), || lines.track(index, bone));
+            still.add(Moment::of_bone(bone), || places.line(Row::Track { clip: index, bone }));
         }
         let keys: usize = clip.tracks.iter().map(Track::key_count).sum();
         if let Some(surplus) = surplus_keys(clip) {
@@ -63,7 +62,7 @@ const JUMP_FRACTION: f32 = 0.01;
 const FRAME_SECS: f32 = 1.0 / 30.0;
 
 /// Notes clips that look meant to loop, but whose last pose is off from the first.
-pub(super) fn note_loop_gaps(model: &Model, lines: &LineMap, diagnostics: &mut Diagnostics) {
+pub(super) fn note_loop_gaps(model: &Model, places: &dyn Places, diagnostics: &mut Diagnostics) {
     let bounds = model.bind_bounds();
     let size = bounds.min.distance(bounds.max);
     if bounds.is_empty() || size <= 0.0 {
@@ -74,7 +73,7 @@ pub(super) fn note_loop_gaps(model: &Model, lines: &LineMap, diagnostics: &mut D
             let bone = model.skeleton.file_bones()[joint.index()];
             diagnostics.add(
                 &codes::LOOP_JUMPS,
-                Place::on(Subject::Clip(index), lines.track(index, bone)).at([Moment::new(clip.end_secs, bone)]),
+                Place::on(Subject::Clip(index), places.line(Row::Track { clip: index, bone })).at([Moment::new(clip.end_secs, bone)]),
                 format!(
                     "\"{}\" ends near its first pose, but bone {bone} jumps by {:.1} % of the model's size where it begins again.",
                     clip.name,

@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 
-use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
-use crate::diagnostic::{Subject, codes};
-use crate::format::LineMap;
+use crate::diagnostic::collect::{Diagnostics, Tally, counted};
+use crate::diagnostic::{Places, Row, Subject, codes};
 use crate::model::{Aabb, Mesh, Model};
 
 /// A triangle lower than this fraction of the mesh's diagonal has no area: positions have about seven digits in a file and in an
@@ -39,7 +38,7 @@ pub(crate) fn used_vertices(mesh: &Mesh) -> Vec<bool> {
 }
 
 /// Notes triangles without area, and vertices that no triangle uses.
-pub(super) fn note_useless(mesh: &Mesh, lines: &LineMap, diagnostics: &mut Diagnostics) {
+pub(super) fn note_useless(mesh: &Mesh, places: &dyn Places, diagnostics: &mut Diagnostics) {
     let used = used_vertices(mesh);
     let (mut flat, mut unused) = (Tally::default(), Tally::default());
     flat_triangles(mesh).for_each(|triangle| flat.add(triangle));
@@ -49,7 +48,7 @@ pub(super) fn note_useless(mesh: &Mesh, lines: &LineMap, diagnostics: &mut Diagn
     if flat.count > 0 {
         diagnostics.add(
             &codes::TRIANGLES_WITHOUT_AREA,
-            Place::of_rows(&flat, Subject::Triangle, &lines.triangles),
+            places.of_rows(&flat, Subject::Triangle, Row::Triangle),
             format!(
                 "{} no area: corners coincide or lie in a line.",
                 counted(flat.count, "triangle has", "triangles have")
@@ -59,7 +58,7 @@ pub(super) fn note_useless(mesh: &Mesh, lines: &LineMap, diagnostics: &mut Diagn
     if unused.count > 0 {
         diagnostics.add(
             &codes::VERTICES_UNUSED,
-            Place::of_rows(&unused, Subject::Vertex, &lines.vertices),
+            places.of_rows(&unused, Subject::Vertex, Row::Vertex),
             format!(
                 "{} of no triangle.",
                 counted(unused.count, "vertex is a corner", "vertices are corners")
@@ -70,7 +69,7 @@ pub(super) fn note_useless(mesh: &Mesh, lines: &LineMap, diagnostics: &mut Diagn
 
 /// Notes triangles whose front is not the side to which the normals of all their corners point: those that are drawn from their front
 /// alone, and of submeshes that are drawn from both sides those where most are so.
-pub(super) fn note_turned_away(model: &Model, lines: &LineMap, diagnostics: &mut Diagnostics) {
+pub(super) fn note_turned_away(model: &Model, places: &dyn Places, diagnostics: &mut Diagnostics) {
     let mesh = &model.mesh;
     let is_turned = |corners: [u32; 3]| {
         let side = mesh.side_of(corners) * model.handedness.front_sign();
@@ -94,7 +93,7 @@ pub(super) fn note_turned_away(model: &Model, lines: &LineMap, diagnostics: &mut
     }
     let mut note = |code, tally: &Tally, what| {
         if tally.count > 0 {
-            let place = Place::of_rows(tally, Subject::Triangle, &lines.triangles);
+            let place = places.of_rows(tally, Subject::Triangle, Row::Triangle);
             diagnostics.add(
                 code,
                 place,
@@ -139,12 +138,12 @@ fn is_flat([a, b, c]: [DVec3; 3], least_height: f64) -> bool {
 /// Notes triangles of the same three vertices, and edges of more than two triangles. Both come from sorted lists, so a vertex or an
 /// edge with any number of triangles costs no more than others. Vertices count as the same by their number, not by their place: a mesh
 /// may well be sewn together of sheets that touch.
-pub(super) fn note_repeated(mesh: &Mesh, lines: &LineMap, diagnostics: &mut Diagnostics) {
+pub(super) fn note_repeated(mesh: &Mesh, places: &dyn Places, diagnostics: &mut Diagnostics) {
     let mut by_corners = by_corners(mesh);
     let repeated: Vec<u32> = repeated(&by_corners).map(|(_, triangle)| triangle).collect();
-    note_same_corners(repeated, lines, diagnostics);
+    note_same_corners(repeated, places, diagnostics);
     by_corners.dedup_by_key(|(corners, _)| *corners);
-    note_crowded_edges(by_corners, lines, diagnostics);
+    note_crowded_edges(by_corners, places, diagnostics);
 }
 
 /// Each triangle that has the vertices of another one before, after that one.
@@ -175,7 +174,7 @@ fn repeated(by_corners: &[([u32; 3], u32)]) -> impl Iterator<Item = (u32, u32)> 
     pairs.map(|pair| (pair[0].1, pair[1].1))
 }
 
-fn note_same_corners(mut repeated: Vec<u32>, lines: &LineMap, diagnostics: &mut Diagnostics) {
+fn note_same_corners(mut repeated: Vec<u32>, places: &dyn Places, diagnostics: &mut Diagnostics) {
     if repeated.is_empty() {
         return;
     }
@@ -184,7 +183,7 @@ fn note_same_corners(mut repeated: Vec<u32>, lines: &LineMap, diagnostics: &mut 
     repeated.into_iter().for_each(|triangle| tally.add(triangle));
     diagnostics.add(
         &codes::TRIANGLES_REPEATED,
-        Place::of_rows(&tally, Subject::Triangle, &lines.triangles),
+        places.of_rows(&tally, Subject::Triangle, Row::Triangle),
         format!(
             "{} the same three vertices as another one before.",
             counted(tally.count, "triangle has", "triangles have")
@@ -193,7 +192,7 @@ fn note_same_corners(mut repeated: Vec<u32>, lines: &LineMap, diagnostics: &mut 
 }
 
 /// Takes different triangles with their corners in order.
-fn note_crowded_edges(mut triangles: Vec<([u32; 3], u32)>, lines: &LineMap, diagnostics: &mut Diagnostics) {
+fn note_crowded_edges(mut triangles: Vec<([u32; 3], u32)>, places: &dyn Places, diagnostics: &mut Diagnostics) {
     let mut edges: Vec<u64> = triangles.iter().flat_map(|(corners, _)| edges_of(*corners)).collect();
     edges.sort_unstable();
     let mut crowded: Vec<u64> = edges
@@ -222,7 +221,7 @@ fn note_crowded_edges(mut triangles: Vec<([u32; 3], u32)>, lines: &LineMap, diag
     }
     diagnostics.add(
         &codes::EDGES_CROWDED,
-        Place::of_rows(&third, Subject::Triangle, &lines.triangles),
+        places.of_rows(&third, Subject::Triangle, Row::Triangle),
         format!(
             "{} to more than two triangles.",
             counted(third.count, "edge belongs", "edges belong")

@@ -16,27 +16,25 @@ pub(crate) use mesh::{flat_triangles, repeated_triangles, used_vertices};
 pub(crate) use texture::tangents_against;
 
 use crate::anim::CompiledClip;
-use crate::diagnostic::Diagnostic;
 use crate::diagnostic::collect::Diagnostics;
-use crate::format::LineMap;
+use crate::diagnostic::{Diagnostic, Places};
 use crate::model::Model;
 
 /// Checks a model that is sound: its mesh, its maps' coordinates, its bones, and all clips in motion. `compiled` are the model's clips,
-/// in its order. `lines` has the lines of the file; it may be empty. The cost is that of sorting the triangles, and linear in vertices,
+/// in its order. `places` tells where they stand in the file. The cost is that of sorting the triangles, and linear in vertices,
 /// bones and keys, whatever the file holds.
-pub fn model(model: &Model, compiled: &[CompiledClip], lines: &LineMap) -> Vec<Diagnostic> {
+pub fn model(model: &Model, compiled: &[CompiledClip], places: &dyn Places) -> Vec<Diagnostic> {
     let mut diagnostics = Diagnostics::default();
-    mesh::note_useless(&model.mesh, lines, &mut diagnostics);
-    mesh::note_repeated(&model.mesh, lines, &mut diagnostics);
-    mesh::note_turned_away(model, lines, &mut diagnostics);
-    texture::note_equal_coords(model, lines, &mut diagnostics);
-    texture::note_tangent_signs(model, lines, &mut diagnostics);
-    rig::note_idle_bones(model, lines, &mut diagnostics);
-    let clip_lines = lines.clip_lines();
-    rig::note_shears(model, compiled, lines, &mut diagnostics);
-    keys::note_still_tracks(model, lines, &mut diagnostics);
-    keys::note_loop_gaps(model, lines, &mut diagnostics);
-    exploded::note_exploded(model, compiled, &clip_lines, &mut diagnostics);
-    overflow::note_overflows(model, compiled, lines, &mut diagnostics);
+    mesh::note_useless(&model.mesh, places, &mut diagnostics);
+    mesh::note_repeated(&model.mesh, places, &mut diagnostics);
+    mesh::note_turned_away(model, places, &mut diagnostics);
+    texture::note_equal_coords(model, places, &mut diagnostics);
+    texture::note_tangent_signs(model, places, &mut diagnostics);
+    rig::note_idle_bones(model, places, &mut diagnostics);
+    rig::note_shears(model, compiled, places, &mut diagnostics);
+    keys::note_still_tracks(model, places, &mut diagnostics);
+    keys::note_loop_gaps(model, places, &mut diagnostics);
+    exploded::note_exploded(model, compiled, places, &mut diagnostics);
+    overflow::note_overflows(model, compiled, places, &mut diagnostics);
     diagnostics.into_vec()
 }

@@ -4,14 +4,18 @@ use glam::{Affine3A, DAffine3, DMat3, DVec3};
 
 use crate::anim::{CompiledClip, PoseBuffers};
 use crate::diagnostic::collect::{Diagnostics, Place};
-use crate::diagnostic::{Moment, Subject, codes};
-use crate::format::LineMap;
+use crate::diagnostic::{Moment, Places, Row, Subject, codes};
 use crate::model::{Clip, Model, Skeleton, Track};
 
 /// Numbers above this count as overflow. That leaves room for the sums that make a pose: each must fit into `f32`.
 const MOST: f64 = 1e37;
 
-pub(super) fn note_overflows(model: &Model, compiled: &[CompiledClip], lines: &LineMap, diagnostics: &mut Diagnostics) {
+pub(super) fn note_overflows(
+    model: &Model,
+    compiled: &[CompiledClip],
+    places: &dyn Places,
+    diagnostics: &mut Diagnostics,
+) {
     let reaches = reaches(model);
     for (index, (clip, compiled)) in (0u32..).zip(model.clips.iter().zip(compiled)) {
         if !stays_below(&model.skeleton, clip, &reaches)
@@ -23,7 +27,8 @@ pub(super) fn note_overflows(model: &Model, compiled: &[CompiledClip], lines: &L
             );
             diagnostics.add(
                 &codes::POSE_OVERFLOWS,
-                Place::on(Subject::Clip(index), lines.track(index, bone)).at([Moment::new(time_secs, bone)]),
+                Place::on(Subject::Clip(index), places.line(Row::Track { clip: index, bone }))
+                    .at([Moment::new(time_secs, bone)]),
                 message,
             );
         }

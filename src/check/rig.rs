@@ -7,12 +7,11 @@ use glam::Mat3A;
 
 use crate::anim::{CompiledClip, PoseBuffers};
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
-use crate::diagnostic::{Moment, Subject, codes};
-use crate::format::LineMap;
+use crate::diagnostic::{Moment, Places, Row, Subject, codes};
 use crate::model::{Clip, Model, Skeleton};
 
 /// Notes bones in whose subtree no bone has a weight. A mesh without any weights has a finding of its own.
-pub(super) fn note_idle_bones(model: &Model, lines: &LineMap, diagnostics: &mut Diagnostics) {
+pub(super) fn note_idle_bones(model: &Model, places: &dyn Places, diagnostics: &mut Diagnostics) {
     let skeleton = &model.skeleton;
     let mut moves = vec![false; skeleton.joint_count()];
     for influences in &model.mesh.influences {
@@ -38,7 +37,7 @@ pub(super) fn note_idle_bones(model: &Model, lines: &LineMap, diagnostics: &mut 
     if idle.count > 0 {
         diagnostics.add(
             &codes::BONES_IDLE,
-            Place::of_rows(&idle, Subject::Bone, &lines.bone_parents),
+            places.of_rows(&idle, Subject::Bone, Row::Bone),
             format!(
                 "{} no vertex, nor does a bone below.",
                 counted(idle.count, "bone moves", "bones move")
@@ -60,7 +59,12 @@ const LOOKED_AT: usize = 20;
 const LOOKED_AT_IN_ALL: usize = 50 * LOOKED_AT;
 
 /// Notes clips that shear a bone: one is turned, and one above it is scaled by different factors.
-pub(super) fn note_shears(model: &Model, compiled: &[CompiledClip], lines: &LineMap, diagnostics: &mut Diagnostics) {
+pub(super) fn note_shears(
+    model: &Model,
+    compiled: &[CompiledClip],
+    places: &dyn Places,
+    diagnostics: &mut Diagnostics,
+) {
     let uneven: Vec<usize> = (0..model.clips.len())
         .filter(|&clip| scales_unevenly(&model.clips[clip]))
         .collect();
@@ -69,7 +73,7 @@ pub(super) fn note_shears(model: &Model, compiled: &[CompiledClip], lines: &Line
         if let Some((time_secs, bone)) = first_shear(&model.skeleton, &compiled[clip], looked_at) {
             diagnostics.add(
                 &codes::SCALE_SHEARS,
-                Place::on(Subject::Clip(clip as u32), lines.track(clip as u32, bone)).at([Moment::new(time_secs, bone)]),
+                Place::on(Subject::Clip(clip as u32), places.line(Row::Track { clip: clip as u32, bone })).at([Moment::new(time_secs, bone)]),
                 format!(
                     "At {} s of \"{}\" bone {bone} is sheared: it is turned, and a bone above it is scaled by different factors.",
                     (time_secs * 1e3).round() / 1e3,

@@ -1,8 +1,7 @@
 //! Texture coordinates and tangents that spoil the maps which a material names.
 
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
-use crate::diagnostic::{Subject, codes};
-use crate::format::{LineMap, VertexField};
+use crate::diagnostic::{Places, Row, Subject, codes};
 use crate::model::{Front, Green, Material, Mesh, Model};
 
 /// The cosine of the angle between a bitangent and the way in which v grows, below which it points clearly the other way: by more than 135°. In the books'
@@ -10,7 +9,7 @@ use crate::model::{Front, Green, Material, Mesh, Model};
 const AGAINST: f64 = -std::f64::consts::FRAC_1_SQRT_2;
 
 /// Notes subsets that see one point of their maps.
-pub(super) fn note_equal_coords(model: &Model, lines: &LineMap, diagnostics: &mut Diagnostics) {
+pub(super) fn note_equal_coords(model: &Model, places: &dyn Places, diagnostics: &mut Diagnostics) {
     let has_map = |material: &Material| material.diffuse_map.is_some() || material.normal_map.is_some();
     let ends = ends_of_equal_coords(&model.mesh);
     for (index, submesh) in (0u32..).zip(&model.mesh.submeshes) {
@@ -21,7 +20,7 @@ pub(super) fn note_equal_coords(model: &Model, lines: &LineMap, diagnostics: &mu
         if is_one && submesh.triangle_count > 0 && has_map(&model.materials[submesh.material as usize]) {
             diagnostics.add(
                 &codes::TEX_COORDS_EQUAL,
-                Place::of(Subject::Subset(index), &lines.subsets),
+                Place::on(Subject::Subset(index), places.line(Row::Subset(index))),
                 format!("All texture coordinates of subset {index} are equal, so its maps show one point."),
             );
         }
@@ -49,13 +48,13 @@ fn ends_of_equal_coords(mesh: &Mesh) -> Vec<u32> {
 }
 
 /// Warns of tangents whose sign contradicts the texture coordinates.
-pub(super) fn note_tangent_signs(model: &Model, lines: &LineMap, diagnostics: &mut Diagnostics) {
+pub(super) fn note_tangent_signs(model: &Model, places: &dyn Places, diagnostics: &mut Diagnostics) {
     let mut against = Tally::default();
     tangents_against(model).for_each(|vertex| against.add(vertex));
     if against.count > 0 {
         diagnostics.add(
             &codes::TANGENT_SIGN_AGAINST_UV,
-            Place::of_rows(&against, Subject::Vertex, &lines.vertex_lines(VertexField::Tangent)),
+            places.of_rows(&against, Subject::Vertex, Row::Tangent),
             format!(
                 "{} a tangent whose sign contradicts the texture coordinates.",
                 counted(against.count, "vertex has", "vertices have")

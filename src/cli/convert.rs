@@ -16,7 +16,6 @@ use crate::check::book::Book;
 use crate::edit::{Change, Edits};
 use crate::export::Loss;
 use crate::format::Dialect;
-use crate::import::FileFormat;
 use crate::model::{Front, Handedness, JointNames, Model, UpAxis};
 use crate::session::{self, ExportFormat, ExportJob, ExportPlan, File, Maps, OpenModel, ToExport, WrittenModel};
 
@@ -162,7 +161,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     refuse_own_input(&arguments.output, [arguments.input.as_path()])?;
     paths::check_writable(&arguments.output, arguments.force)?;
     let open = read(&arguments.input)?;
-    let format = arguments.format(open.format);
+    let format = arguments.format(open.format.dialect());
     let is_glb = format == ExportFormat::Glb;
     let folders = Folders::walk(&arguments.textures, err)?;
     let mut textures = Textures::of(&folders, &open.model.materials);
@@ -182,7 +181,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
         model: open.model.clone(),
         names: &JointNames::default(),
         changes: open.mended(clips).collect(),
-        losses: open.left_out(clips).collect(),
+        losses: open.left_out(clips, is_glb).collect(),
         edits: arguments.edits(format, &open.model),
         maps: &maps,
         format,
@@ -270,12 +269,12 @@ impl Arguments {
         codes
     }
 
-    fn format(&self, of_input: FileFormat) -> ExportFormat {
+    fn format(&self, of_input: Option<Dialect>) -> ExportFormat {
         if self.writes_glb() {
             return ExportFormat::Glb;
         }
         match (self.dialect, of_input) {
-            (Some(Book::D3d11), _) | (None, FileFormat::M3d(Dialect::D3d11)) => ExportFormat::D3d11,
+            (Some(Book::D3d11), _) | (None, Some(Dialect::D3d11)) => ExportFormat::D3d11,
             _ => ExportFormat::D3d12,
         }
     }

@@ -106,7 +106,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     let materials = &open.model.materials;
     let mut found = Maps::without_mips();
     let mut textures;
-    let maps = if arguments.textures.is_empty() && !open.format.is_gltf() {
+    let maps = if arguments.textures.is_empty() && open.format.dialect().is_some() {
         named_maps(materials).collect()
     } else {
         let folders = Folders::walk(&arguments.textures, err)?;

@@ -549,7 +549,7 @@ table! {
         GLTF_OBJECTS_MERGED = "gltf-objects-merged", Note,
             "Several objects become one mesh.",
             "A model here has one mesh, whose parts have materials and no names of their own.",
-            "They are joined, each moved by its own node or skin. A file that is written has them as one.",
+            "They are joined, each moved by its own node or skin. A `.glb` has them apart again, a `.m3d` as one.",
             "Export what has to stay apart as files of their own.";
         GLTF_NODES_LEFT_OUT = "gltf-nodes-left-out", Note,
             "Cameras, lights or nodes on which nothing hangs are left out.",
@@ -564,7 +564,7 @@ table! {
         GLTF_EXTRAS_LEFT_OUT = "gltf-extras-left-out", Note,
             "The file has `extras`: values of its author's own.",
             "Programs that know them may need them; nothing of the picture depends on them.",
-            "They are left out.",
+            "Those of objects and their meshes are in a `.glb` that is written; all others are left out.",
             "Nothing needs to be mended.";
         GLTF_ATTRIBUTE_LEFT_OUT = "gltf-attribute-left-out", Note,
             "Vertices have an attribute that is not read.",

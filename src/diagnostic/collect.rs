@@ -160,8 +160,17 @@ impl Place {
     /// Rows that needed the same mending. `subject` turns the number of a row into a part of the model; `lines` has the
     /// line of each row.
     pub(crate) fn of_rows(rows: &Tally, subject: impl Fn(u32) -> Subject, lines: &[u32]) -> Self {
+        Self::of_rows_on(rows, subject, |row| lines.get(row as usize).copied())
+    }
+
+    /// The same of rows whose lines are asked for.
+    pub(crate) fn of_rows_on(
+        rows: &Tally,
+        subject: impl Fn(u32) -> Subject,
+        line: impl Fn(u32) -> Option<u32>,
+    ) -> Self {
         Self {
-            lines: rows.first_lines(lines),
+            lines: rows.rows.into_iter().flatten().filter_map(line).collect(),
             count: rows.count_u32(),
             subjects: rows.rows.into_iter().flatten().map(subject).collect(),
             ..Self::default()
@@ -208,11 +217,6 @@ impl Tally {
         let kept = rows.len().min(Diagnostic::MOST_PLACES);
         rows.clone().take(kept).for_each(|row| self.add(row));
         self.count = self.count.saturating_add(rows.len() - kept);
-    }
-
-    fn first_lines(&self, lines: &[u32]) -> Vec<u32> {
-        let rows = self.rows.into_iter().flatten();
-        rows.filter_map(|row| lines.get(row as usize).copied()).collect()
     }
 
     fn count_u32(&self) -> u32 {

@@ -7,8 +7,11 @@ pub mod codes;
 pub(crate) mod collect;
 pub mod limits;
 pub mod of_export;
+mod places;
 
 use std::fmt;
+
+pub use places::{Places, Row};
 
 /// A place in a file. Both numbers start at 1; the column counts bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

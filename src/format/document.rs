@@ -1,5 +1,7 @@
 //! What a `.m3d` file says, in the file's own words. No meaning is added here; [`import`](crate::import) translates.
 
+use crate::diagnostic::{Places, Row};
+
 /// Which of the known spellings of the format a file uses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Dialect {
@@ -182,6 +184,37 @@ impl LineMap {
         lines
     }
 
+    fn vertex_line(&self, vertex: u32, field: VertexField) -> Option<u32> {
+        let apart = self.vertices_apart.binary_search_by_key(&vertex, |(apart, _)| *apart);
+        match apart {
+            Ok(place) => Some(self.vertices_apart[place].1[field as usize]),
+            Err(_) => Some(self.vertices.get(vertex as usize)? + field as u32),
+        }
+    }
+
+    /// The clip, track or key that begins last up to a line, and where.
+    fn row_of_clips(&self, line: u32) -> Option<(u32, Row)> {
+        let clip = self
+            .clips
+            .partition_point(|of_clip| of_clip.clip <= line)
+            .checked_sub(1)?;
+        let of_clip = &self.clips[clip];
+        let clip = clip as u32;
+        let Some(bone) = of_clip.bones.partition_point(|&start| start <= line).checked_sub(1) else {
+            return Some((of_clip.clip, Row::Clip(clip)));
+        };
+        let (start, bone) = (of_clip.bones[bone], bone as u32);
+        let run = of_clip.key_runs.partition_point(|run| run.line <= line).checked_sub(1);
+        let run = run.map(|run| &of_clip.key_runs[run]).filter(|run| run.bone == bone);
+        Some(match run {
+            Some(run) => {
+                let key = run.key + (line - run.line);
+                (line, Row::Key { clip, bone, key })
+            }
+            None => (start, Row::Track { clip, bone }),
+        })
+    }
+
     /// Line of a bone's keys in a clip; of the clip when the bone has none.
     pub fn track(&self, clip: u32, bone: u32) -> Option<u32> {
         let lines = self.clips.get(clip as usize)?;
@@ -191,6 +224,42 @@ impl LineMap {
     /// First line of each clip.
     pub fn clip_lines(&self) -> Vec<u32> {
         self.clips.iter().map(|lines| lines.clip).collect()
+    }
+}
+
+impl Places for LineMap {
+    fn line(&self, row: Row) -> Option<u32> {
+        let at = |lines: &[u32], index: u32| lines.get(index as usize).copied();
+        match row {
+            Row::Material(index) => at(&self.materials, index),
+            Row::Subset(index) => at(&self.subsets, index),
+            Row::Vertex(index) => at(&self.vertices, index),
+            Row::Tangent(index) => self.vertex_line(index, VertexField::Tangent),
+            Row::Triangle(index) => at(&self.triangles, index),
+            Row::Bone(index) => at(&self.bone_parents, index),
+            Row::Offset(index) => at(&self.bone_offsets, index),
+            Row::Clip(index) => Some(self.clips.get(index as usize)?.clip),
+            Row::Track { clip, bone } => self.track(clip, bone),
+            Row::Key { clip, bone, key } => self.clips.get(clip as usize)?.key(bone, key),
+        }
+    }
+
+    fn row_on(&self, line: u32) -> Option<Row> {
+        let last = |lines: &[u32], row: fn(u32) -> Row| {
+            let index = lines.partition_point(|&start| start <= line).checked_sub(1)?;
+            Some((lines[index], row(index as u32)))
+        };
+        let lists = [
+            last(&self.materials, Row::Material),
+            last(&self.subsets, Row::Subset),
+            last(&self.vertices, Row::Vertex),
+            last(&self.triangles, Row::Triangle),
+            last(&self.bone_offsets, Row::Offset),
+            last(&self.bone_parents, Row::Bone),
+            self.row_of_clips(line),
+        ];
+        let nearest = lists.into_iter().flatten().max_by_key(|(start, _)| *start);
+        nearest.map(|(_, row)| row)
     }
 }
 

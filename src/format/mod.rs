@@ -57,12 +57,12 @@ pub use likeness::begins_like_model;
 pub use write::write;
 
 use self::reader::Reader;
-use crate::diagnostic::{Diagnostic, Fault, Position, codes};
+use crate::diagnostic::{Diagnostic, Fault, Places, Position, Row, codes};
 use kind::DiagnosticKind;
 use likeness::Stranger;
 
 /// A file that was understood.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Parsed {
     /// What it says.
     pub document: Document,
@@ -70,6 +70,16 @@ pub struct Parsed {
     pub lines: LineMap,
     /// What was mended or is worth knowing, in the order of the file.
     pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Places for Parsed {
+    fn line(&self, row: Row) -> Option<u32> {
+        self.lines.line(row)
+    }
+
+    fn row_on(&self, line: u32) -> Option<Row> {
+        self.lines.row_on(line)
+    }
 }
 
 /// Reads a file. It need not be UTF-8: names are decoded as well as can be.

@@ -1,17 +1,22 @@
 //! Files of other programs become models: one module here for each format, all with the same result.
 //!
 //! A format decides what its files mean, mends what can be mended and notes it with its place; what has no place is
-//! [`Model`](crate::model::Model)'s to prove. Normals and tangents are computed for any format.
+//! [`Model`](crate::model::Model)'s to prove. Nodes, skins and meshes go through one `scene`, normals and tangents are
+//! computed for any format, and what only a format knows of its file, such as places, stays in [`Source`].
 
 mod gltf;
 mod imported;
 mod keys;
 pub mod m3d;
 mod normals;
+mod offsets;
+mod scene;
+mod source;
 mod tangents;
 mod weights;
 
-pub use imported::{FileFormat, Imported, Picture, Refused};
+pub use imported::{Imported, Picture, Refused};
+pub use source::{FileFormat, Source};
 
 use crate::gltf::FindFile;
 

@@ -14,6 +14,7 @@ mod material;
 mod mesh;
 mod mirror;
 mod names;
+mod object;
 mod reflectance;
 mod sides;
 mod skeleton;
@@ -35,6 +36,7 @@ pub use mesh::{Influences, Mesh, Submesh};
 pub use mirror::{MirrorPair, mirror_pairs};
 pub use names::one_word;
 pub(crate) use names::{Taken, unique as unique_names, unique_words};
+pub use object::{Object, Tag};
 pub use reflectance::{DIELECTRIC, FresnelSurface, MetallicSurface, roughness_from_power};
 pub use skeleton::{JointIndex, Skeleton};
 pub use space::{Front, Handedness, UpAxis, world_from_model};
@@ -51,6 +53,8 @@ pub struct Model {
     pub materials: Vec<Material>,
     /// Vertices and triangles, in the file's order and in the file's space (bind space).
     pub mesh: Mesh,
+    /// Its parts as the file has them apart, one behind the other, and all of it; none where the file has one mesh.
+    pub objects: Vec<Object>,
     /// Joints, parents first. Empty for a static model.
     pub skeleton: Skeleton,
     /// Named motions; none for a static model.
@@ -67,7 +71,7 @@ pub struct Model {
 
 impl Model {
     /// Proves that the parts fit each other: see [`Mesh::check`]; a skinned model has influences for every vertex, and they name
-    /// joints that are there; submeshes lie inside the mesh and have a material; clips have a track for each joint.
+    /// joints that are there; submeshes lie inside the mesh, have a material, and belong to one object each where there are any; clips have a track for each joint.
     ///
     /// # Errors
     /// When one of these does not hold.
@@ -110,10 +114,19 @@ impl Model {
             let end = u64::from(submesh.triangle_start) + u64::from(submesh.triangle_count);
             end > self.mesh.triangle_count() as u64 || submesh.material as usize >= self.materials.len()
         });
-        outside.map_or(Ok(()), |submesh| {
+        if let Some(submesh) = outside {
             let message = format!("Submesh {submesh} names triangles or a material that are not there.");
-            Err(codes::SUBMESH_OUT_OF_RANGE.says(message).into())
-        })
+            return Err(codes::SUBMESH_OUT_OF_RANGE.says(message).into());
+        }
+        let ends = self.objects.iter().try_fold(0, |end, object| {
+            let follows = object.submeshes.start == end && end <= object.submeshes.end;
+            follows.then_some(object.submeshes.end)
+        });
+        if self.objects.is_empty() || ends == Some(self.mesh.submeshes.len()) {
+            return Ok(());
+        }
+        let message = "The objects do not have each submesh once, in order.";
+        Err(codes::SUBMESH_OUT_OF_RANGE.says(message).into())
     }
 
     /// Box of all vertices in bind space, also those that no triangle uses.

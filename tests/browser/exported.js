@@ -76,8 +76,16 @@ for (const file of posesIn(WRITTEN)) {
     const meshes = [];
     let bones = 0;
     gltf.scene.traverse((object) => {
-      if (object.isMesh) meshes[gltf.parser.associations.get(object).primitives ?? 0] = object;
+      if (object.isMesh) meshes.push(object);
       if (object.isBone) bones += 1;
+    });
+    const placeOf = (object) => {
+      const { meshes, primitives = 0 } = gltf.parser.associations.get(object);
+      return [meshes, primitives];
+    };
+    meshes.sort((a, b) => {
+      const [[mesh, part], [otherMesh, otherPart]] = [placeOf(a), placeOf(b)];
+      return mesh - otherMesh || part - otherPart;
     });
     assert.ok(bones >= expected.bones, `${bones} bones, ${expected.bones} expected`);
     assert.deepEqual(namesOf(gltf.animations), namesOf(expected.clips));

@@ -185,6 +185,11 @@ fn what_reading_leaves_out_is_a_loss_whatever_is_written() {
         let file = fixture(&format!("check/{code}.gltf"));
         let [glb, m3d, twice] = ["glb", "m3d", "twice.glb"].map(|end| out(&format!("{code}.{end}")));
         for output in [&glb, &m3d] {
+            if (code, output) == ("gltf-objects-merged", &glb) {
+                // A .glb has them apart again.
+                run(["convert", &file, output, "--deny", "losses"]).fine();
+                continue;
+            }
             let denied = run(["convert", &file, output, "--deny", "losses", "--json"]);
             assert_eq!(denied.code, Some(1), "{code}");
             assert!(!std::path::Path::new(output).exists(), "{code}");

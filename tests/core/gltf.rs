@@ -7,6 +7,7 @@ mod hostile;
 mod limits;
 mod materials;
 mod meshes;
+mod objects;
 mod real_files;
 mod session;
 mod skins;
@@ -25,6 +26,7 @@ use crate::gltf_files::Gltf;
 
 pub(crate) use banner::banner;
 pub(crate) use clips::moving;
+pub(crate) use objects::{four_objects, four_still_objects};
 
 /// The one triangle of most files here.
 const CORNERS: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]];

@@ -70,12 +70,15 @@ pub(super) fn check(
     // The books' programs know no other format than theirs.
     let (verdicts, converted) = match &imported {
         _ if books.is_empty() => (Vec::new(), None),
-        Ok(imported) if imported.format.is_gltf() => (Vec::new(), Some(limits_once_converted(&imported.model, books))),
+        Ok(imported) if imported.source.format.dialect().is_none() => {
+            (Vec::new(), Some(limits_once_converted(&imported.model, books)))
+        }
         Err(_) if import::begins_like_gltf(&bytes) => (Vec::new(), None),
         _ => {
             let imported = imported.as_ref().ok();
+            let parsed = imported.and_then(|imported| imported.source.parsed(&bytes));
             let known = Known {
-                document: imported.and_then(|imported| imported.document.as_ref()),
+                document: parsed.as_ref().map(|parsed| &parsed.document),
                 handedness: imported.map(|imported| imported.model.handedness),
                 missing_maps: missing_maps.as_deref(),
             };
@@ -83,7 +86,7 @@ pub(super) fn check(
             (books.iter().map(verdict).collect(), None)
         }
     };
-    diagnostics.extend(diagnostics_of(imported));
+    diagnostics.extend(diagnostics_of(imported, &bytes));
     diagnostics.sort_by_key(|diagnostic| diagnostic.position);
     Ok(Checked {
         path: path.to_owned(),
@@ -95,11 +98,11 @@ pub(super) fn check(
 }
 
 /// All diagnostics of a file and of its model.
-fn diagnostics_of(imported: Result<Imported, Box<import::Refused>>) -> Vec<Diagnostic> {
+fn diagnostics_of(imported: Result<Imported, Box<import::Refused>>, bytes: &[u8]) -> Vec<Diagnostic> {
     match imported {
         Ok(imported) => {
             let compiled = CompiledClip::all(&imported.model.clips);
-            let checked = crate::check::model(&imported.model, &compiled, &imported.lines);
+            let checked = crate::check::model(&imported.model, &compiled, &*imported.source.places(bytes));
             imported.diagnostics.into_iter().chain(checked).collect()
         }
         Err(refused) => refused.diagnostics.into_iter().chain([refused.error]).collect(),

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::binary::{Binary, Target, UNSIGNED_BYTE, UNSIGNED_INT, UNSIGNED_SHORT};
 use super::skeleton::is_unweighted;
 use super::space::Space;
-use crate::model::{Influences, Model};
+use crate::model::{Influences, Model, Object, Submesh};
 
 /// Primitives that name no more vertices than this together share them all, as the model has them.
 const FEW_VERTICES: usize = 4096;
@@ -24,18 +24,39 @@ struct Part {
     vertices: Rc<Vec<u32>>,
 }
 
-/// The mesh; none where no submesh has a triangle. Primitives whose triangles overlap share indices and vertices; others have vertices of
-/// their own, unless that would hardly make them fewer. `has_maps` says that something is looked up by texture coordinates.
-pub(super) fn mesh(
-    model: &Model,
+/// The mesh of each object, or one where there are none; those where no submesh has a triangle are left out. Primitives of a mesh whose
+/// triangles overlap share indices and vertices; others have vertices of their own, unless that would hardly make them fewer. `has_maps` says
+/// that something is looked up by texture coordinates.
+pub(super) fn meshes<'a>(
+    model: &'a Model,
     space: &Space,
     (turned, has_maps): (&[bool], bool),
     unmoving: Option<usize>,
     binary: &mut Binary,
-) -> Option<Value> {
-    let drawn = || model.mesh.submeshes.iter().filter(|submesh| submesh.triangle_count > 0);
-    drawn().next()?;
-    let parts = parts(model);
+) -> Vec<(Option<&'a Object>, Value)> {
+    let drawn = |of: Range<usize>| -> Vec<&Submesh> {
+        let submeshes = model.mesh.submeshes[of].iter();
+        submeshes.filter(|submesh| submesh.triangle_count > 0).collect()
+    };
+    let whole = model
+        .objects
+        .is_empty()
+        .then(|| (None, drawn(0..model.mesh.submeshes.len())));
+    let objects = model
+        .objects
+        .iter()
+        .map(|object| (Some(object), drawn(object.submeshes.clone())));
+    let mut meshes: Vec<(Option<&Object>, Vec<&Submesh>)> = whole.into_iter().chain(objects).collect();
+    meshes.retain(|(_, submeshes)| !submeshes.is_empty());
+    if meshes.is_empty() {
+        return Vec::new();
+    }
+    let (mut parts, mut parts_of) = (Vec::new(), Vec::with_capacity(meshes.len()));
+    for ((_, submeshes), vertices) in meshes.iter().zip(vertices_of(model, &meshes)) {
+        let start = parts.len();
+        add_parts(model, submeshes, vertices, &mut parts);
+        parts_of.push(start..parts.len());
+    }
     let attributes = attributes(model, space, (turned, has_maps), unmoving, &parts, binary);
     // The greatest number of a type ends strips.
     let is_short = parts.iter().all(|part| part.vertices.len() < usize::from(u16::MAX));
@@ -77,30 +98,62 @@ pub(super) fn mesh(
     }
     let view = binary.view(&bytes, Target::Indices);
     let mut made: HashMap<(usize, u32), usize> = HashMap::new();
-    let primitives: Vec<Value> = drawn()
-        .map(|submesh| {
+    let mut primitives = |(submeshes, of_mesh): (&[&Submesh], &Range<usize>)| -> Vec<Value> {
+        let primitives = submeshes.iter().map(|submesh| {
             let start = submesh.triangle_start as usize;
-            let part = parts.partition_point(|part| part.triangles.end <= start);
+            let part = parts[of_mesh.clone()].partition_point(|part| part.triangles.end <= start);
+            let part = of_mesh.start + part;
             let offset = starts[part] + 3 * size * (start - parts[part].triangles.start);
             let count = 3 * submesh.triangle_count;
             let indices = made.entry((offset, count));
             let indices =
                 *indices.or_insert_with(|| binary.accessor(view, offset, count as usize, component, "SCALAR"));
             json!({ "attributes": attributes[part], "indices": indices, "material": submesh.material })
-        })
-        .collect();
-    Some(json!({ "primitives": primitives }))
+        });
+        primitives.collect()
+    };
+    let meshes = meshes.into_iter().zip(&parts_of);
+    let meshes = meshes.map(|((object, submeshes), parts)| {
+        let primitives = primitives((&submeshes, parts));
+        (object, json!({ "primitives": primitives }))
+    });
+    meshes.collect()
 }
 
-fn parts(model: &Model) -> Vec<Part> {
-    let mesh = &model.mesh;
-    let submeshes = mesh.submeshes.iter().filter(|submesh| submesh.triangle_count > 0);
-    let mut ranges: Vec<Range<usize>> = submeshes
-        .map(|submesh| {
-            let start = submesh.triangle_start as usize;
-            start..start + submesh.triangle_count as usize
+/// The vertices that each mesh can take: what lies between its first and its last, and what no triangle uses with those before it; all
+/// for one mesh alone.
+fn vertices_of(model: &Model, meshes: &[(Option<&Object>, Vec<&Submesh>)]) -> Vec<Range<u32>> {
+    let used = meshes.iter().map(|(_, submeshes)| {
+        let corners = submeshes
+            .iter()
+            .flat_map(|submesh| &model.mesh.indices[corners_of(submesh)]);
+        corners.fold((u32::MAX, 0), |(first, last), &corner| {
+            (first.min(corner), last.max(corner))
         })
-        .collect();
+    });
+    let mut ranges: Vec<Range<u32>> = used.map(|(first, last)| first..last + 1).collect();
+    let is_apart = ranges.array_windows().all(|[one, next]| one.end <= next.start);
+    if is_apart {
+        let ends = ranges.iter().skip(1).map(|range| range.start);
+        let ends: Vec<u32> = ends.chain([model.mesh.vertex_count() as u32]).collect();
+        let mut start = 0;
+        for (range, end) in ranges.iter_mut().zip(ends) {
+            (range.start, range.end, start) = (start, end, end);
+        }
+    }
+    ranges
+}
+
+fn corners_of(submesh: &Submesh) -> Range<usize> {
+    let start = submesh.triangle_start as usize;
+    3 * start..3 * (start + submesh.triangle_count as usize)
+}
+
+/// Adds the parts of a mesh of these submeshes.
+fn add_parts(model: &Model, submeshes: &[&Submesh], all: Range<u32>, parts: &mut Vec<Part>) {
+    let mesh = &model.mesh;
+    let triangles = submeshes.iter().map(|submesh| corners_of(submesh));
+    let mut ranges: Vec<Range<usize>> = triangles.map(|range| range.start / 3..range.end / 3).collect();
     ranges.sort_by_key(|range| (range.start, range.end));
     // How many submeshes draw each part.
     let mut joined: Vec<(Range<usize>, usize)> = Vec::new();
@@ -124,30 +177,34 @@ fn parts(model: &Model) -> Vec<Part> {
         .zip(&joined)
         .map(|(used, (_, count))| used.len() * count)
         .sum();
-    let all = mesh.vertex_count();
-    let is_shared = ranges.len() * all <= (2 * needed).max(FEW_VERTICES);
+    let is_shared = ranges.len() * all.len() <= (2 * needed).max(FEW_VERTICES);
     let is_apart = used.windows(2).all(|pair| pair[0].last() < pair[1].first());
-    let (shared, mut end) = (Rc::new((0..all as u32).collect::<Vec<_>>()), 0);
+    let shared = Rc::new(all.clone().collect::<Vec<_>>());
+    let (mut next, mut row) = (all.start, parts.last().map_or(0, |part| part.rows.end));
     let last = used.len() - 1;
-    let parts = joined.into_iter().zip(used).enumerate();
-    parts
-        .map(|(index, ((triangles, _), used))| {
-            let vertices = match (is_shared, is_apart) {
-                (true, _) => Rc::clone(&shared),
-                // Vertices that no triangle uses stay with those before them.
-                (_, true) if index == last => Rc::new((end as u32..all as u32).collect()),
-                (_, true) => Rc::new((end as u32..used.last().map_or(0, |last| last + 1)).collect()),
-                _ => Rc::new(used),
-            };
-            let start = if is_shared { 0 } else { end };
-            end = start + vertices.len();
-            Part {
-                triangles,
-                rows: start..end,
-                vertices,
-            }
-        })
-        .collect()
+    for (index, ((triangles, _), used)) in joined.into_iter().zip(used).enumerate() {
+        let vertices = if is_shared {
+            Rc::clone(&shared)
+        } else if is_apart {
+            // Vertices that no triangle uses stay with those before them.
+            let behind = used.last().map_or(next, |last| last + 1);
+            let end = if index == last { all.end } else { behind };
+            let vertices = Rc::new((next..end).collect());
+            next = end;
+            vertices
+        } else {
+            Rc::new(used)
+        };
+        let rows = row..row + vertices.len();
+        if !is_shared {
+            row = rows.end;
+        }
+        parts.push(Part {
+            triangles,
+            rows,
+            vertices,
+        });
+    }
 }
 
 /// The accessors of the vertices of each part. Bitangents of `turned` materials go the other way.
@@ -223,14 +280,17 @@ fn attributes(
         lists.push(("JOINTS_0", of_parts.collect()));
         lists.push(("WEIGHTS_0", binary.slices(&weights, Target::Vertices, false, &ranges)));
     }
-    (0..parts.len())
-        .map(|part| {
-            let of_part = lists
-                .iter()
-                .map(|(name, accessors)| (String::from(*name), json!(accessors[part.min(accessors.len() - 1)])));
-            Value::Object(of_part.collect())
-        })
-        .collect()
+    // The ranges stand in the order of their parts.
+    let places = parts
+        .iter()
+        .map(|part| ranges.partition_point(|range| range.start < part.rows.start));
+    let attributes = places.map(|place| {
+        let of_part = lists
+            .iter()
+            .map(|(name, accessors)| (String::from(*name), json!(accessors[place])));
+        Value::Object(of_part.collect())
+    });
+    attributes.collect()
 }
 
 /// Joints and weights as glTF wants them: each joint once, and 0 where there is no weight.

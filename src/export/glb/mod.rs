@@ -1,7 +1,7 @@
 //! A model in glTF's binary form.
 //!
 //! ```text
-//! mesh       a primitive for each submesh, over accessors that all share; corners against the clock, as glTF has them
+//! meshes     one for each object, one where there are none; a primitive for each submesh; corners against the clock, as glTF has them
 //! skeleton   a node for each bone, in the file's order; one above them where there are several roots, since a skin wants one
 //! clips      an animation each; the model's keys but those that a reader finds between others, held values as STEP, splines as CUBICSPLINE
 //! materials  metallic-roughness, with what the books say in `extras.bindpose`; maps as PNG, each picture once; green of normal maps up
@@ -24,7 +24,7 @@ use std::sync::Arc;
 use serde_json::{Value, json};
 
 use super::{ExportError, Exported, MapImages};
-use crate::model::{Front, Green, JointNames, MapSlot, Model, Skeleton};
+use crate::model::{Front, Green, JointNames, MapSlot, Model, Skeleton, Tag};
 use binary::Binary;
 use space::Space;
 
@@ -88,14 +88,21 @@ pub fn glb_with(
     let mut nodes = bones.nodes;
     let mut scene_nodes = bones.roots;
     let turned = turned_materials(model, maps);
-    let mesh = geometry::mesh(model, &space, (&turned, !maps.is_empty()), bones.unmoving, &mut binary);
-    if let Some(mesh) = mesh {
-        root["meshes"] = json!([mesh]);
-        let mut node = json!({ "mesh": 0 });
-        if let Some(skin) = &bones.skin {
+    let objects = geometry::meshes(model, &space, (&turned, !maps.is_empty()), bones.unmoving, &mut binary);
+    if let Some(skin) = bones.skin.filter(|_| !objects.is_empty()) {
+        root["skins"] = json!([skin]);
+    }
+    let mut meshes = Vec::with_capacity(objects.len());
+    for (object, mut mesh) in objects {
+        let mut node = json!({ "mesh": meshes.len() });
+        if root.get("skins").is_some() {
             node["skin"] = json!(0);
-            root["skins"] = json!([skin]);
         }
+        if let Some(object) = object {
+            write_tag(&mut node, &object.node);
+            write_tag(&mut mesh, &object.mesh);
+        }
+        meshes.push(mesh);
         scene_nodes.push(nodes.len());
         nodes.push(node);
     }
@@ -112,6 +119,7 @@ pub fn glb_with(
     let animations = animation::animations(model, &space, &mut binary);
     let written = material::materials(model, maps, &turned, encoded, &mut binary)?;
     for (key, list) in [
+        ("meshes", meshes),
         ("nodes", nodes),
         ("animations", animations),
         ("materials", written.materials),
@@ -139,6 +147,16 @@ pub fn glb_with(
         bytes: container(&root, binary.bytes)?,
         losses: glb_losses(model, maps, &BTreeSet::new()),
     })
+}
+
+/// Writes a part's name and what its author said of it.
+fn write_tag(part: &mut Value, tag: &Tag) {
+    if !tag.name.is_empty() {
+        part["name"] = json!(tag.name);
+    }
+    if let Some(extras) = &tag.extras {
+        part["extras"] = extras.clone();
+    }
 }
 
 /// Whether the green of each material's normal map is turned to point up, and the bitangents with it. The books' points down; what reads

@@ -9,8 +9,8 @@ use crate::export::Loss;
 use crate::export::losses::Losses;
 use crate::format::Dialect;
 use crate::model::{
-    AlphaMode, Front, JointIndex, JointNames, LocalJoint, MapSlot, Material, Model, Reflectance, Sampling, Track,
-    UpAxis, one_word,
+    AlphaMode, Front, JointIndex, JointNames, LocalJoint, MapSlot, Material, Model, Object, Reflectance, Sampling,
+    Track, UpAxis, one_word,
 };
 
 /// What a file of this dialect does not hold of a model, or holds otherwise. `names` are names that a person gave to bones.
@@ -22,6 +22,7 @@ pub fn m3d_losses(model: &Model, names: &JointNames, dialect: Dialect) -> Vec<Lo
         usize::from(model.copyright.is_some()),
         format!("The line of copyright is left out: \"{copyright}\"."),
     );
+    extras(model, &mut losses);
     space(model, dialect, &mut losses);
     mesh(model, &mut losses);
     skeleton(model, names, &mut losses);
@@ -32,6 +33,21 @@ pub fn m3d_losses(model: &Model, names: &JointNames, dialect: Dialect) -> Vec<Lo
     surfaces(&materials, dialect, &mut losses);
     maps(&materials, &mut losses);
     losses.0
+}
+
+fn extras(model: &Model, losses: &mut Losses) {
+    let names = |object: &Object| match object.node.name.as_str() {
+        "" => "one without a name".to_owned(),
+        name => name.to_owned(),
+    };
+    let has_extras = |object: &&Object| object.node.extras.is_some() || object.mesh.extras.is_some();
+    let with_extras: Vec<String> = model.objects.iter().filter(has_extras).map(names).collect();
+    losses.count(
+        codes::GLTF_EXTRAS_LEFT_OUT.name,
+        with_extras.len(),
+        ["object has", "objects have"],
+        &format!("extras (custom properties), which are left out: {}.", few(&with_extras)),
+    );
 }
 
 fn space(model: &Model, dialect: Dialect, losses: &mut Losses) {

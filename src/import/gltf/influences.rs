@@ -1,9 +1,8 @@
-//! From any number of joints and weights of a vertex to four.
+//! Joints and weights of the vertices of a primitive.
 
-use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Diagnostic, Subject, codes};
 use crate::gltf::{Fault, Primitive, Reader, Wanted};
-use crate::import::weights::{Mended, SUM_TOLERANCE};
+use crate::import::weights::{Noted, SUM_TOLERANCE};
 use crate::model::Influences;
 
 /// The weights of a primitive on a skin.
@@ -14,14 +13,6 @@ pub(super) struct Weighted<'a> {
     pub(super) joints: &'a [u32],
     pub(super) first_vertex: u32,
     pub(super) pointer: &'a str,
-}
-
-#[derive(Default)]
-pub(super) struct Noted {
-    mended: Mended,
-    cut: Tally,
-    /// The greatest part of a vertex's weights that was left out.
-    most_lost: f64,
 }
 
 /// Joints and weights of all vertices, four of each.
@@ -112,34 +103,7 @@ impl Weighted<'_> {
         if !is_sound {
             noted.mended.invalid.add(number);
         }
-        let all: f64 = pairs.iter().map(|&(weight, _)| f64::from(weight)).sum();
-        if pairs.is_empty() {
-            noted.mended.unweighted.add(number);
-            return Ok(Influences::default());
-        }
-        if (all - 1.0).abs() > SUM_TOLERANCE {
-            noted.mended.off_sum.add(number);
-        }
-        if pairs.len() > 4 {
-            // Stable, so that of equal weights the first ones are kept.
-            pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
-            pairs.truncate(4);
-        }
-        let kept: f64 = pairs.iter().map(|&(weight, _)| f64::from(weight)).sum();
-        if kept < all {
-            noted.cut.add(number);
-            noted.most_lost = noted.most_lost.max(1.0 - kept / all);
-        }
-        let mut influences = Influences::default();
-        for (slot, &(weight, joint)) in pairs.iter().enumerate() {
-            influences.joints[slot] = joint;
-            influences.weights[slot] = if kept == 1.0 {
-                weight
-            } else {
-                (f64::from(weight) / kept) as f32
-            };
-        }
-        Ok(influences)
+        Ok(noted.strongest(number, pairs))
     }
 
     fn joint(&self, slot: u32, vertex: u32) -> Result<u32, Fault> {
@@ -156,20 +120,5 @@ impl Weighted<'_> {
                     .pointing_at(format!("{}/attributes", self.pointer))
             })
         })
-    }
-}
-
-impl Noted {
-    pub(super) fn tell(&self, diagnostics: &mut Diagnostics) {
-        let place = |tally: &Tally| Place::of_rows(tally, Subject::Vertex, &[]);
-        self.mended.tell(diagnostics, place);
-        if self.cut.count > 0 {
-            let message = format!(
-                "{} weights for more than four joints; the four greatest are kept, and at most {:.2} % of a vertex's weight is lost.",
-                counted(self.cut.count, "vertex has", "vertices have"),
-                self.most_lost * 100.0
-            );
-            diagnostics.add(&codes::WEIGHTS_CUT, place(&self.cut), message);
-        }
     }
 }

@@ -1,22 +1,23 @@
 //! What a model does not take from a document, told: scenes and nodes that are not shown, objects that become one mesh, shape keys,
 //! attributes that nothing takes, and `extras`.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
 use serde_json::Value;
 
-use super::nodes::Nodes;
-use super::skeleton::{MeshUse, Rig};
+use super::skeleton::Rig;
 use crate::diagnostic::collect::{Diagnostics, Place, counted, few};
 use crate::diagnostic::{Code, codes};
 use crate::gltf::{Node, Root, is_attribute};
+use crate::import::scene::{MeshUse, Scene};
+use crate::model::Object;
 
-/// Notes what is left out of a scene whose meshes are used so. `second_tex_coords`: a map takes them.
+/// Notes what of a document is not in its scene and the skeleton of it. `second_tex_coords`: a map takes them.
 pub(super) fn note(
     root: &Root,
-    nodes: &Nodes,
-    uses: &[MeshUse],
+    scene: &Scene,
     rig: &Rig,
+    objects: &[(MeshUse, Object)],
     second_tex_coords: bool,
     diagnostics: &mut Diagnostics,
 ) {
@@ -27,7 +28,8 @@ pub(super) fn note(
             diagnostics.add(code, Place::pointer(pointer).counting(count), message);
         }
     };
-    let in_scene = |node: &(usize, &Node)| nodes.in_scene[node.0];
+    let uses = &scene.uses;
+    let in_scene = |node: &(usize, &Node)| scene.nodes[node.0].in_scene;
     let all = || root.nodes().iter().enumerate();
     let name = |(index, node): (usize, &Node)| node.name.clone().unwrap_or_else(|| format!("node {index}"));
     let scenes = root.scenes().len().saturating_sub(1);
@@ -83,7 +85,7 @@ pub(super) fn note(
     let mut is_taken: Vec<bool> = rig.joint_of_node.iter().map(Option::is_some).collect();
     uses.iter().for_each(|mesh| is_taken[mesh.node as usize] = true);
     let has_model = is_taken.contains(&true);
-    nodes.mark_above(&mut is_taken);
+    scene.mark_above(&mut is_taken);
     let mut counts = [0; 3];
     for (index, node) in all().filter(|node| in_scene(node) && has_model) {
         match (node.camera, node.extensions.light) {
@@ -102,7 +104,7 @@ pub(super) fn note(
     let what = ["node is left out", "nodes are left out"];
     tell(&codes::GLTF_NODES_LEFT_OUT, counts.iter().sum(), "/nodes", what, names);
 
-    let extras = extras(root);
+    let extras = extras(root, objects);
     let what = [
         "part of the file has extras (custom properties), which are left out",
         "parts of the file have extras (custom properties), which are left out",
@@ -111,18 +113,28 @@ pub(super) fn note(
     tell(&codes::GLTF_EXTRAS_LEFT_OUT, extras.len(), &first, what, extras);
 }
 
-/// Where there are `extras` that are not read.
-fn extras(root: &Root) -> Vec<String> {
-    // Names of shape keys are told with these.
-    let is_read = |key: &String| key == "bindpose" || key == "targetNames";
-    let is_foreign = |extras: &Value| match extras {
-        Value::Object(keys) => !keys.keys().all(is_read),
+/// Whether a key of `extras` means something here. Names of shape keys are told with these.
+pub(super) fn is_read(key: &str) -> bool {
+    key == "bindpose" || key == "targetNames"
+}
+
+/// Whether there is more in `extras` than what means something here.
+pub(super) fn is_foreign(extras: &Value) -> bool {
+    match extras {
+        Value::Object(keys) => !keys.keys().all(|key| is_read(key)),
         extras => !extras.is_null(),
-    };
+    }
+}
+
+/// Where there are `extras` that are not read. Those of objects come through.
+fn extras(root: &Root, objects: &[(MeshUse, Object)]) -> Vec<String> {
+    let kept = objects.iter();
+    let kept = kept.flat_map(|(of, _)| [format!("/nodes/{}", of.node), format!("/meshes/{}", of.mesh)]);
+    let kept: HashSet<String> = kept.collect();
     let mut found = Vec::new();
     let mut look = |extras: &Option<Value>, at: &dyn Fn() -> String| {
         if extras.as_ref().is_some_and(is_foreign) {
-            found.push(at() + "/extras");
+            found.extend(Some(at()).filter(|at| !kept.contains(at)).map(|at| at + "/extras"));
         }
     };
     look(&root.extras, &String::new);

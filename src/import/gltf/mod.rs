@@ -6,7 +6,6 @@
 //!
 //! The file's names of nodes are the names of the joints until a person gives others.
 
-mod binding;
 mod clips;
 mod images;
 mod influences;
@@ -14,17 +13,17 @@ mod left_out;
 mod materials;
 mod meshes;
 mod nodes;
+pub(super) mod places;
 mod skeleton;
 mod vertices;
 
 use self::images::Images;
-use self::meshes::Source;
-use self::nodes::Nodes;
-use super::{FileFormat, Imported, Refused};
+use self::meshes::{Meshed, Primitives};
+use self::places::Places;
+use super::{Imported, Refused, Source};
 use crate::diagnostic::collect::{Diagnostics, Place};
 use crate::diagnostic::{Diagnostic, Severity, codes};
-use crate::format::LineMap;
-use crate::gltf::{self, Buffers, Container, Effort, Fault, FindFile, Reader, Root, Uri};
+use crate::gltf::{self, Buffers, Container, Fault, FindFile, Reader, Root, Uri};
 use crate::model::{Front, Handedness, Model, UpAxis};
 
 pub(super) use crate::gltf::begins_like_gltf as begins_like_model;
@@ -92,7 +91,7 @@ fn read(bytes: &[u8], find: FindFile<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         gltf::note_broken_rules(&root, &mut noted);
     }
     diagnostics.extend(noted.into_vec());
-    let (model, images, effort) = read.map_err(|fault| match buffers.first_missing() {
+    let (model, images, places) = read.map_err(|fault| match buffers.first_missing() {
         Some(missing) if fault.code == missing.code => missing,
         _ => fault,
     })?;
@@ -102,17 +101,10 @@ fn read(bytes: &[u8], find: FindFile<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
         ..Diagnostic::clone(fault)
     }));
     Ok(Imported {
-        format: if container.is_binary {
-            FileFormat::Glb
-        } else {
-            FileFormat::Gltf
-        },
         model,
         diagnostics: Vec::new(),
-        document: None,
-        lines: LineMap::default(),
         pictures: images.pictures,
-        effort,
+        source: Source::gltf(container.is_binary, places),
     })
 }
 
@@ -122,22 +114,22 @@ fn model(
     container: &Container<'_>,
     find: FindFile<'_>,
     diagnostics: &mut Diagnostics,
-) -> Result<(Model, Images, Effort), Fault> {
+) -> Result<(Model, Images, Places), Fault> {
     let reader = Reader::new(root, buffers, container.json.len() as u64);
-    let nodes = Nodes::read(root, diagnostics)?;
+    let mut scene = nodes::scene(root, diagnostics)?;
     let images = Images::read(root, &reader, find, diagnostics)?;
     let mut materials = materials::materials(root, &images, diagnostics)?;
-    let uses = skeleton::meshes_in_scene(root, &nodes, diagnostics)?;
-    let rig = skeleton::rig(root, &reader, &nodes, &uses, diagnostics)?;
-    let source = Source {
+    skeleton::find_meshes(root, &mut scene, diagnostics)?;
+    let rig = skeleton::rig(root, &reader, &mut scene, diagnostics)?;
+    let source = Primitives {
         root,
         reader: &reader,
-        nodes: &nodes,
+        scene: &scene,
         rig: &rig,
         second_tex_coords: materials::take_second_tex_coords(&materials),
         normal_maps: materials::have_normal_maps(&materials),
     };
-    let mesh = meshes::mesh(&source, &uses, diagnostics)?;
+    let Meshed { mesh, objects, places } = meshes::mesh(&source, diagnostics)?;
     // The last one is for primitives without any.
     if !mesh
         .submeshes
@@ -147,14 +139,16 @@ fn model(
         materials.pop();
     }
     let clips = clips::clips(root, &reader, &rig, diagnostics)?;
-    left_out::note(root, &nodes, &uses, &rig, source.second_tex_coords, diagnostics);
+    left_out::note(root, &scene, &rig, &objects, source.second_tex_coords, diagnostics);
     if mesh.positions.is_empty() && rig.skeleton.joint_count() == 0 {
         let message = codes::GLTF_EMPTY.sentence.to_owned();
         diagnostics.add(&codes::GLTF_EMPTY, Place::default(), message);
     }
+    let places = Places::of(root, &rig, places, reader.effort());
     let model = Model {
         materials,
         mesh,
+        objects: objects.into_iter().map(|(_, object)| object).collect(),
         skeleton: rig.skeleton,
         clips,
         handedness: Handedness::Right,
@@ -163,5 +157,5 @@ fn model(
         copyright: root.asset.as_ref().and_then(|asset| asset.copyright.clone()),
     };
     let model = model.checked()?;
-    Ok((model, images, reader.effort()))
+    Ok((model, images, places))
 }

@@ -1,79 +1,86 @@
 //! Nodes as trees: who is whose parent, where each is at rest, and which are in the scene.
 
-use glam::{DAffine3, DMat4, DVec4, Mat4, Quat, Vec3};
+use std::sync::Arc;
 
+use glam::{DAffine3, DMat4, DVec4, Mat4, Quat, Vec3};
+use serde_json::Value;
+
+use super::left_out::{is_foreign, is_read};
 use crate::diagnostic::codes;
 use crate::diagnostic::collect::{Diagnostics, Place};
-use crate::gltf::{Fault, Node, Root, fault, out_of_range};
-use crate::model::{LocalJoint, unit_rotation};
+use crate::gltf::{Fault, Node, Path, Root, fault, out_of_range};
+use crate::import::scene::{self, Scene, mark_below};
+use crate::model::{LocalJoint, Tag, unit_rotation};
 
 /// A rotation whose length is off by more than this was not meant to be rounded.
 const UNIT_TOLERANCE: f32 = 1e-3;
 
-/// The nodes of a document. Lists have an entry for each node.
-pub(super) struct Nodes {
-    pub(super) parents: Vec<Option<u32>>,
-    /// All nodes, parents before children.
-    pub(super) order: Vec<u32>,
-    /// Relative to the parent, in parts.
-    pub(super) local: Vec<LocalJoint>,
-    /// Relative to the model, with all that matrices say.
-    pub(super) model_from_node: Vec<DAffine3>,
-    pub(super) in_scene: Vec<bool>,
-}
-
-impl Nodes {
-    /// # Errors
-    /// When a child or a scene's node is not there, or nodes are no trees.
-    pub(super) fn read(root: &Root, diagnostics: &mut Diagnostics) -> Result<Self, Fault> {
-        let nodes = root.nodes();
-        let parents = parents(nodes)?;
-        let order = parents_first(nodes, &parents)?;
-        let mut local = Vec::with_capacity(nodes.len());
-        let mut exact = Vec::with_capacity(nodes.len());
-        for (index, node) in nodes.iter().enumerate() {
-            let (parts, matrix) = transform(index, node, diagnostics);
-            local.push(parts);
-            exact.push(matrix);
-        }
-        let mut model_from_node = exact;
-        for &node in &order {
-            if let Some(parent) = parents[node as usize] {
-                model_from_node[node as usize] = model_from_node[parent as usize] * model_from_node[node as usize];
-            }
-        }
-        let in_scene = in_scene(root, &parents, &order, diagnostics)?;
-        Ok(Self {
-            parents,
-            order,
-            local,
-            model_from_node,
-            in_scene,
-        })
-    }
-
-    /// Marks all that is below a marked node.
-    pub(super) fn mark_below(&self, marked: &mut [bool]) {
-        mark_below(&self.parents, &self.order, marked);
-    }
-
-    /// Marks all that is above a marked node.
-    pub(super) fn mark_above(&self, marked: &mut [bool]) {
-        for &node in self.order.iter().rev() {
-            if let (true, Some(parent)) = (marked[node as usize], self.parents[node as usize]) {
-                marked[parent as usize] = true;
-            }
-        }
-    }
-}
-
-/// `order` has parents before their children.
-fn mark_below(parents: &[Option<u32>], order: &[u32], marked: &mut [bool]) {
-    for &node in order {
+/// The nodes of a document, still without skins and meshes.
+///
+/// # Errors
+/// When a child or a scene's node is not there, or nodes are no trees.
+pub(super) fn scene(root: &Root, diagnostics: &mut Diagnostics) -> Result<Scene, Fault> {
+    let parents = parents(root.nodes())?;
+    let order = parents_first(&parents)?;
+    let transforms = root.nodes().iter().enumerate();
+    let transforms = transforms.map(|(index, node)| transform(index, node, diagnostics));
+    let (local, mut model_from_node): (Vec<LocalJoint>, Vec<DAffine3>) = transforms.unzip();
+    for &node in &order {
         if let Some(parent) = parents[node as usize] {
-            marked[node as usize] |= marked[parent as usize];
+            model_from_node[node as usize] = model_from_node[parent as usize] * model_from_node[node as usize];
         }
     }
+    let in_scene = in_scene(root, &parents, &order, diagnostics)?;
+    let moved = moved_nodes(root);
+    let nodes = root.nodes().iter().enumerate().map(|(index, node)| scene::Node {
+        tag: tag(node.name.as_ref(), node.extras.as_ref()),
+        local: local[index],
+        model_from_node: model_from_node[index],
+        in_scene: in_scene[index],
+        is_moved: moved[index],
+        bone: bone_number(node),
+    });
+    let meshes = root.meshes().iter();
+    let meshes = meshes.map(|mesh| Arc::new(tag(mesh.name.as_ref(), mesh.extras.as_ref())));
+    Ok(Scene {
+        nodes: nodes.collect(),
+        meshes: meshes.collect(),
+        parents,
+        order,
+        ..Scene::default()
+    })
+}
+
+/// Name and `extras` as they are written again: without what means something here.
+fn tag(name: Option<&String>, extras: Option<&Value>) -> Tag {
+    let mut extras = extras.filter(|extras| is_foreign(extras)).cloned();
+    if let Some(Value::Object(keys)) = &mut extras {
+        keys.retain(|key, _| !is_read(key));
+    }
+    Tag {
+        name: name.cloned().unwrap_or_default(),
+        extras,
+    }
+}
+
+/// The number that the document gives a bone.
+fn bone_number(node: &Node) -> Option<u32> {
+    let bone = node.extras.as_ref()?.get("bindpose")?.get("bone")?.as_u64()?;
+    u32::try_from(bone).ok()
+}
+
+fn moved_nodes(root: &Root) -> Vec<bool> {
+    let mut moved = vec![false; root.nodes().len()];
+    let channels = root.animations().iter().flat_map(|animation| &animation.channels);
+    for channel in
+        channels.filter(|channel| matches!(channel.target.path, Path::Translation | Path::Rotation | Path::Scale))
+    {
+        let node = channel.target.node.and_then(|node| usize::try_from(node.0).ok());
+        if let Some(moved) = node.and_then(|node| moved.get_mut(node)) {
+            *moved = true;
+        }
+    }
+    moved
 }
 
 fn parents(nodes: &[Node]) -> Result<Vec<Option<u32>>, Fault> {
@@ -95,19 +102,12 @@ fn parents(nodes: &[Node]) -> Result<Vec<Option<u32>>, Fault> {
     Ok(parents)
 }
 
-fn parents_first(nodes: &[Node], parents: &[Option<u32>]) -> Result<Vec<u32>, Fault> {
-    let roots = (0u32..).zip(parents).filter(|(_, parent)| parent.is_none());
-    let mut order: Vec<u32> = roots.map(|(node, _)| node).collect();
-    let mut done = 0;
-    while let Some(&node) = order.get(done) {
-        // Every child was proved to be a node.
-        order.extend(nodes[node as usize].children().map(|child| child as u32));
-        done += 1;
-    }
-    if order.len() == nodes.len() {
+fn parents_first(parents: &[Option<u32>]) -> Result<Vec<u32>, Fault> {
+    let order = scene::parents_first(parents, Some);
+    if order.len() == parents.len() {
         return Ok(order);
     }
-    let mut reached = vec![false; nodes.len()];
+    let mut reached = vec![false; parents.len()];
     for &node in &order {
         reached[node as usize] = true;
     }

@@ -5,94 +5,82 @@ use glam::Vec3;
 use crate::diagnostic::codes;
 use crate::diagnostic::collect::{Diagnostics, Place};
 use crate::gltf::{Fault, Primitive, Reader, Wanted};
+use crate::import::scene::Vertices;
 
-/// Attributes of the vertices of a primitive. Those that are absent are empty; all others have one length.
-#[derive(Clone, Default)]
-pub(super) struct Vertices {
-    pub(super) positions: Vec<[f32; 3]>,
-    pub(super) normals: Vec<[f32; 3]>,
-    pub(super) tangents: Vec<[f32; 4]>,
-    pub(super) tex_coords: Vec<[f32; 2]>,
-    pub(super) second_tex_coords: Vec<[f32; 2]>,
-    pub(super) colors: Vec<[f32; 4]>,
+/// The vertices of a primitive, which is at `pointer`, without its morph targets. Second texture coordinates are left out where no map
+/// takes them.
+///
+/// # Errors
+/// When an attribute names what is not there, or numbers of the wrong kind.
+pub(super) fn read(
+    reader: &Reader<'_>,
+    part: &Primitive,
+    takes_second_tex_coords: bool,
+    pointer: &str,
+    diagnostics: &mut Diagnostics,
+) -> Result<Vertices, Fault> {
+    let attributes = Attributes { reader, part, pointer };
+    let positions: Vec<[f32; 3]> = attributes.read("POSITION")?;
+    let count = positions.len();
+    let vertices = Vertices {
+        positions,
+        normals: fitting(attributes.read("NORMAL")?, count),
+        tangents: fitting(attributes.read("TANGENT")?, count),
+        tex_coords: fitting(attributes.read("TEXCOORD_0")?, count),
+        second_tex_coords: if takes_second_tex_coords {
+            fitting(attributes.read("TEXCOORD_1")?, count)
+        } else {
+            Vec::new()
+        },
+        colors: fitting(attributes.colors()?, count),
+    };
+    if vertices.normals.is_empty() {
+        let message = "The primitive has no normals; smooth ones were computed from its triangles.";
+        diagnostics.add(&codes::GLTF_NORMALS_ABSENT, Place::pointer(pointer), message.to_owned());
+    }
+    Ok(vertices)
 }
 
-impl Vertices {
-    /// The vertices of a primitive, which is at `pointer`, without its morph targets. Second texture coordinates are left out where no map
-    /// takes them.
-    ///
-    /// # Errors
-    /// When an attribute names what is not there, or numbers of the wrong kind.
-    pub(super) fn read(
-        reader: &Reader<'_>,
-        part: &Primitive,
-        takes_second_tex_coords: bool,
-        pointer: &str,
-        diagnostics: &mut Diagnostics,
-    ) -> Result<Self, Fault> {
-        let attributes = Attributes { reader, part, pointer };
-        let positions: Vec<[f32; 3]> = attributes.read("POSITION")?;
-        let count = positions.len();
-        let vertices = Self {
-            positions,
-            normals: fitting(attributes.read("NORMAL")?, count),
-            tangents: fitting(attributes.read("TANGENT")?, count),
-            tex_coords: fitting(attributes.read("TEXCOORD_0")?, count),
-            second_tex_coords: if takes_second_tex_coords {
-                fitting(attributes.read("TEXCOORD_1")?, count)
-            } else {
-                Vec::new()
-            },
-            colors: fitting(attributes.colors()?, count),
-        };
-        if vertices.normals.is_empty() {
-            let message = "The primitive has no normals; smooth ones were computed from its triangles.";
-            diagnostics.add(&codes::GLTF_NORMALS_ABSENT, Place::pointer(pointer), message.to_owned());
+/// The same with the morph targets of the primitive at these weights.
+///
+/// # Errors
+/// As [`read`].
+pub(super) fn morphed(
+    plain: &Vertices,
+    reader: &Reader<'_>,
+    part: &Primitive,
+    weights: &[f32],
+    pointer: &str,
+) -> Result<Vertices, Fault> {
+    let mut vertices = plain.clone();
+    for (target, &weight) in weights.iter().take(part.targets.len()).enumerate() {
+        if weight != 0.0 && weight.is_finite() {
+            morph(&mut vertices, &Attributes { reader, part, pointer }, target, weight)?;
         }
-        Ok(vertices)
     }
+    Ok(vertices)
+}
 
-    /// The same with the morph targets of the primitive at these weights.
-    ///
-    /// # Errors
-    /// As [`Vertices::read`].
-    pub(super) fn morphed(
-        &self,
-        reader: &Reader<'_>,
-        part: &Primitive,
-        weights: &[f32],
-        pointer: &str,
-    ) -> Result<Self, Fault> {
-        let mut vertices = self.clone();
-        for (target, &weight) in weights.iter().take(part.targets.len()).enumerate() {
-            if weight != 0.0 && weight.is_finite() {
-                vertices.morph(&Attributes { reader, part, pointer }, target, weight)?;
-            }
-        }
-        Ok(vertices)
-    }
-
-    fn morph(&mut self, attributes: &Attributes<'_>, target: usize, weight: f32) -> Result<(), Fault> {
-        let steps = |key: &str| -> Result<Vec<Vec3>, Fault> {
-            let Some(&accessor) = attributes.part.targets[target].get(key) else {
-                return Ok(Vec::new());
-            };
-            let pointer = format!("{}/targets/{target}/{key}", attributes.pointer);
-            let wanted = Wanted::of_attribute(key).unwrap_or(Wanted::Floats);
-            let steps: Vec<[f32; 3]> = attributes.reader.floats(accessor, wanted, &pointer)?;
-            Ok(steps.into_iter().map(|step| Vec3::from_array(step) * weight).collect())
+fn morph(vertices: &mut Vertices, attributes: &Attributes<'_>, target: usize, weight: f32) -> Result<(), Fault> {
+    let steps = |key: &str| -> Result<Vec<Vec3>, Fault> {
+        let Some(&accessor) = attributes.part.targets[target].get(key) else {
+            return Ok(Vec::new());
         };
-        for (position, step) in self.positions.iter_mut().zip(steps("POSITION")?) {
-            *position = (Vec3::from_array(*position) + step).to_array();
-        }
-        for (normal, step) in self.normals.iter_mut().zip(steps("NORMAL")?) {
-            *normal = (Vec3::from_array(*normal) + step).to_array();
-        }
-        for ([x, y, z, _], step) in self.tangents.iter_mut().zip(steps("TANGENT")?) {
-            [*x, *y, *z] = (Vec3::new(*x, *y, *z) + step).to_array();
-        }
-        Ok(())
+        let pointer = format!("{}/targets/{target}/{key}", attributes.pointer);
+        let wanted = Wanted::of_attribute(key).unwrap_or(Wanted::Floats);
+        let steps: Vec<[f32; 3]> = attributes.reader.floats(accessor, wanted, &pointer)?;
+        Ok(steps.into_iter().map(|step| Vec3::from_array(step) * weight).collect())
+    };
+    for (position, step) in vertices.positions.iter_mut().zip(steps("POSITION")?) {
+        *position = (Vec3::from_array(*position) + step).to_array();
     }
+    for (normal, step) in vertices.normals.iter_mut().zip(steps("NORMAL")?) {
+        *normal = (Vec3::from_array(*normal) + step).to_array();
+    }
+    for ([x, y, z, _], step) in vertices.tangents.iter_mut().zip(steps("TANGENT")?) {
+        [*x, *y, *z] = (Vec3::new(*x, *y, *z) + step).to_array();
+    }
+    Ok(())
 }
 
 /// An element for each of `count` vertices: more are left out, fewer are none.

@@ -1,15 +1,19 @@
 //! From the file's bones in any order to joints with parents first.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
-
-use glam::{Affine3A, Mat4};
-
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::limits::MOST_BONES;
-use crate::diagnostic::{Code, Fault, Subject, codes};
+use crate::diagnostic::{Fault, Subject, codes};
 use crate::format::{Document, LineMap};
+use crate::import::offsets::{self, Words};
+use crate::import::scene;
 use crate::model::{JointIndex, Skeleton};
+
+const OFFSETS: Words = Words {
+    one_has: "bone offset has",
+    many_have: "bone offsets have",
+    not_affine: ("a fourth column that is not 0 0 0 1; that column was left out.", 0.0),
+    singular: "no inverse; the bone's place in the bind pose is unknown.",
+};
 
 /// The skeleton of a document. A file whose order is already valid keeps it; otherwise each bone follows its parent as
 /// soon as the bones with lower numbers allow.
@@ -46,8 +50,11 @@ pub(super) fn skeleton_from_document(
         .iter()
         .map(|&bone| bone_parents[bone as usize].map(|parent| joint_of_bone[parent as usize]))
         .collect();
-    let offsets = offsets(&document.bone_offsets, lines, diagnostics);
-    let joint_from_bind = file_bones.iter().map(|&bone| offsets[bone as usize]).collect();
+    // Row vectors, row by row, are the columns of our column-vector matrix.
+    let place = |tally: &Tally| Place::of_rows(tally, Subject::Bone, &lines.bone_offsets);
+    let offsets = offsets::mended(&document.bone_offsets, &OFFSETS, place, diagnostics);
+    let joint_from_bind = file_bones.iter().map(|&bone| offsets[bone as usize].as_affine3a());
+    let joint_from_bind = joint_from_bind.collect();
     Skeleton::new(parents, joint_from_bind, file_bones)
 }
 
@@ -72,19 +79,7 @@ fn parents_in_range(parents: &[i32], lines: &LineMap) -> Result<Vec<Option<u32>>
 
 /// File bones in an order in which parents come first: of the bones that may stand next, always the lowest number.
 fn parents_first(parents: &[Option<u32>], lines: &LineMap) -> Result<Vec<u32>, Fault> {
-    let mut children = vec![Vec::new(); parents.len()];
-    let mut ready = BinaryHeap::new();
-    for (bone, parent) in (0u32..).zip(parents) {
-        match parent {
-            Some(parent) => children[*parent as usize].push(bone),
-            None => ready.push(Reverse(bone)),
-        }
-    }
-    let mut order = Vec::with_capacity(parents.len());
-    while let Some(Reverse(bone)) = ready.pop() {
-        order.push(bone);
-        ready.extend(children[bone as usize].iter().map(|&child| Reverse(child)));
-    }
+    let order = scene::parents_first(parents, Some);
     if order.len() == parents.len() {
         return Ok(order);
     }
@@ -152,58 +147,4 @@ fn note_order(file_bones: &[u32], parents: &[Option<u32>], lines: &LineMap, diag
         Place::of_rows(&late, Subject::Bone, &lines.bone_parents),
         format!("{stand} before the parent; the joints are sorted and keep the file's numbers for display."),
     );
-}
-
-/// Inverse bind matrices in the file's numbering, each finite and affine.
-fn offsets(rows: &[[f32; 16]], lines: &LineMap, diagnostics: &mut Diagnostics) -> Vec<Affine3A> {
-    let (mut not_finite, mut not_affine, mut singular) = (Tally::default(), Tally::default(), Tally::default());
-    let matrices = (0u32..)
-        .zip(rows)
-        .map(|(bone, row)| {
-            if !row.iter().all(|number| number.is_finite()) {
-                not_finite.add(bone);
-                return Affine3A::IDENTITY;
-            }
-            // Row vectors, row by row, are the columns of our column-vector matrix.
-            let matrix = Mat4::from_cols_array(row);
-            if matrix.row(3) != glam::Vec4::W {
-                not_affine.add(bone);
-            }
-            let joint_from_bind = Affine3A::from_mat4(matrix);
-            if is_singular(&joint_from_bind) {
-                singular.add(bone);
-            }
-            joint_from_bind
-        })
-        .collect();
-    let mut warn = |code: &Code, tally: Tally, rule: &str| {
-        if tally.count > 0 {
-            let offsets = counted(tally.count, "bone offset has", "bone offsets have");
-            let place = Place::of_rows(&tally, Subject::Bone, &lines.bone_offsets);
-            diagnostics.add(code, place, format!("{offsets} {rule}"));
-        }
-    };
-    warn(
-        &codes::OFFSET_NOT_FINITE,
-        not_finite,
-        "a number that is not finite; the identity stands in.",
-    );
-    warn(
-        &codes::OFFSET_NOT_AFFINE,
-        not_affine,
-        "a fourth column that is not 0 0 0 1; that column was left out.",
-    );
-    warn(
-        &codes::OFFSET_SINGULAR,
-        singular,
-        "no inverse; the bone's place in the bind pose is unknown.",
-    );
-    matrices
-}
-
-/// Whether the matrix flattens space, whatever its unit.
-fn is_singular(joint_from_bind: &Affine3A) -> bool {
-    let matrix = joint_from_bind.as_daffine3().matrix3;
-    let volume = matrix.x_axis.length() * matrix.y_axis.length() * matrix.z_axis.length();
-    matrix.determinant().abs() <= 1e-9 * volume
 }

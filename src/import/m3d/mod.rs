@@ -12,7 +12,7 @@ mod influences;
 mod mesh;
 mod surfaces;
 
-use super::{FileFormat, Imported, Refused};
+use super::{Imported, Refused, Source};
 use crate::diagnostic::collect::Diagnostics;
 use crate::diagnostic::{Diagnostic, Fault};
 use crate::format::{self, Dialect, Document, LineMap, Parsed};
@@ -26,13 +26,10 @@ pub(super) fn import(bytes: &[u8]) -> Result<Imported, Box<Refused>> {
     let (model, mut diagnostics) = from_parsed(&parsed).map_err(|fault| refused(*fault, parsed.diagnostics.clone()))?;
     diagnostics.sort_by_key(|diagnostic| diagnostic.position);
     Ok(Imported {
-        format: FileFormat::M3d(parsed.document.dialect),
         model,
         diagnostics,
-        document: Some(parsed.document),
-        lines: parsed.lines,
         pictures: Vec::new(),
-        effort: crate::gltf::Effort::default(),
+        source: Source::m3d(parsed),
     })
 }
 
@@ -65,6 +62,7 @@ pub fn from_document(document: &Document, lines: &LineMap) -> Result<(Model, Vec
     let model = Model {
         materials,
         mesh,
+        objects: Vec::new(),
         skeleton,
         clips,
         handedness,

@@ -240,7 +240,7 @@ impl LoadJob {
             State::Verdicts(mut open) => {
                 let verdicts = Verdicts::default();
                 verdicts.of(&open, &self.maps);
-                open.document = None;
+                open.source.forget();
                 LoadStep::Ended(Ok(Box::new(Loaded {
                     files: self.files,
                     open: *open,

@@ -12,8 +12,8 @@ use crate::check;
 use crate::diagnostic::{Diagnostic, Position, Severity, Subject, codes};
 use crate::edit::Change;
 use crate::export::Loss;
-use crate::format::{self, Document, Excerpt};
-use crate::import::{FileFormat, Imported};
+use crate::format::{self, Excerpt};
+use crate::import::{FileFormat, Imported, Source};
 use crate::model::{Clip, JointIndex, Model};
 use crate::scene::Aabb;
 
@@ -30,8 +30,8 @@ pub struct OpenModel {
     pub model: Model,
     /// What was mended or is worth knowing, in the order of the file.
     pub diagnostics: Vec<Diagnostic>,
-    /// What the file says, until the books' verdicts are worked out of it.
-    pub(in crate::session) document: Option<Document>,
+    /// What only the file's format knows; of a book's format what the file says, until the books' verdicts are worked out of it.
+    pub(in crate::session) source: Source,
     /// A name for each submesh: that of its material, with a number where several have the same.
     pub(in crate::session) submesh_names: Vec<String>,
     /// Box of the bind pose, in the file's space.
@@ -153,26 +153,23 @@ impl OpenModel {
     /// A model that has just been read from a file.
     pub(in crate::session) fn new(file: &File, imported: Imported) -> Self {
         let Imported {
-            format,
             model,
             mut diagnostics,
-            document,
-            lines,
             pictures,
-            effort: _,
+            source,
         } = imported;
         let compiled = CompiledClip::all(&model.clips);
-        diagnostics.extend(check::model(&model, &compiled, &lines));
+        diagnostics.extend(check::model(&model, &compiled, &*source.places(&file.bytes)));
         diagnostics.sort_by_key(|diagnostic| diagnostic.position);
         Self {
             file: file.clone(),
-            format,
+            format: source.format,
             pictures: pictures
                 .iter()
                 .map(|picture| File::new(&picture.name, Arc::clone(&picture.bytes)))
                 .collect(),
             diagnostics,
-            document,
+            source,
             compiled,
             submesh_names: submesh_names(&model),
             bind_bounds: model.bind_bounds(),
@@ -209,9 +206,11 @@ impl OpenModel {
             .map(|Loss { code, message, .. }| Change { code, message })
     }
 
-    /// What of the file was left out while it was read, as losses: no file that is written has it. `clips` as for [`OpenModel::mended`].
-    pub fn left_out(&self, clips: Option<&[String]>) -> impl Iterator<Item = Loss> {
-        self.of_reading(clips, is_loss)
+    /// What of the file was left out while it was read, as losses: no file that is written has it. A format that `keeps_objects` has them
+    /// apart again. `clips` as for [`OpenModel::mended`].
+    pub fn left_out(&self, clips: Option<&[String]>, keeps_objects: bool) -> impl Iterator<Item = Loss> {
+        let is_kept = move |finding: &Diagnostic| keeps_objects && finding.code == codes::GLTF_OBJECTS_MERGED.name;
+        self.of_reading(clips, move |finding| is_loss(finding) && !is_kept(finding))
     }
 
     fn of_reading(

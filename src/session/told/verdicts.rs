@@ -5,7 +5,6 @@ use std::sync::OnceLock;
 use crate::check::book::{self, Book, Known, Limit, MOST_MATERIALS, Verdict};
 use crate::diagnostic::codes;
 use crate::edit::too_large_for_book;
-use crate::format;
 use crate::model::Model;
 use crate::session::open::maps::Maps;
 use crate::session::open::open_model::OpenModel;
@@ -22,20 +21,12 @@ impl Verdicts {
     /// at the first call.
     pub(in crate::session) fn of(&self, open: &OpenModel, maps: &Maps) -> &[Verdict] {
         self.of_books.get_or_init(|| {
-            if open.format.is_gltf() {
-                return Vec::new();
-            }
             let bytes = &open.file.bytes;
-            let parsed = if open.document.is_some() {
-                None
-            } else {
-                format::parse(bytes).ok()
+            let Some(parsed) = open.source.parsed(bytes) else {
+                return Vec::new();
             };
             let known = Known {
-                document: open
-                    .document
-                    .as_ref()
-                    .or(parsed.as_ref().map(|parsed| &parsed.document)),
+                document: Some(&parsed.document),
                 handedness: Some(open.model.handedness),
                 // Without any picture nobody meant to bring maps.
                 missing_maps: (!maps.pictures().is_empty()).then_some(&maps.checklist().missing),
@@ -47,7 +38,8 @@ impl Verdicts {
     /// What the open model exceeds even converted for the books; `None` for their own format.
     pub(in crate::session) fn converted(&self, open: &OpenModel) -> Option<&[Limit]> {
         let limits = || limits_once_converted(&open.model, &Book::ALL);
-        open.format.is_gltf().then(|| &**self.converted.get_or_init(limits))
+        let is_other = open.format.dialect().is_none();
+        is_other.then(|| &**self.converted.get_or_init(limits))
     }
 
     pub(in crate::session) fn forget(&mut self) {

@@ -134,7 +134,7 @@ impl Session {
             model,
             names: self.joint_names(),
             changes: open.mended(clips).chain(edited).chain(flipped).collect(),
-            losses: open.left_out(clips).collect(),
+            losses: open.left_out(clips, options.format.dialect().is_none()).collect(),
             edits: self.edits(options),
             maps: self.maps(),
             format: options.format,

@@ -69,7 +69,11 @@ fn heading(ui: &mut Ui) {
 
 fn counts(ui: &mut Ui, open: &OpenModel) {
     let model = &open.model;
-    let label = if open.format.is_gltf() { "Format" } else { "Dialect" };
+    let label = if open.format.dialect().is_some() {
+        "Dialect"
+    } else {
+        "Format"
+    };
     value_row(ui, label, open.format.label());
     value_row(ui, "Vertices", &grouped(model.mesh.vertex_count()));
     value_row(ui, "Triangles", &grouped(model.mesh.triangle_count()));

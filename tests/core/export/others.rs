@@ -21,7 +21,7 @@ use super::both_ways::characters;
 use super::glb::models;
 use crate::documents::{REAL_FILES, figure, real_file, shared_bytes};
 use crate::format::written_documents;
-use crate::gltf::banner;
+use crate::gltf::{banner, four_objects, four_still_objects};
 use crate::gltf_files::glb as glb_file;
 use crate::shared::shared;
 
@@ -183,6 +183,11 @@ fn gltf_files() -> Vec<(&'static str, Vec<u8>)> {
 /// What was read of glTF is written as glTF again, with its pictures.
 fn write_read_gltf() {
     fs::write(folder().join("banner.glb"), banner().glb()).expect("the file can be written");
+    for (name, file) in [("objects", four_objects()), ("still-objects", four_still_objects())] {
+        let model = import(&file.glb()).expect("it makes a model").model;
+        write(name, &model, &Maps::default());
+        fs::write(folder().join(format!("{name}.json")), posed(&model).to_string()).expect("the file can be written");
+    }
     for (name, bytes) in gltf_files() {
         let imported = import(&bytes).expect("it makes a model");
         let mut maps = Maps::default();

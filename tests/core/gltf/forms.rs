@@ -18,7 +18,10 @@ fn binary_text_and_text_with_its_data_beside_are_one_model() {
     let find = |path: &str| (path == "some folder/data.bin").then(|| Arc::clone(&bin));
     let beside = import_beside(&beside, &find).expect("its data are there");
     let read = read(&file);
-    assert_eq!((read.format, beside.format), (FileFormat::Glb, FileFormat::Gltf));
+    assert_eq!(
+        (read.source.format, beside.source.format),
+        (FileFormat::Glb, FileFormat::Gltf)
+    );
     assert_eq!(read.model.mesh.positions, beside.model.mesh.positions);
     assert_at(&read.model.mesh.positions, &CORNERS);
 }

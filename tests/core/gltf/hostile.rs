@@ -205,7 +205,7 @@ fn assert_total(bytes: &[u8]) {
     let Ok(imported) = import(bytes) else { return };
     let model = imported.model.checked().expect("what was read is sound");
     let compiled = CompiledClip::all(&model.clips);
-    check::model(&model, &compiled, &imported.lines);
+    check::model(&model, &compiled, &*imported.source.places(bytes));
     super::posed(&model, 0.5);
     let names = JointNames::default();
     let written = glb_of(&model, &names, &MapImages::new()).expect("it can be written");

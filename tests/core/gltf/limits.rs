@@ -44,14 +44,14 @@ fn fence(vertices: usize, nodes: usize, is_skinned: bool) -> Gltf {
 fn a_mesh_on_many_nodes_is_read_once_and_kept_for_each() {
     for is_skinned in [false, true] {
         let (vertices, nodes) = (9_000, 300);
-        let Imported { model, effort, .. } = opened(&fence(vertices, nodes, is_skinned));
+        let Imported { model, source, .. } = opened(&fence(vertices, nodes, is_skinned));
         assert_eq!(model.mesh.vertex_count(), vertices * nodes);
         assert_eq!(model.mesh.submeshes.len(), nodes);
         let streams = if is_skinned { 3 } else { 1 };
         // Once each, and the order of the vertices.
-        assert_eq!(effort.elements, ((streams + 1) * vertices) as u64);
+        assert_eq!(source.effort().elements, ((streams + 1) * vertices) as u64);
         let kept = nodes * (vertices * BYTES_PER_VERTEX + vertices / 3 * 12 + 64);
-        assert_eq!(effort.bytes_kept, kept as u64);
+        assert_eq!(source.effort().bytes_kept, kept as u64);
         let mesh = &model.mesh;
         let streams = size_of_val(&*mesh.positions) + size_of_val(&*mesh.normals) + size_of_val(&*mesh.tex_coords);
         let rest = size_of_val(&*mesh.influences) + size_of_val(&*mesh.indices);
@@ -81,8 +81,8 @@ fn a_shape_that_many_nodes_share_is_made_once() {
     mesh["primitives"][0]["targets"] = json!([{ "POSITION": steps }]);
     mesh["weights"] = json!([0.5]);
     file.json["nodes"][49]["weights"] = json!([0.0]);
-    let Imported { model, effort, .. } = opened(&file);
-    assert_eq!(effort.elements, 3_000);
+    let Imported { model, source, .. } = opened(&file);
+    assert_eq!(source.effort().elements, 3_000);
     assert_eq!(model.mesh.positions[0].z, 3.5);
     assert_eq!(model.mesh.positions[49_000].z, 3.0);
 }
@@ -97,9 +97,9 @@ fn primitives_are_not_compared_with_all_before() {
         .map(|index| json!({ "attributes": { "POSITION": index } }))
         .collect();
     file.json["meshes"] = json!([{ "primitives": primitives }]);
-    let Imported { model, effort, .. } = opened(&file);
+    let Imported { model, source, .. } = opened(&file);
     assert_eq!(model.mesh.submeshes.len(), count);
-    assert_eq!(effort.elements, 6 * count as u64);
+    assert_eq!(source.effort().elements, 6 * count as u64);
 }
 
 #[test]
@@ -109,9 +109,9 @@ fn a_deep_tree_is_not_climbed_from_each_mesh() {
         .map(|child| json!({ "mesh": 0, "children": [child] }))
         .collect();
     nodes.push(json!({ "mesh": 0, "translation": [1.0, 0.0, 0.0] }));
-    let Imported { model, effort, .. } = opened(&bare(&json!({ "nodes": nodes })));
+    let Imported { model, source, .. } = opened(&bare(&json!({ "nodes": nodes })));
     assert_eq!(model.mesh.vertex_count(), 3 * count);
-    assert_eq!(effort.elements, 6);
+    assert_eq!(source.effort().elements, 6);
     // A clip moves the deepest of a shorter one: all above it are joints, as they are when it is the first.
     for moved in [0, 999] {
         let mut nodes: Vec<Value> = (1..1_000).map(|child| json!({ "children": [child] })).collect();
@@ -171,7 +171,7 @@ fn pictures_are_kept_once_and_within_a_bound() {
     file.json["textures"] = (0..10).map(|source| json!({ "source": source })).collect();
     let imported = opened(&file);
     assert_eq!(imported.pictures.len(), 1);
-    assert!((whole as u64..whole as u64 + 1_000).contains(&imported.effort.bytes_kept));
+    assert!((whole as u64..whole as u64 + 1_000).contains(&imported.source.effort().bytes_kept));
     assert!(
         imported
             .diagnostics
@@ -257,5 +257,5 @@ fn more_joints_than_a_vertex_can_name_are_refused_on_reading_and_on_writing() {
 #[test]
 fn other_formats_keep_no_account() {
     let text = include_bytes!("../../../web/sample/figure.m3d");
-    assert_eq!(import(text).expect("a model").effort, Effort::default());
+    assert_eq!(import(text).expect("a model").source.effort(), Effort::default());
 }

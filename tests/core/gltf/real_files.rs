@@ -31,7 +31,8 @@ fn real_models_have_what_their_makers_put_into_them() {
         let Some(path) = shared(&format!("gltf/models/{name}")) else {
             return;
         };
-        let imported = import(&fs::read(path).expect("it can be read")).expect("it makes a model");
+        let bytes = fs::read(path).expect("it can be read");
+        let imported = import(&bytes).expect("it makes a model");
         let model = &imported.model;
         assert_eq!(
             (model.mesh.vertex_count(), model.skeleton.joint_count()),
@@ -58,7 +59,7 @@ fn real_models_have_what_their_makers_put_into_them() {
             }
         }
         let compiled = CompiledClip::all(&model.clips);
-        let worse = check::model(model, &compiled, &imported.lines);
+        let worse = check::model(model, &compiled, &*imported.source.places(&bytes));
         assert!(worse.iter().all(|finding| finding.code != "exploded"), "{name}");
     }
 }

@@ -72,7 +72,7 @@ fn look_over(bytes: &[u8]) {
         Ok(imported) => {
             let model = &imported.model;
             let compiled = CompiledClip::all(&model.clips);
-            let _findings = check::model(model, &compiled, &imported.lines);
+            let _findings = check::model(model, &compiled, &*imported.source.places(bytes));
         }
         Err(refused) => assert!(!refused.error.message.is_empty(), "every refusal has words"),
     }

@@ -19,7 +19,7 @@ pub(super) struct BoundSkin {
 }
 
 /// Whether a transform does not flatten space, whatever its unit, and its inverse can be written.
-pub(super) fn is_invertible(matrix: &DAffine3) -> bool {
+pub(in crate::import) fn is_invertible(matrix: &DAffine3) -> bool {
     let m = matrix.matrix3;
     let volume = m.x_axis.length() * m.y_axis.length() * m.z_axis.length();
     m.determinant().abs() > 1e-9 * volume && matrix.inverse().as_affine3a().is_finite()
@@ -153,10 +153,10 @@ impl Binding {
     }
 
     /// The joint that carries a mesh without a skin, and what brings the mesh into bind space.
-    pub(super) fn bind_on(&mut self, joint: u32) -> (u32, DAffine3) {
+    pub(super) fn bind_on(&mut self, joint: u32) -> (Option<u32>, DAffine3) {
         match self.joint_from_bind[joint as usize] {
-            Some(joint_from_bind) if is_invertible(&joint_from_bind) => (joint, joint_from_bind.inverse()),
-            _ => (self.stand_in(joint, DAffine3::IDENTITY), DAffine3::IDENTITY),
+            Some(joint_from_bind) if is_invertible(&joint_from_bind) => (Some(joint), joint_from_bind.inverse()),
+            _ => (Some(self.stand_in(joint, DAffine3::IDENTITY)), DAffine3::IDENTITY),
         }
     }
 

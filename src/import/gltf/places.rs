@@ -1,0 +1,64 @@
+//! Where the parts of a model stand in a glTF file, as JSON pointers, and back.
+
+use super::skeleton::Rig;
+use crate::diagnostic::{self, Row};
+use crate::gltf::{Effort, Root};
+
+/// What stands where.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Places {
+    /// Of each bone, by its number; a joint that stands in for another has its node.
+    nodes: Vec<u32>,
+    /// Mesh and primitive of each submesh.
+    primitives: Vec<[u32; 2]>,
+    materials: u32,
+    /// What reading took.
+    pub(crate) effort: Effort,
+}
+
+impl Places {
+    /// Of a model of this skeleton.
+    pub(super) fn of(root: &Root, rig: &Rig, primitives: Vec<[u32; 2]>, effort: Effort) -> Self {
+        let nodes = rig.skeleton.joint_of_bone().iter();
+        Self {
+            nodes: nodes.map(|joint| rig.node_of_joint[joint.index()]).collect(),
+            primitives,
+            materials: root.materials().len() as u32,
+            effort,
+        }
+    }
+}
+
+impl diagnostic::Places for Places {
+    fn pointer(&self, row: Row) -> Option<String> {
+        match row {
+            Row::Material(material) => (material < self.materials).then(|| format!("/materials/{material}")),
+            Row::Subset(subset) => {
+                let [mesh, primitive] = self.primitives.get(subset as usize)?;
+                Some(format!("/meshes/{mesh}/primitives/{primitive}"))
+            }
+            Row::Bone(bone) | Row::Offset(bone) => Some(format!("/nodes/{}", self.nodes.get(bone as usize)?)),
+            _ => None,
+        }
+    }
+
+    fn row_at(&self, pointer: &str) -> Option<Row> {
+        let mut parts = pointer.split('/').skip(1);
+        let mut next = || parts.next();
+        let list = next()?;
+        let index: u32 = next()?.parse().ok()?;
+        match list {
+            "materials" => (index < self.materials).then_some(Row::Material(index)),
+            "nodes" => {
+                let bone = self.nodes.iter().position(|&node| node == index)?;
+                Some(Row::Bone(bone as u32))
+            }
+            "meshes" if next()? == "primitives" => {
+                let primitive: u32 = next()?.parse().ok()?;
+                let subset = self.primitives.iter().position(|&part| part == [index, primitive])?;
+                Some(Row::Subset(subset as u32))
+            }
+            _ => None,
+        }
+    }
+}
