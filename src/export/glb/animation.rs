@@ -67,7 +67,7 @@ impl Writer<'_> {
         let mut held: Vec<&[f32]> = others.map(|(times_secs, _)| *times_secs).collect();
         let is_written: [bool; 3] = std::array::from_fn(|channel| {
             let is_held = |secs: &f32| held.iter().any(|times_secs| times_secs.contains(secs));
-            let is_needed = !lists[channel].is_empty() && !(says_rest[channel] && lists[channel].iter().all(is_held));
+            let is_needed = !(lists[channel].is_empty() || says_rest[channel] && lists[channel].iter().all(is_held));
             if is_needed && says_rest[channel] {
                 held.push(lists[channel]);
             }
