@@ -57,7 +57,7 @@ fn of_track(skeleton: &Skeleton, joint: JointIndex, track: &Track, size: f32) ->
         ..JointActivity::default()
     };
     let mut way = 0.0;
-    for key in (1..track.key_count()).map(|index| track.key(index)) {
+    for (_, key) in track.keys().skip(1) {
         let change = JointChange::between(skeleton, joint, &before, &key);
         activity.path += change.translation;
         activity.turned_degrees += change.rotation_radians.to_degrees();

@@ -151,13 +151,8 @@ fn common_times(tracks: &[&Track]) -> Vec<f32> {
 }
 
 fn fill_lane(lane: usize, track: &Track, times_secs: &[f32], keys: &mut [KeyLanes]) {
-    let mut from = 0;
     let mut before: Option<(&mut KeyLanes, DQuat)> = None;
-    for (key, &time_secs) in keys.iter_mut().zip(times_secs) {
-        while track.times_secs().get(from + 1).is_some_and(|&next| next <= time_secs) {
-            from += 1;
-        }
-        let joint = track.between(from, time_secs);
+    for (key, joint) in keys.iter_mut().zip(track.at_times(times_secs)) {
         key.joints.set_joint(lane, joint);
         let rotation = joint.rotation.as_dquat();
         if let Some((key, start)) = before {

@@ -44,10 +44,9 @@ pub(crate) fn surplus_keys(clip: &Clip) -> Option<usize> {
 
 /// Whether all keys of a track are equal, and they are more than a few.
 pub(crate) fn is_still(track: &Track) -> bool {
-    let all = 1..track.key_count();
-    track.key_count() > FEW_KEYS
-        && track.curves().is_none()
-        && all.into_iter().all(|key| track.key(key) == track.key(0))
+    let first = track.key(0);
+    let is_straight = !track.holds() && !track.bends();
+    track.key_count() > FEW_KEYS && is_straight && track.keys().all(|(_, key)| key == first)
 }
 
 /// A clip is meant to loop when it ends, all bones together, within this fraction of the way that they come from their first keys. A

@@ -88,11 +88,9 @@ impl Bound {
     };
 
     fn of_track(track: &Track) -> Self {
-        let scales = track.scales().iter().map(|scale| scale.abs().max_element());
-        let translations = track
-            .translations()
-            .iter()
-            .map(|translation| translation.as_dvec3().length());
+        let scales = track.scale().values().iter().map(|scale| scale.abs().max_element());
+        let translations = track.translation().values().iter();
+        let translations = translations.map(|translation| translation.as_dvec3().length());
         Self {
             scale: f64::from(scales.fold(0.0, f32::max)),
             translation: translations.fold(0.0, f64::max),

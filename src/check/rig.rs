@@ -85,7 +85,7 @@ pub(super) fn note_shears(
 }
 
 fn scales_unevenly(clip: &Clip) -> bool {
-    let mut scales = clip.tracks.iter().flat_map(|track| track.scales());
+    let mut scales = clip.tracks.iter().flat_map(|track| track.scale().values());
     scales.any(|scale| {
         let scale = scale.abs();
         scale.max_element() > scale.min_element() * (1.0 + UNEVEN)

@@ -205,6 +205,11 @@ pub const ALL: &[ExportCode] = &[
         "Give them keys in each clip.",
     ),
     loss(
+        "keys-united",
+        "Translation, rotation and scale of a bone have keys at different times; the format has all three in each key.",
+        "Nothing: the motion is the same.",
+    ),
+    loss(
         "step-keys",
         "Keys that hold their value (constant interpolation) become two keys each.",
         "Nothing: they look the same but for a moment before each jump.",

@@ -70,7 +70,7 @@ fn close(clip: &Clip, secs: f32) -> Option<(Clip, usize)> {
         eased.push(from_secs);
         eased.sort_by(f32::total_cmp);
         eased.dedup();
-        let before = (0..kept).map(|key| (times_secs[key], track.key(key)));
+        let before = track.keys().take(kept);
         let after = eased.into_iter().map(|secs| {
             let u = (secs - from_secs) / (clip.end_secs - from_secs);
             let part = u * u * (3.0 - 2.0 * u);

@@ -148,8 +148,7 @@ fn fold(edited: &mut Edited, root: usize) -> Result<(), Fault> {
             if !track.has_keys() {
                 return Ok(Track::at_rest(folded(track.key(0))));
             }
-            let track = straight(track);
-            Track::new((0..track.key_count()).map(|key| (track.times_secs()[key], folded(track.key(key)))))
+            Track::new(straight(track).keys().map(|(secs, joint)| (secs, folded(joint))))
         });
         *clip = with_tracks(clip, tracks.collect::<Result<_, _>>()?);
     }

@@ -1,12 +1,10 @@
 //! Keeps a part of a clip, with keys at the cuts.
 
-use glam::Vec4;
-
 use super::edited::{Change, Edited, with_tracks};
 use super::error::EditError;
 use crate::anim::straight;
 use crate::diagnostic::Fault;
-use crate::model::{Clip, Curve, CurveValue, Curves, Track};
+use crate::model::{Channel, ChannelValue, Clip, Track, Way};
 
 /// A quaternion is of unit length within this: what rounding leaves.
 const UNIT_TOLERANCE: f32 = 1e-5;
@@ -56,83 +54,36 @@ fn part(clip: &Clip, range_secs: [f32; 2]) -> Result<Clip, Fault> {
 }
 
 fn part_of_track(track: &Track, range_secs: [f32; 2]) -> Result<Track, Fault> {
-    if !track.has_keys() {
-        return Ok(track.clone());
-    }
-    let [from, to] = range_secs;
     // A spline of rotations has unit length at its keys alone, as files want it of keys: cut between them it goes on straight.
-    let off_unit = |curve: &Curve<Vec4>| range_secs.map(|secs| (curve.value_at(secs).length() - 1.0).abs());
-    let cuts_spline = |curve: &Curve<Vec4>| off_unit(curve).iter().any(|&off| off > UNIT_TOLERANCE);
-    let track = match track.curves() {
-        Some(curves) if curves.rotation.as_ref().is_some_and(cuts_spline) => {
-            let curves = Curves {
-                rotation: None,
-                ..curves.clone()
-            };
-            &straight(track).into_owned().with_curves(curves)
-        }
-        _ => track,
+    let rotation = track.rotation();
+    let cuts_spline = range_secs
+        .iter()
+        .any(|&secs| (rotation.value_at(secs).length() - 1.0).abs() > UNIT_TOLERANCE);
+    let rotation = match cuts_spline {
+        true => part_of_channel(straight(track).rotation(), range_secs),
+        false => part_of_channel(rotation, range_secs),
     };
-    let times_secs = track.times_secs();
-    if track.curves().is_none() && (track.end_secs() <= from || to <= track.start_secs()) {
-        return Track::new([(from, track.at(from))]);
-    }
-    let inner = inside(times_secs, range_secs).map(|key| (times_secs[key], track.key(key)));
-    let ends = [(from, track.at(from)), (to, track.at(to))];
-    let cut = Track::new(ends[..1].iter().copied().chain(inner).chain(ends[1..].iter().copied()))?;
-    let Some(curves) = track.curves() else {
-        return Ok(cut);
-    };
-    let of = |curve: &Option<Curve<_>>| curve.as_ref().map(|curve| part_of_curve(curve, range_secs)).transpose();
-    let rotation = curves.rotation.as_ref();
-    Ok(cut.with_curves(Curves {
-        translation: of(&curves.translation)?,
-        rotation: rotation.map(|curve| part_of_curve(curve, range_secs)).transpose()?,
-        scale: of(&curves.scale)?,
-    }))
+    Ok(Track::of_channels(
+        part_of_channel(track.translation(), range_secs)?,
+        rotation?,
+        part_of_channel(track.scale(), range_secs)?,
+    ))
 }
 
-/// The keys that lie between two times.
-fn inside(times_secs: &[f32], [from, to]: [f32; 2]) -> std::ops::Range<usize> {
-    let first = times_secs.partition_point(|&secs| secs <= from);
-    first..times_secs.partition_point(|&secs| secs < to).max(first)
-}
-
-fn part_of_curve<T: CurveValue>(curve: &Curve<T>, range_secs: [f32; 2]) -> Result<Curve<T>, Fault> {
-    let [from, to] = range_secs;
-    let inner = inside(curve.times_secs(), range_secs).map(|key| curve.times_secs()[key]);
+/// A channel from a time to another. One that keeps still between them has one key, or none where it rests.
+fn part_of_channel<T: ChannelValue>(channel: &Channel<T>, [from, to]: [f32; 2]) -> Result<Channel<T>, Fault> {
+    let times_secs = channel.times_secs();
+    let ([first, .., last] | [first @ last]) = times_secs else {
+        return Ok(channel.clone());
+    };
+    let inner = times_secs.iter().copied().filter(|&secs| from < secs && secs < to);
     let times_secs = [from].into_iter().chain(inner).chain([to]);
-    if curve.tangents().is_none() {
-        return Curve::step(times_secs.map(|secs| (secs, curve.value_at(secs))));
+    let values = times_secs.clone().map(|secs| (secs, channel.value_at(secs)));
+    match channel.way() {
+        Way::Straight if *last <= from || to <= *first || first == last => Channel::straight(values.take(1)),
+        Way::Straight => Channel::straight(values),
+        Way::Held => Channel::held(values),
+        // A piece of a cubic is the cubic with its own slopes at the ends.
+        Way::Spline(_) => Channel::spline(values.map(|(secs, value)| (secs, value, channel.slopes_at(secs)))),
     }
-    // A piece of a cubic is the cubic with its own slopes at the ends.
-    Curve::cubic(times_secs.map(|secs| (secs, curve.value_at(secs), slopes_at(curve, secs))))
-}
-
-/// How steeply a cubic curve comes to a time and goes on from it, a second. Outside its keys it keeps still.
-fn slopes_at<T: CurveValue>(curve: &Curve<T>, secs: f32) -> [T; 2] {
-    let (times_secs, values) = (curve.times_secs(), curve.values());
-    let still = values[0] * 0.0;
-    let Some(tangents) = curve.tangents() else {
-        return [still; 2];
-    };
-    let next = times_secs.partition_point(|&key_secs| key_secs <= secs);
-    let last = times_secs.len() - 1;
-    if let Some(key) = next.checked_sub(1).filter(|&key| times_secs[key] == secs) {
-        let [slope_in, slope_out] = tangents[key];
-        return [
-            if key == 0 { still } else { slope_in },
-            if key == last { still } else { slope_out },
-        ];
-    }
-    if next == 0 || next > last {
-        return [still; 2];
-    }
-    let length_secs = f64::from(times_secs[next]) - f64::from(times_secs[next - 1]);
-    let t = (f64::from(secs) - f64::from(times_secs[next - 1])) / length_secs;
-    let slope = values[next - 1] * (6.0 * (t * t - t) / length_secs) as f32
-        + tangents[next - 1][1] * (3.0 * t * t - 4.0 * t + 1.0) as f32
-        + values[next] * (6.0 * (t - t * t) / length_secs) as f32
-        + tangents[next][0] * (3.0 * t * t - 2.0 * t) as f32;
-    [slope; 2]
 }

@@ -1,15 +1,15 @@
 //! Leaves keys out that say little.
 //!
-//! Each track is thinned by itself (Ramer–Douglas–Peucker) in a bound of its own: its share of what the joints of its chain may do
-//! together. Then the poses at all old keys and between them are compared, in the model's space; chains that came too far off are thinned again in
-//! less, and what does not fit in the end keeps its keys. So the bound holds whatever the shares were.
+//! Each track is thinned by itself (Ramer–Douglas–Peucker), channels with times of their own one by one, in a bound of its own: its share of
+//! what the joints of its chain may do together. Then the poses at all old keys and between them are compared, in the model's space; chains
+//! that came too far off are thinned again in less, and what does not fit in the end keeps its keys. So the bound holds whatever the shares were.
 
-use glam::{Affine3A, Vec3A};
+use glam::{Affine3A, Quat, Vec3A};
 
 use super::edited::{Change, Edited, with_tracks};
 use super::error::EditError;
-use crate::anim::{CompiledClip, PoseBuffers};
-use crate::model::{Aabb, Clip, LocalJoint, Model, Skeleton, Track};
+use crate::anim::{CompiledClip, PoseBuffers, straight};
+use crate::model::{Aabb, Channel, ChannelValue, Clip, LocalJoint, Model, Skeleton, Track, Way};
 
 /// Errors of a chain's joints rarely point the same way, so shares begin greater than what is safe.
 const FIRST_SHARE: f32 = 8.0;
@@ -75,17 +75,23 @@ impl Reducing {
             return true;
         };
         self.done += 1;
-        if new.key_count != old.key_count {
+        if new.key_count != old.key_count || new.tracks != old.tracks {
             let fraction = if self.diagonal > 0.0 {
                 BETWEEN * reached / self.diagonal
             } else {
                 0.0
             };
+            // Where one channel keeps a time that another does without, the track has its key.
+            let in_channels = |clip: &Clip| clip.tracks.iter().map(Track::channel_key_count).sum();
+            let (keys, [kept, of]) = match new.key_count == old.key_count {
+                true => ("keys in its channels", [in_channels(&new), in_channels(old)]),
+                false => ("keys", [new.key_count, old.key_count]),
+            };
             edited.changes.push(Change::new(
                 "keys-reduced",
                 format!(
-                    "\"{}\" has {} keys instead of {}; no joint or tip is off by more than {fraction:.2e} of the model's size.",
-                    new.name, new.key_count, old.key_count
+                    "\"{}\" has {kept} {keys} instead of {of}; no joint or tip is off by more than {fraction:.2e} of the model's size.",
+                    new.name
                 ),
             ));
             edited.model.clips[self.done - 1] = new;
@@ -130,6 +136,7 @@ struct Thinning {
     limits: Limits,
     shares: Vec<f32>,
     rounds: usize,
+    /// Where the poses are compared; with splines, those of the new clip come to them in each round.
     times_secs: Vec<f32>,
     /// Of the times one in so many is looked at, and all in the last round.
     step: usize,
@@ -138,7 +145,7 @@ struct Thinning {
 
 impl Thinning {
     fn new(skeleton: &Skeleton, tips: &[f32], clip: &Clip, bound: f32) -> Self {
-        let times_secs = all_times(clip);
+        let times_secs = all_times(&[clip]);
         Self {
             limits: Limits::new(skeleton, tips, clip, bound),
             shares: vec![FIRST_SHARE; clip.tracks.len()],
@@ -153,6 +160,9 @@ impl Thinning {
     fn round(&mut self, skeleton: &Skeleton, tips: &[f32], clip: &Clip, bound: f32) -> Option<(Clip, f32)> {
         let shares = &mut self.shares;
         let new = with_tracks(clip, self.limits.thinned(clip, shares));
+        if clip.tracks.iter().any(Track::bends) {
+            self.times_secs = all_times(&[clip, &new]);
+        }
         let times_secs = self.times_secs.iter().copied().step_by(self.step);
         let off = greatest_errors(skeleton, tips, [&self.old, &CompiledClip::new(&new)], times_secs);
         let reached = off.iter().copied().fold(0.0, f32::max);
@@ -185,10 +195,11 @@ impl Thinning {
     }
 }
 
-/// Every time at which some joint has a key, to the bit, and those half-way between two.
-fn all_times(clip: &Clip) -> Vec<f32> {
-    let keyed = clip.tracks.iter().filter(|track| track.has_keys());
-    let mut times_secs: Vec<f32> = keyed.flat_map(Track::times_secs).copied().collect();
+/// Every time at which some joint has a key, to the bit, or begins a straight piece of a spline; and those half-way between two.
+fn all_times(clips: &[&Clip]) -> Vec<f32> {
+    let tracks = clips.iter().flat_map(|clip| &clip.tracks);
+    let keyed = tracks.filter(|track| track.has_keys()).map(straight);
+    let mut times_secs: Vec<f32> = keyed.flat_map(|track| track.times_secs().to_vec()).collect();
     times_secs.sort_by(f32::total_cmp);
     times_secs.dedup();
     let between = times_secs.windows(2).map(|pair| pair[0].midpoint(pair[1]));
@@ -242,7 +253,7 @@ struct Limits {
 impl Limits {
     fn new(skeleton: &Skeleton, tips: &[f32], clip: &Clip, bound: f32) -> Self {
         let parents = skeleton.parents();
-        let is_thinned = |track: &Track| track.key_count() > 2 && track.curves().is_none();
+        let is_thinned = |track: &Track| track.key_count() > 2;
         let own: Vec<u32> = clip.tracks.iter().map(|track| u32::from(is_thinned(track))).collect();
         let (mut above, mut below) = (own.clone(), own.clone());
         for (joint, parent) in parents.iter().enumerate() {
@@ -254,7 +265,7 @@ impl Limits {
         for (joint, parent) in parents.iter().enumerate().rev() {
             if let Some(parent) = parent.map(|parent| parent.index()) {
                 below[parent] = below[parent].max(own[parent] + below[joint]);
-                let lengths = clip.tracks[joint].translations().iter().map(|way| way.length());
+                let lengths = clip.tracks[joint].translation().values().iter().map(|way| way.length());
                 reaches[parent] = reaches[parent].max(reaches[joint] + lengths.fold(0.0, f32::max));
             }
         }
@@ -269,30 +280,87 @@ impl Limits {
         let tracks = clip.tracks.iter().zip(shares).enumerate();
         tracks
             .map(|(joint, (track, &share))| {
-                if share == 0.0 || track.key_count() <= 2 || track.curves().is_some() {
+                if share == 0.0 {
                     return track.clone();
                 }
-                let kept = kept_keys(track, self.reaches[joint], self.bounds[joint] * share);
-                let keys = kept.into_iter().map(|key| (track.times_secs()[key], track.key(key)));
-                // Keys of a track make a track.
-                Track::new(keys).unwrap_or_else(|_| track.clone())
+                thinned(track, self.reaches[joint], self.bounds[joint] * share)
             })
             .collect()
     }
 }
 
-/// Keys of a track between which no other one is off by more than `bound`. A part that is halved often at its ends is halved in its
-/// middle, so that the time stays near linear.
-fn kept_keys(track: &Track, reach: f32, bound: f32) -> Vec<usize> {
-    let last = track.key_count() - 1;
-    let mut kept = vec![false; last + 1];
+/// A track without the keys that move nothing by more than `bound`. Channels of the same times keep the same ones, so that rows stay rows.
+fn thinned(track: &Track, reach: f32, bound: f32) -> Track {
+    let (translation, rotation, scale) = (track.translation(), track.rotation(), track.scale());
+    if track.has_rows() && !track.holds() && !track.bends() {
+        let keys: Vec<_> = track.keys().collect();
+        let kept = kept_keys(keys.len(), bound, |ends, key| {
+            off_by(&ends.map(|end| keys[end]), keys[key], reach)
+        });
+        return Track::of_channels(
+            of_rows(translation, &kept),
+            of_rows(rotation, &kept),
+            of_rows(scale, &kept),
+        );
+    }
+    Track::of_channels(
+        thinned_channel(translation, bound, |a, b| a.distance(b)),
+        thinned_channel(rotation, bound, |a, b| 2.0 * chord(a, b) * reach),
+        thinned_channel(scale, bound, |a, b| (a - b).abs().max_element() * reach),
+    )
+}
+
+/// Some rows of a channel; one that keeps still has fewer keys.
+fn of_rows<T: ChannelValue>(channel: &Channel<T>, kept: &[usize]) -> Channel<T> {
+    if channel.times_secs().len() > 1 {
+        channel.with_keys(kept)
+    } else {
+        channel.clone()
+    }
+}
+
+/// A channel by itself. `apart` measures how far apart two of its values bring what hangs on the joint.
+fn thinned_channel<T: ChannelValue>(channel: &Channel<T>, bound: f32, apart: impl Fn(T, T) -> f32) -> Channel<T> {
+    let (times_secs, values) = (channel.times_secs(), channel.values());
+    if times_secs.len() <= 2 {
+        return channel.clone();
+    }
+    let last = values.len() - 1;
+    let kept = match channel.way() {
+        Way::Straight => kept_keys(values.len(), bound, |[from, to], key| {
+            let part = part_of_way([times_secs[from], times_secs[to]], times_secs[key]);
+            apart(T::between([values[from], values[to]], part), values[key])
+        }),
+        Way::Held => (1..=last).fold(vec![0], |mut kept, key| {
+            if key == last || apart(values[kept[kept.len() - 1]], values[key]) > bound {
+                kept.push(key);
+            }
+            kept
+        }),
+        Way::Spline(slopes) => kept_keys(values.len(), bound, |ends, key| {
+            let longer = channel.with_keys(&ends);
+            let (value, [slope, _]) = (longer.value_at(times_secs[key]), longer.slopes_at(times_secs[key]));
+            // Between two keys the error is a cubic as well, and leaves the hull of its control points nowhere.
+            let [before, after] = [key - 1, key + 1].map(|next| (times_secs[next] - times_secs[key]) / 3.0);
+            let control = |third: f32, own: T| apart(value + slope * third, values[key] + own * third);
+            control(0.0, slope)
+                .max(control(before, slopes[key][0]))
+                .max(control(after, slopes[key][1]))
+        }),
+    };
+    channel.with_keys(&kept)
+}
+
+/// Keys between which no other one is off by more than `bound`; `off` says by how much one is between two. A part that is halved often at
+/// its ends is halved in its middle, so that the time stays near linear.
+fn kept_keys(count: usize, bound: f32, off: impl Fn([usize; 2], usize) -> f32) -> Vec<usize> {
+    let last = count - 1;
+    let mut kept = vec![false; count];
     (kept[0], kept[last]) = (true, true);
     let mut open = vec![(0, last, 0)];
     while let Some((from, to, depth)) = open.pop() {
-        let ends = [from, to].map(|key| (track.times_secs()[key], track.key(key)));
-        let off = |key: usize| off_by(&ends, track.times_secs()[key], &track.key(key), reach);
         let worst = (from + 1..to)
-            .map(|key| (key, off(key)))
+            .map(|key| (key, off([from, to], key)))
             .max_by(|a, b| a.1.total_cmp(&b.1));
         let Some((worst, error)) = worst else { continue };
         if error <= bound {
@@ -306,15 +374,21 @@ fn kept_keys(track: &Track, reach: f32, bound: f32) -> Vec<usize> {
 }
 
 /// How far what hangs on a joint is off where a key is left out between two others.
-fn off_by(ends: &[(f32, LocalJoint); 2], secs: f32, key: &LocalJoint, reach: f32) -> f32 {
+fn off_by(ends: &[(f32, LocalJoint); 2], (secs, key): (f32, LocalJoint), reach: f32) -> f32 {
     let [(from_secs, from), (to_secs, to)] = ends;
-    let part = ((f64::from(secs) - f64::from(*from_secs)) / (f64::from(*to_secs) - f64::from(*from_secs))) as f32;
+    let part = part_of_way([*from_secs, *to_secs], secs) as f32;
     let translation = from.translation.lerp(to.translation, part);
     let rotation = from.rotation.slerp(to.rotation, part);
     let scale = from.scale.lerp(to.scale, part);
-    let chord = (rotation - key.rotation)
-        .length()
-        .min((rotation + key.rotation).length());
     let stretch = (scale - key.scale).abs().max_element();
-    translation.distance(key.translation) + (2.0 * chord + stretch) * reach
+    translation.distance(key.translation) + (2.0 * chord(rotation, key.rotation) + stretch) * reach
+}
+
+fn chord(a: Quat, b: Quat) -> f32 {
+    (a - b).length().min((a + b).length())
+}
+
+fn part_of_way([from_secs, to_secs]: [f32; 2], secs: f32) -> f64 {
+    let [from_secs, to_secs, secs] = [from_secs, to_secs, secs].map(f64::from);
+    (secs - from_secs) / (to_secs - from_secs)
 }

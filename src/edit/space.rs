@@ -4,7 +4,7 @@
 //! The order of a triangle's corners stays, since what is mirrored winds the other way round by itself. Only where the triangles wind as
 //! in the other hand, as those of glTF do, they are turned round: in a `.m3d` the winding is all that tells the hand.
 
-use glam::{Affine3A, Mat3, Mat3A, Quat, Vec3, Vec3A, Vec4};
+use glam::{Affine3A, Mat3, Mat3A, Quat, Vec3, Vec3A};
 
 use super::edited::{Change, Edited, with_tracks};
 use super::error::EditError;
@@ -133,7 +133,7 @@ impl Map {
             let tracks = clip.tracks.iter().map(|track| {
                 track.mapped(
                     |value| self.point(value),
-                    |value| self.quaternion(value),
+                    |value| self.rotation(value),
                     |value| self.scale(value),
                 )
             });
@@ -167,7 +167,7 @@ impl Map {
 
     fn joint(&self, joint: &LocalJoint) -> LocalJoint {
         LocalJoint {
-            rotation: Quat::from_vec4(self.quaternion(joint.rotation.into())),
+            rotation: self.rotation(joint.rotation),
             translation: self.point(joint.translation),
             scale: self.scale(joint.scale),
         }
@@ -182,8 +182,8 @@ impl Map {
     }
 
     /// The axis of a turn is no direction: a mirror turns it round once more.
-    fn quaternion(&self, value: Vec4) -> Vec4 {
-        (self.direction(value.truncate()) * self.sign).extend(value.w)
+    fn rotation(&self, value: Quat) -> Quat {
+        Quat::from_vec4((self.direction(value.xyz()) * self.sign).extend(value.w))
     }
 
     /// Factors along axes change their places, not their signs.

@@ -3,11 +3,10 @@
 //! A model knows no format: [`import`](crate::import) makes its parts of what a file says. [`Skeleton::new`], [`Track::new`] and
 //! [`Model::checked`] prove them, or give a [`Fault`]. What is proved here no later stage looks at again.
 
-mod between;
 mod bitangents;
 mod bounds;
+mod channel;
 mod clip;
-mod curve;
 mod joint_names;
 mod local_joint;
 mod material;
@@ -23,11 +22,11 @@ mod tangents;
 mod track;
 mod tree;
 
-pub(crate) use between::{part_of_way, rotation_between, vector_between};
 pub use bitangents::Green;
 pub use bounds::Aabb;
+pub(crate) use channel::unit as unit_rotation;
+pub use channel::{Channel, ChannelValue, Way};
 pub use clip::Clip;
-pub use curve::{Curve, CurveValue, Curves};
 pub use joint_names::{JointNames, SavedNames, hierarchy_fingerprint};
 pub use local_joint::LocalJoint;
 pub use material::{AlphaMode, MapSlot, Material, MaterialMap, Reflectance, Sampling, Wrap};
@@ -41,7 +40,6 @@ pub use reflectance::{DIELECTRIC, FresnelSurface, MetallicSurface, roughness_fro
 pub use skeleton::{JointIndex, Skeleton};
 pub use space::{Front, Handedness, UpAxis, world_from_model};
 pub use track::Track;
-pub(crate) use track::unit as unit_rotation;
 pub use tree::{JointTree, VertexCounts};
 
 use crate::diagnostic::{Fault, codes};

@@ -1,29 +1,26 @@
-//! The keys of one joint.
+//! The motion of one joint.
 
-use glam::{Quat, Vec3, Vec4};
+use std::sync::Arc;
+
+use glam::{Quat, Vec3};
 
 use super::LocalJoint;
-use super::between::{part_of_way, rotation_between, vector_between};
-use super::curve::{Curve, Curves};
-use super::curve::{key_not_after, key_not_finite, no_keys};
+use super::channel::{Channel, Way};
 use crate::diagnostic::Fault;
 
-/// Keys of one joint relative to its parent. Times are in seconds and strictly increasing; there is at least one key, and
-/// all streams have one length. Outside its range a track holds its first or last value, since the tracks of a clip may
-/// end at different times. Rotations are unit quaternions, neighbours on the same side.
+/// The motion of one joint relative to its parent: three channels, each with times and ways of its own.
 ///
-/// Between keys translation and scale go straight, and rotations along the shorter arc, but where the track has [`Curves`].
+/// The keys of a track are the joint at each time at which a channel has a key; there is at least one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
-    times_secs: Vec<f32>,
-    translations: Vec<Vec3>,
-    rotations: Vec<Quat>,
-    scales: Vec<Vec3>,
-    at_rest: bool,
-    curves: Option<Box<Curves>>,
+    translation: Channel<Vec3>,
+    rotation: Channel<Quat>,
+    scale: Channel<Vec3>,
+    /// The times of all channels.
+    times_secs: Arc<[f32]>,
 }
 
-/// One key at rest on its parent at time 0.
+/// At rest on its parent.
 impl Default for Track {
     fn default() -> Self {
         Self::at_rest(LocalJoint::IDENTITY)
@@ -31,208 +28,165 @@ impl Default for Track {
 }
 
 impl Track {
-    /// A track of keys: time in seconds and the joint relative to its parent. Rotations need not be of unit length.
+    /// A track of rows: time in seconds and the joint relative to its parent, with straight ways between them. Rotations need not be of
+    /// unit length. Channels share their times; one that keeps still beside another that moves has one key.
     ///
     /// # Errors
     /// When there is no key, a time is not after the one before, a number is not finite, or a rotation is zero.
     pub fn new(keys: impl IntoIterator<Item = (f32, LocalJoint)>) -> Result<Self, Fault> {
-        let keys = keys.into_iter();
-        let mut track = Self::with_capacity(keys.size_hint().0);
-        for (key, (time_secs, joint)) in keys.enumerate() {
-            if track.times_secs.last().is_some_and(|&before| time_secs <= before) {
-                return Err(key_not_after(key));
-            }
-            let Some(rotation) = unit(joint.rotation) else {
-                return Err(key_not_finite(key));
-            };
-            if !time_secs.is_finite() || !joint.is_finite() {
-                return Err(key_not_finite(key));
-            }
-            track.push(time_secs, LocalJoint { rotation, ..joint });
-        }
-        if track.times_secs.is_empty() {
-            return Err(no_keys());
-        }
-        Ok(track)
+        let (times_secs, joints): (Vec<f32>, Vec<LocalJoint>) = keys.into_iter().unzip();
+        let times_secs: Arc<[f32]> = times_secs.into();
+        let translations = joints.iter().map(|joint| joint.translation).collect();
+        let rotations = joints.iter().map(|joint| joint.rotation).collect();
+        let scales = joints.iter().map(|joint| joint.scale).collect();
+        let translation = Channel::new(times_secs.clone(), translations, Way::Straight)?;
+        let rotation = Channel::new(times_secs.clone(), rotations, Way::Straight)?;
+        let scale = Channel::new(times_secs.clone(), scales, Way::Straight)?;
+        let is_still = [translation.is_still(), rotation.is_still(), scale.is_still()];
+        // Each time stays in a channel.
+        let shortened = is_still != [true; 3];
+        Ok(Self {
+            translation: if shortened && is_still[0] {
+                translation.with_keys(&[0])
+            } else {
+                translation
+            },
+            rotation: if is_still[1] {
+                rotation.with_keys(&[0])
+            } else {
+                rotation
+            },
+            scale: if is_still[2] { scale.with_keys(&[0]) } else { scale },
+            times_secs,
+        })
     }
 
-    /// The track of a joint that a clip has no keys for: one key at time 0 stands in, which holds at every time.
-    pub fn at_rest(joint: LocalJoint) -> Self {
-        let mut track = Self::with_capacity(1);
-        track.push(0.0, joint);
-        track.at_rest = true;
-        track
-    }
-
-    fn with_capacity(keys: usize) -> Self {
+    /// A track of channels. Those of equal times share them.
+    pub fn of_channels(translation: Channel<Vec3>, rotation: Channel<Quat>, scale: Channel<Vec3>) -> Self {
+        let lists = [
+            translation.shared_times(),
+            rotation.shared_times(),
+            scale.shared_times(),
+        ];
+        let times_secs = all_times(lists);
         Self {
-            times_secs: Vec::with_capacity(keys),
-            translations: Vec::with_capacity(keys),
-            rotations: Vec::with_capacity(keys),
-            scales: Vec::with_capacity(keys),
-            at_rest: false,
-            curves: None,
+            translation: translation.sharing(&times_secs),
+            rotation: rotation.sharing(&times_secs),
+            scale: scale.sharing(&times_secs),
+            times_secs,
         }
     }
 
-    /// The same keys with other ways between them. The keys of the curves are to be among the track's, with the same values.
-    #[must_use]
-    pub fn with_curves(mut self, curves: Curves) -> Self {
-        self.curves = (!curves.is_empty()).then(|| Box::new(curves));
-        self
+    /// The track of a joint that a clip has no keys for: one at time 0 stands in, which holds at every time.
+    pub fn at_rest(joint: LocalJoint) -> Self {
+        Self::of_channels(
+            Channel::at_rest(joint.translation),
+            Channel::at_rest(joint.rotation),
+            Channel::at_rest(joint.scale),
+        )
     }
 
-    /// The ways between keys that are not straight; `None` where all are.
-    pub fn curves(&self) -> Option<&Curves> {
-        self.curves.as_deref()
-    }
-
-    /// The same keys and curves of other values. Rotations are x, y, z, w. All maps are linear, since slopes go the same way.
+    /// The same keys of other values, by linear maps, since slopes go the same way.
     ///
     /// # Errors
     /// When a number is no longer finite, or a rotation is zero.
     pub(crate) fn mapped(
         &self,
         translation: impl Fn(Vec3) -> Vec3,
-        rotation: impl Fn(Vec4) -> Vec4,
+        rotation: impl Fn(Quat) -> Quat,
         scale: impl Fn(Vec3) -> Vec3,
     ) -> Result<Self, Fault> {
-        let joint = |key: usize| LocalJoint {
-            rotation: Quat::from_vec4(rotation(self.rotations[key].into())),
-            translation: translation(self.translations[key]),
-            scale: scale(self.scales[key]),
-        };
-        if self.at_rest {
-            return Ok(Self::at_rest(joint(0)));
-        }
-        let mapped = Self::new((0..self.key_count()).map(|key| (self.times_secs[key], joint(key))))?;
-        let Some(curves) = self.curves() else {
-            return Ok(mapped);
-        };
-        Ok(mapped.with_curves(Curves {
-            translation: (curves.translation.as_ref().map(|curve| curve.mapped(translation))).transpose()?,
-            rotation: (curves.rotation.as_ref().map(|curve| curve.mapped(rotation))).transpose()?,
-            scale: (curves.scale.as_ref().map(|curve| curve.mapped(scale))).transpose()?,
-        }))
+        Ok(Self {
+            translation: self.translation.mapped(translation)?,
+            rotation: self.rotation.mapped(rotation)?,
+            scale: self.scale.mapped(scale)?,
+            times_secs: self.times_secs.clone(),
+        })
     }
 
-    /// The same keys and curves, `secs` sooner; a track at rest has no times. Two keys make a jump: where rounding would bring their
-    /// times together, the second has the next time that a number can name.
+    /// The same keys, `secs` sooner; a track at rest has no times.
     ///
     /// # Errors
     /// When a time is no longer finite.
     pub(crate) fn sooner(&self, secs: f32) -> Result<Self, Fault> {
-        if self.at_rest {
-            return Ok(self.clone());
-        }
-        let times_secs = increasing(self.times_secs.iter().map(|time_secs| time_secs - secs));
-        if let Some(key) = times_secs.iter().position(|time_secs| !time_secs.is_finite()) {
-            return Err(key_not_finite(key));
-        }
-        // A curve's keys stay among the track's.
-        let of_curve = |curve_secs: &[f32]| {
-            increasing(curve_secs.iter().map(|&time_secs| {
-                let key = self.times_secs.partition_point(|&key_secs| key_secs < time_secs);
-                match self.times_secs.get(key) {
-                    Some(&key_secs) if key_secs == time_secs => times_secs[key],
-                    _ => time_secs - secs,
-                }
-            }))
-        };
-        let vectors = |curve: &Option<Curve<Vec3>>| {
-            let moved = curve
-                .as_ref()
-                .map(|curve| curve.with_times(of_curve(curve.times_secs())));
-            moved.transpose()
-        };
-        let curves = match self.curves() {
-            None => None,
-            Some(Curves {
-                translation,
-                rotation,
-                scale,
-            }) => {
-                let rotation = rotation.as_ref();
-                Some(Box::new(Curves {
-                    translation: vectors(translation)?,
-                    rotation: rotation
-                        .map(|curve| curve.with_times(of_curve(curve.times_secs())))
-                        .transpose()?,
-                    scale: vectors(scale)?,
-                }))
-            }
-        };
-        Ok(Self {
-            times_secs,
-            curves,
-            ..self.clone()
-        })
+        Ok(Self::of_channels(
+            self.translation.sooner(secs)?,
+            self.rotation.sooner(secs)?,
+            self.scale.sooner(secs)?,
+        ))
+    }
+
+    /// The translation over time.
+    pub fn translation(&self) -> &Channel<Vec3> {
+        &self.translation
+    }
+
+    /// The rotation over time.
+    pub fn rotation(&self) -> &Channel<Quat> {
+        &self.rotation
+    }
+
+    /// The scale over time.
+    pub fn scale(&self) -> &Channel<Vec3> {
+        &self.scale
     }
 
     /// The joint at a time, relative to its parent. Blends are made in f64.
     pub fn at(&self, time_secs: f32) -> LocalJoint {
-        let next = self.times_secs.partition_point(|&key_secs| key_secs <= time_secs);
-        self.between(next.saturating_sub(1), time_secs)
-    }
-
-    /// [`Track::at`], where `from` is the last key at or before the time, or the first.
-    pub(crate) fn between(&self, from: usize, time_secs: f32) -> LocalJoint {
-        let mut joint = self.straight_between(from, time_secs);
-        if let Some(curves) = &self.curves {
-            if let Some(curve) = &curves.translation {
-                joint.translation = curve.value_at(time_secs);
-            }
-            if let Some(curve) = &curves.rotation {
-                let rotation = unit(Quat::from_vec4(curve.value_at(time_secs))).unwrap_or(joint.rotation);
-                joint.rotation = if rotation.dot(joint.rotation) < 0.0 {
-                    -rotation
-                } else {
-                    rotation
-                };
-            }
-            if let Some(curve) = &curves.scale {
-                joint.scale = curve.value_at(time_secs);
-            }
-        }
-        joint
-    }
-
-    fn straight_between(&self, from: usize, time_secs: f32) -> LocalJoint {
-        let start_secs = self.times_secs[from];
-        let end_secs = match self.times_secs.get(from + 1) {
-            Some(&end_secs) if start_secs < time_secs => end_secs,
-            _ => return self.key(from),
-        };
-        let part = part_of_way([start_secs, end_secs], time_secs);
-        let (from, to) = (self.key(from), self.key(from + 1));
         LocalJoint {
-            rotation: rotation_between([from.rotation, to.rotation], part),
-            translation: vector_between([from.translation, to.translation], part),
-            scale: vector_between([from.scale, to.scale], part),
+            rotation: self.rotation.at(time_secs),
+            translation: self.translation.at(time_secs),
+            scale: self.scale.at(time_secs),
         }
     }
 
-    /// A key after all others, of unit rotation.
-    fn push(&mut self, time_secs: f32, joint: LocalJoint) {
-        let mut rotation = joint.rotation;
-        // q and −q are the same rotation, but blending across them spins the long way.
-        if self.rotations.last().is_some_and(|&before| rotation.dot(before) < 0.0) {
-            rotation = -rotation;
-        }
-        self.times_secs.push(time_secs);
-        self.translations.push(joint.translation);
-        self.rotations.push(rotation);
-        self.scales.push(joint.scale);
+    /// [`Track::at`] of some times, in order.
+    pub(crate) fn at_times<'a>(&'a self, times_secs: &'a [f32]) -> impl ExactSizeIterator<Item = LocalJoint> + 'a {
+        let rotations = self.rotation.at_times(times_secs);
+        let vectors = self
+            .translation
+            .at_times(times_secs)
+            .zip(self.scale.at_times(times_secs));
+        rotations
+            .zip(vectors)
+            .map(|(rotation, (translation, scale))| LocalJoint {
+                rotation,
+                translation,
+                scale,
+            })
     }
 
-    /// Whether its keys were given; the one key of a joint that a clip leaves at rest was not.
+    /// Whether a channel has keys; the one key of a joint that a clip leaves at rest was not given.
     pub fn has_keys(&self) -> bool {
-        !self.at_rest
+        self.translation.has_keys() || self.rotation.has_keys() || self.scale.has_keys()
+    }
+
+    /// Whether a channel holds its values from key to key.
+    pub fn holds(&self) -> bool {
+        *self.translation.way() == Way::Held || *self.rotation.way() == Way::Held || *self.scale.way() == Way::Held
+    }
+
+    /// Whether a channel follows a spline.
+    pub fn bends(&self) -> bool {
+        matches!(self.translation.way(), Way::Spline(_))
+            || matches!(self.rotation.way(), Way::Spline(_))
+            || matches!(self.scale.way(), Way::Spline(_))
+    }
+
+    /// Whether each of its channels has a key at all its times, or one at most: nothing is to be found between the keys of a row.
+    pub(crate) fn has_rows(&self) -> bool {
+        let is_row = |times_secs: &[f32]| times_secs.len() <= 1 || times_secs.len() == self.key_count();
+        is_row(self.translation.times_secs()) && is_row(self.rotation.times_secs()) && is_row(self.scale.times_secs())
     }
 
     /// Number of keys, 1 or more.
     pub fn key_count(&self) -> usize {
         self.times_secs.len()
+    }
+
+    /// Number of keys of its channels together.
+    pub(crate) fn channel_key_count(&self) -> usize {
+        self.translation.times_secs().len() + self.rotation.times_secs().len() + self.scale.times_secs().len()
     }
 
     /// Time of the first key.
@@ -245,53 +199,34 @@ impl Track {
         self.times_secs.last().copied().unwrap_or_default()
     }
 
-    /// Key times in seconds, strictly increasing.
+    /// The times at which a channel has a key, in seconds, strictly increasing.
     pub fn times_secs(&self) -> &[f32] {
         &self.times_secs
     }
 
-    /// Translation of each key.
-    pub fn translations(&self) -> &[Vec3] {
-        &self.translations
-    }
-
-    /// Unit rotation of each key.
-    pub fn rotations(&self) -> &[Quat] {
-        &self.rotations
-    }
-
-    /// Scale of each key.
-    pub fn scales(&self) -> &[Vec3] {
-        &self.scales
+    /// The joint at each of these times, with the time.
+    pub fn keys(&self) -> impl ExactSizeIterator<Item = (f32, LocalJoint)> + '_ {
+        self.times_secs.iter().copied().zip(self.at_times(&self.times_secs))
     }
 
     /// One key as a joint.
     pub fn key(&self, index: usize) -> LocalJoint {
-        LocalJoint {
-            rotation: self.rotations[index],
-            translation: self.translations[index],
-            scale: self.scales[index],
-        }
+        self.at(self.times_secs[index])
     }
 }
 
-/// Times, each after the one before.
-fn increasing(times_secs: impl Iterator<Item = f32>) -> Vec<f32> {
-    let mut increasing: Vec<f32> = Vec::with_capacity(times_secs.size_hint().0);
-    for time_secs in times_secs {
-        let before = increasing.last();
-        increasing.push(before.map_or(time_secs, |before| time_secs.max(before.next_up())));
+/// All times of some lists, in order; 0 alone where there is none.
+fn all_times(lists: [&Arc<[f32]>; 3]) -> Arc<[f32]> {
+    let lists = lists.into_iter().filter(|times_secs| !times_secs.is_empty());
+    let Some(longest) = lists.clone().max_by_key(|times_secs| times_secs.len()) else {
+        return Arc::new([0.0]);
+    };
+    if lists.clone().all(|times_secs| times_secs == longest) {
+        return longest.clone();
     }
-    increasing
-}
-
-/// The rotation at unit length; `None` when it has no direction. One that is as near to it as numbers are stays, so that a second
-/// time changes nothing.
-pub(crate) fn unit(rotation: Quat) -> Option<Quat> {
-    let exact = rotation.as_dquat();
-    let length = exact.length();
-    if (length - 1.0).abs() <= f64::from(f32::EPSILON) {
-        return Some(rotation);
-    }
-    (length.is_finite() && length > 1e-12).then(|| (exact / length).as_quat())
+    let mut times_secs: Vec<f32> = lists.flat_map(|times_secs| times_secs.iter().copied()).collect();
+    // A stable sort merges runs that are sorted, as these are.
+    times_secs.sort_by(f32::total_cmp);
+    times_secs.dedup();
+    times_secs.into()
 }

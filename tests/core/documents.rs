@@ -2,12 +2,13 @@
 
 use bindpose::anim::CompiledClip;
 use bindpose::check;
-use bindpose::diagnostic::{Diagnostic, codes};
+use bindpose::diagnostic::{Diagnostic, Fault, codes};
 use bindpose::format::{
     AnimationClip, BoneAnimation, Document, Keyframe, LineMap, Material, Parsed, Reflectance, Subset, Vertex, parse,
 };
 use bindpose::import::m3d;
-use bindpose::model::Model;
+use bindpose::model::{Channel, Model, Track};
+use glam::{Quat, Vec3};
 
 use crate::shared::shared;
 
@@ -229,4 +230,16 @@ pub(crate) fn reordered(document: &Document, order: &[u32]) -> Document {
         vertex.blend_indices = vertex.blend_indices.map(|bone| place[bone as usize]);
     }
     out
+}
+
+/// The track with another translation.
+pub(crate) fn with_translation(track: &Track, translation: Result<Channel<Vec3>, Fault>) -> Track {
+    let translation = translation.expect("sound keys");
+    Track::of_channels(translation, track.rotation().clone(), track.scale().clone())
+}
+
+/// The track with another rotation.
+pub(crate) fn with_rotation(track: &Track, rotation: Result<Channel<Quat>, Fault>) -> Track {
+    let rotation = rotation.expect("sound keys");
+    Track::of_channels(track.translation().clone(), rotation, track.scale().clone())
 }

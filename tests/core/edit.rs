@@ -12,10 +12,10 @@ mod spaces;
 use bindpose::anim::{CompiledClip, PoseBuffers, SkinnedVertices, skin};
 use bindpose::edit::{EditError, Edited, Edits, apply};
 use bindpose::format::{AnimationClip, Document};
-use bindpose::model::{Clip, Curve, Curves, JointNames, LocalJoint, Model, Track, world_from_model};
-use glam::{EulerRot, Quat, Vec3, Vec4};
+use bindpose::model::{Channel, Clip, JointNames, LocalJoint, Model, Track, world_from_model};
+use glam::{EulerRot, Quat, Vec3};
 
-use crate::documents::{key, material, model_of, offset, subset, track, vertex};
+use crate::documents::{key, material, model_of, offset, subset, track, vertex, with_rotation, with_translation};
 
 /// One edit, without names of a person.
 fn edit(model: &Model, edits: &Edits) -> Edited {
@@ -148,29 +148,23 @@ fn curved() -> Model {
         (1.5, joint(-0.2, -0.5, 0.1)),
     ];
     let slope = |key: usize| Vec3::new(key as f32 * 0.4 - 0.5, 0.3, 0.2);
-    let turn_slope = |key: usize| Vec4::new(0.4, 0.1 * key as f32, -0.3, 0.05);
-    let cubic = Curves {
-        translation: Some(
-            Curve::cubic((0..3).map(|key| (keys[key].0, keys[key].1.translation, [slope(key), slope(key + 1)])))
-                .expect("keys in order"),
-        ),
-        rotation: Some(
-            Curve::cubic((0..3).map(|key| {
-                let value = Vec4::from(Track::new(keys).expect("keys in order").key(key).rotation);
-                (keys[key].0, value, [turn_slope(key), turn_slope(key + 1)])
-            }))
-            .expect("keys in order"),
-        ),
-        scale: None,
-    };
-    let held = Curves {
-        rotation: Some(Curve::step(keys.map(|(secs, joint)| (secs, joint.rotation.into()))).expect("keys in order")),
-        scale: Some(Curve::step(keys.map(|(secs, joint)| (secs, joint.scale))).expect("keys in order")),
-        ..Curves::default()
-    };
+    let turn_slope = |key: usize| Quat::from_xyzw(0.4, 0.1 * key as f32, -0.3, 0.05);
+    let rows = Track::new(keys).expect("keys in order");
+    let bent = (0..3).map(|key| (keys[key].0, keys[key].1.translation, [slope(key), slope(key + 1)]));
+    let turned = (0..3).map(|key| {
+        (
+            keys[key].0,
+            rows.key(key).rotation,
+            [turn_slope(key), turn_slope(key + 1)],
+        )
+    });
     let mut tracks = model.clips[0].tracks.clone();
-    tracks[1] = Track::new(keys).expect("keys in order").with_curves(cubic);
-    tracks[2] = Track::new(keys).expect("keys in order").with_curves(held);
+    tracks[1] = with_rotation(&with_translation(&rows, Channel::spline(bent)), Channel::spline(turned));
+    tracks[2] = Track::of_channels(
+        rows.translation().clone(),
+        Channel::held(keys.map(|(secs, joint)| (secs, joint.rotation))).expect("keys in order"),
+        Channel::held(keys.map(|(secs, joint)| (secs, joint.scale))).expect("keys in order"),
+    );
     model.clips[0] = Clip::new("sway", tracks);
     model
 }

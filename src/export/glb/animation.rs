@@ -5,9 +5,8 @@ use std::collections::HashMap;
 use serde_json::{Value, json};
 
 use super::binary::{Binary, Target};
-use super::keys::needed;
 use super::space::Space;
-use crate::model::{Clip, Curve, CurveValue, Curves, LocalJoint, Model, Track};
+use crate::model::{Channel, ChannelValue, Clip, LocalJoint, Model, Track, Way};
 
 /// The animations of all clips that have keys.
 pub(super) fn animations(model: &Model, space: &Space, binary: &mut Binary) -> Vec<Value> {
@@ -47,9 +46,6 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     fn track(&mut self, bone: usize, track: &Track, rest: &LocalJoint, space: &Space) {
-        if !track.has_keys() {
-            return;
-        }
         let moved = track.sooner(self.shift_secs).and_then(|track| {
             track.mapped(
                 |value| space.vector(value),
@@ -59,61 +55,54 @@ impl Writer<'_> {
         });
         // Axes are exchanged and turned round, and no time that is read overflows: there is no other track.
         let track = &moved.unwrap_or_else(|_| track.clone());
-        let no_curves = Curves::default();
-        let curves = track.curves().unwrap_or(&no_curves);
-        let [rotations, translations, scales] = needed(track, rest);
-        match &curves.rotation {
-            Some(curve) => self.curve(bone, "rotation", curve),
-            None => self.straight(bone, "rotation", track, track.rotations(), &rotations),
+        let (rotation, translation, scale) = (track.rotation(), track.translation(), track.scale());
+        let lists = [rotation.times_secs(), translation.times_secs(), scale.times_secs()];
+        let says_rest = [
+            *rotation.values() == [rest.rotation],
+            *translation.values() == [rest.translation],
+            *scale.values() == [rest.scale],
+        ];
+        // One key that says what the node says at rest is there for its time alone.
+        let others = lists.iter().zip(says_rest).filter(|(_, says_rest)| !says_rest);
+        let mut held: Vec<&[f32]> = others.map(|(times_secs, _)| *times_secs).collect();
+        let is_written: [bool; 3] = std::array::from_fn(|channel| {
+            let is_held = |secs: &f32| held.iter().any(|times_secs| times_secs.contains(secs));
+            let is_needed = !(lists[channel].is_empty() || says_rest[channel] && lists[channel].iter().all(is_held));
+            if is_needed && says_rest[channel] {
+                held.push(lists[channel]);
+            }
+            is_needed
+        });
+        if is_written[0] {
+            self.channel(bone, "rotation", rotation);
         }
-        match &curves.translation {
-            Some(curve) => self.curve(bone, "translation", curve),
-            None => self.straight(bone, "translation", track, track.translations(), &translations),
+        if is_written[1] {
+            self.channel(bone, "translation", translation);
         }
-        match &curves.scale {
-            Some(curve) => self.curve(bone, "scale", curve),
-            None => self.straight(bone, "scale", track, track.scales(), &scales),
+        if is_written[2] {
+            self.channel(bone, "scale", scale);
         }
     }
 
-    /// Some keys of a track, between which values go straight; no channel without any.
-    fn straight<T: Copy + Into<[f32; N]>, const N: usize>(
+    fn channel<T: ChannelValue + Into<[f32; N]>, const N: usize>(
         &mut self,
         bone: usize,
         path: &str,
-        track: &Track,
-        values: &[T],
-        keys: &[usize],
+        channel: &Channel<T>,
     ) {
-        if keys.is_empty() {
-            return;
-        }
-        let times_secs: Vec<f32> = keys.iter().map(|&key| track.times_secs()[key]).collect();
-        let rows: Vec<_> = keys.iter().map(|&key| values[key].into()).collect();
-        self.channel(bone, path, "LINEAR", &times_secs, &rows);
-    }
-
-    /// Held values, or splines.
-    fn curve<T: CurveValue + Into<[f32; N]>, const N: usize>(&mut self, bone: usize, path: &str, curve: &Curve<T>) {
-        let values = curve.values();
-        match curve.tangents() {
+        let values = channel.values();
+        let (way, rows): (_, Vec<[f32; N]>) = match channel.way() {
             // A spline has two keys or more.
-            Some(tangents) if values.len() > 1 => {
-                let keys = tangents.iter().zip(values);
+            Way::Spline(slopes) if values.len() > 1 => {
+                let keys = slopes.iter().zip(values);
                 let rows = keys.flat_map(|(&[before, after], &value)| [before, value, after].map(Into::into));
-                let rows: Vec<_> = rows.collect();
-                self.channel(bone, path, "CUBICSPLINE", curve.times_secs(), &rows);
+                ("CUBICSPLINE", rows.collect())
             }
-            _ => {
-                let rows: Vec<_> = values.iter().map(|&value| value.into()).collect();
-                self.channel(bone, path, "STEP", curve.times_secs(), &rows);
-            }
-        }
-    }
-
-    fn channel<const N: usize>(&mut self, bone: usize, path: &str, way: &str, times_secs: &[f32], rows: &[[f32; N]]) {
-        let input = self.input(times_secs);
-        let output = self.binary.floats(rows, Target::Other, false);
+            Way::Straight => ("LINEAR", values.iter().map(|&value| value.into()).collect()),
+            Way::Held | Way::Spline(_) => ("STEP", values.iter().map(|&value| value.into()).collect()),
+        };
+        let input = self.input(channel.times_secs());
+        let output = self.binary.floats(&rows, Target::Other, false);
         let mut sampler = json!({ "input": input, "output": output });
         if way != "LINEAR" {
             sampler["interpolation"] = json!(way);

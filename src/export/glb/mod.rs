@@ -10,7 +10,6 @@
 mod animation;
 mod binary;
 mod geometry;
-mod keys;
 mod losses;
 mod material;
 mod number;

@@ -38,8 +38,8 @@ impl Space {
     }
 
     /// A rotation, or the slope of one: a mirror turns it the other way round.
-    pub(super) fn rotation(&self, of_model: Vec4) -> Vec4 {
-        (self.vector(of_model.truncate()) * self.sign).extend(of_model.w) + Vec4::ZERO
+    pub(super) fn rotation(&self, of_model: Quat) -> Quat {
+        Quat::from_vec4((self.vector(of_model.xyz()) * self.sign).extend(of_model.w) + Vec4::ZERO)
     }
 
     pub(super) fn scale(&self, of_model: Vec3) -> Vec3 {
@@ -49,7 +49,7 @@ impl Space {
 
     pub(super) fn joint(&self, of_model: &LocalJoint) -> LocalJoint {
         LocalJoint {
-            rotation: Quat::from_vec4(self.rotation(Vec4::from(of_model.rotation))),
+            rotation: self.rotation(of_model.rotation),
             translation: self.vector(of_model.translation),
             scale: self.scale(of_model.scale),
         }

@@ -147,8 +147,9 @@ fn vertex(model: &Model, tangents: &[Vec4], index: usize) -> Vertex {
 fn keys(track: &Track, rest_apart: Option<&LocalJoint>) -> BoneAnimation {
     let keyframes = if track.has_keys() {
         let track = straight(track);
-        (0..track.key_count())
-            .map(|key| keyframe(track.times_secs()[key], track.key(key)))
+        track
+            .keys()
+            .map(|(time_secs, joint)| keyframe(time_secs, joint))
             .collect()
     } else {
         rest_apart.map(|&rest| keyframe(0.0, rest)).into_iter().collect()

@@ -138,18 +138,25 @@ fn skeleton(model: &Model, names: &JointNames, losses: &mut Losses) {
 }
 
 fn keys(model: &Model, losses: &mut Losses) {
-    let curved = |is: fn(&Track) -> bool| {
+    let count = |is: fn(&Track) -> bool| {
         let tracks = model.clips.iter().flat_map(|clip| &clip.tracks);
         tracks.filter(|track| is(track)).count()
     };
-    let stepped = curved(|track| track.curves().is_some_and(|curves| curves.holds()));
+    let united = count(|track| !track.has_rows());
+    losses.count(
+        "keys-united",
+        united,
+        ["track has", "tracks have"],
+        "channels with keys at different times; each key of one becomes a key of all three, where the others are at that time.",
+    );
+    let stepped = count(Track::holds);
     losses.count(
         "step-keys",
         stepped,
         ["track holds its values", "tracks hold their values"],
         "from key to key (constant interpolation); each such key becomes two, the second just before the next.",
     );
-    let cubic = curved(|track| track.curves().is_some_and(|curves| curves.bends()));
+    let cubic = count(Track::bends);
     losses.count(
         "cubic-keys",
         cubic,

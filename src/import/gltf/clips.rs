@@ -1,18 +1,15 @@
-//! From animations to clips: a track for each joint, with a key wherever a channel of the joint has one.
+//! From animations to clips: a track for each joint, with the channels that move it.
 
 use std::collections::HashMap;
 
-use glam::{Quat, Vec3, Vec4};
+use glam::{Quat, Vec3};
 
 use super::skeleton::Rig;
 use crate::diagnostic::collect::{Diagnostics, Moments, Place, counted};
 use crate::diagnostic::{Code, Fault, Subject, codes};
 use crate::gltf::{Animation, Interpolation, Path, Reader, Root, Wanted, fault, out_of_range};
 use crate::import::keys::{self, Mended};
-use crate::model::{
-    Clip, Curve, CurveValue, Curves, LocalJoint, Track, part_of_way, rotation_between, unique_names, unit_rotation,
-    vector_between,
-};
+use crate::model::{Channel, ChannelValue, Clip, LocalJoint, Track, unique_names};
 
 /// More tracks than this do not come from a file of a character.
 const MAX_TRACKS: usize = 1_000_000;
@@ -61,18 +58,26 @@ pub(super) fn clips(
     Ok(clips.map(|(name, (_, tracks))| Clip::new(name, tracks)).collect())
 }
 
-/// The values of a part of a joint over time.
-enum Part<T> {
-    /// Straight from key to key; times increase, and there is one at least.
-    Straight(Vec<(f32, T)>),
-    Curved(Curve<T>),
+/// What moves a joint.
+#[derive(Default)]
+struct Channels {
+    translation: Option<Channel<Vec3>>,
+    rotation: Option<Channel<Quat>>,
+    scale: Option<Channel<Vec3>>,
 }
 
-#[derive(Default)]
-struct Parts {
-    translation: Option<Part<Vec3>>,
-    rotation: Option<Part<Vec4>>,
-    scale: Option<Part<Vec3>>,
+impl Channels {
+    fn is_empty(&self) -> bool {
+        self.translation.is_none() && self.rotation.is_none() && self.scale.is_none()
+    }
+
+    fn track(self, rest: LocalJoint) -> Track {
+        Track::of_channels(
+            self.translation.unwrap_or_else(|| Channel::at_rest(rest.translation)),
+            self.rotation.unwrap_or_else(|| Channel::at_rest(rest.rotation)),
+            self.scale.unwrap_or_else(|| Channel::at_rest(rest.scale)),
+        )
+    }
 }
 
 /// What is noted of a clip, counted over its channels.
@@ -98,7 +103,7 @@ struct ClipReader<'a> {
 impl ClipReader<'_> {
     /// The tracks; `None` for an animation that moves no joint.
     fn read(&mut self, animation: &Animation) -> Result<Option<Vec<Track>>, Fault> {
-        let mut parts: HashMap<u32, Parts> = HashMap::new();
+        let mut joints: HashMap<u32, Channels> = HashMap::new();
         for (channel, of_file) in animation.channels.iter().enumerate() {
             let pointer = format!("/animations/{}/channels/{channel}", self.index);
             let Some(node) = of_file.target.node else {
@@ -120,39 +125,34 @@ impl ClipReader<'_> {
                     continue;
                 }
             };
-            let parts = parts.entry(joint).or_default();
+            let channels = joints.entry(joint).or_default();
             let sampler = of_file.sampler.0;
             let overflows = match of_file.target.path {
                 Path::Translation => set(
-                    &mut parts.translation,
+                    &mut channels.translation,
                     || self.keys(animation, sampler, &pointer, joint, Wanted::Floats),
                     Vec3::from_array,
                 )?,
                 Path::Scale => set(
-                    &mut parts.scale,
+                    &mut channels.scale,
                     || self.keys(animation, sampler, &pointer, joint, Wanted::Floats),
                     Vec3::from_array,
                 )?,
                 _ => set(
-                    &mut parts.rotation,
+                    &mut channels.rotation,
                     || self.keys(animation, sampler, &pointer, joint, Wanted::Rotations),
-                    Vec4::from_array,
+                    Quat::from_array,
                 )?,
             };
             self.noted.overflowing += usize::from(overflows);
         }
         self.note();
-        if parts.values().all(Parts::is_empty) {
+        if joints.values().all(Channels::is_empty) {
             return Ok(None);
         }
         let rest = (0u32..).zip(self.rig.skeleton.rest());
-        let tracks = rest.map(|(joint, &rest)| match parts.remove(&joint) {
-            Some(parts) if !parts.is_empty() => parts.track(rest),
-            _ => Ok(Track::at_rest(rest)),
-        });
-        let tracks: Result<_, Fault> = tracks.collect();
-        let pointer = format!("/animations/{}", self.index);
-        tracks.map(Some).map_err(|rule| Box::new(rule.pointing_at(pointer)))
+        let tracks = rest.map(|(joint, &rest)| joints.remove(&joint).unwrap_or_default().track(rest));
+        Ok(Some(tracks.collect()))
     }
 
     /// The keys of a sampler: finite, in strictly increasing time. `pointer` is its channel.
@@ -270,109 +270,36 @@ struct Keys<const N: usize> {
 
 type Row<const N: usize> = (f32, ([f32; N], [[f32; N]; 2]));
 
-/// Sets a part of a joint that has none yet. Whether it is a spline that overflows between its keys, and was set straight.
-fn set<T: CurveValue, const N: usize>(
-    part: &mut Option<Part<T>>,
+/// Sets a channel of a joint that has none yet. Whether it is a spline that overflows between its keys, and was set straight.
+fn set<T: ChannelValue, const N: usize>(
+    channel: &mut Option<Channel<T>>,
     keys: impl FnOnce() -> Result<Keys<N>, Fault>,
     value: impl Fn([f32; N]) -> T,
 ) -> Result<bool, Fault> {
-    if part.is_some() {
+    if channel.is_some() {
         return Ok(false);
     }
     let Keys { interpolation, rows } = keys()?;
     if rows.is_empty() {
         return Ok(false);
     }
-    let straight = || rows.iter().map(|&(time_secs, (stored, _))| (time_secs, value(stored)));
+    let keys = || rows.iter().map(|&(time_secs, (stored, _))| (time_secs, value(stored)));
     let splines = rows
         .iter()
         .map(|&(time_secs, (stored, slopes))| (time_secs, value(stored), slopes.map(&value)));
     // The keys were mended before: only a spline can still be none.
-    let curve = match interpolation {
-        Interpolation::Linear | Interpolation::Unknown => None,
-        Interpolation::Step => Curve::step(straight()).ok(),
-        Interpolation::CubicSpline => Curve::cubic(splines).ok(),
+    let (read, overflows) = match interpolation {
+        Interpolation::Linear | Interpolation::Unknown => (Channel::straight(keys())?, false),
+        Interpolation::Step => (Channel::held(keys())?, false),
+        Interpolation::CubicSpline => match Channel::spline(splines) {
+            Ok(spline) => (spline, false),
+            Err(_) => (Channel::straight(keys())?, true),
+        },
     };
-    let overflows = interpolation == Interpolation::CubicSpline && curve.is_none();
-    *part = Some(curve.map_or_else(|| Part::Straight(straight().collect()), Part::Curved));
+    *channel = Some(read);
     Ok(overflows)
 }
 
 fn add(moments: &mut Moments, bone: u32, time_secs: f32) {
     keys::add(moments, bone, time_secs, || None);
-}
-
-impl<T: CurveValue> Part<T> {
-    fn times_secs(&self) -> Vec<f32> {
-        match self {
-            Self::Straight(keys) => keys.iter().map(|&(time_secs, _)| time_secs).collect(),
-            Self::Curved(curve) => curve.times_secs().to_vec(),
-        }
-    }
-
-    /// The value at a time; `blend` is between two keys.
-    fn at(&self, time_secs: f32, blend: impl Fn([T; 2], f64) -> T) -> T {
-        let keys = match self {
-            Self::Curved(curve) => return curve.value_at(time_secs),
-            Self::Straight(keys) => keys,
-        };
-        let next = keys.partition_point(|&(key_secs, _)| key_secs <= time_secs);
-        let (from_secs, from) = keys[next.saturating_sub(1)];
-        match keys.get(next) {
-            Some(&(to_secs, to)) if from_secs < time_secs => {
-                blend([from, to], part_of_way([from_secs, to_secs], time_secs))
-            }
-            _ => from,
-        }
-    }
-
-    fn into_curve(self) -> Option<Curve<T>> {
-        match self {
-            Self::Straight(_) => None,
-            Self::Curved(curve) => Some(curve),
-        }
-    }
-}
-
-impl Parts {
-    fn is_empty(&self) -> bool {
-        self.translation.is_none() && self.rotation.is_none() && self.scale.is_none()
-    }
-
-    /// A track with a key at each time of a part. Straight parts stay straight, so the keys that this adds to them change nothing.
-    fn track(self, rest: LocalJoint) -> Result<Track, Fault> {
-        let times = [
-            self.translation.as_ref().map(Part::times_secs),
-            self.rotation.as_ref().map(Part::times_secs),
-            self.scale.as_ref().map(Part::times_secs),
-        ];
-        let mut times_secs = times.into_iter().flatten().reduce(|mut all, times| {
-            if all != times {
-                all.extend(times);
-            }
-            all
-        });
-        let times_secs = times_secs.get_or_insert_default();
-        times_secs.sort_by(f32::total_cmp);
-        times_secs.dedup();
-        let turned = |rotations: [Vec4; 2], part| rotation_between(rotations.map(Quat::from_vec4), part).into();
-        let joint_at = |time_secs: f32| {
-            let vector =
-                |part: &Option<Part<Vec3>>, rest| part.as_ref().map_or(rest, |part| part.at(time_secs, vector_between));
-            let rotation = self.rotation.as_ref().map(|part| part.at(time_secs, turned));
-            LocalJoint {
-                rotation: rotation
-                    .and_then(|value| unit_rotation(Quat::from_vec4(value)))
-                    .unwrap_or(rest.rotation),
-                translation: vector(&self.translation, rest.translation),
-                scale: vector(&self.scale, rest.scale),
-            }
-        };
-        let track = Track::new(times_secs.iter().map(|&time_secs| (time_secs, joint_at(time_secs))))?;
-        Ok(track.with_curves(Curves {
-            translation: self.translation.and_then(Part::into_curve),
-            rotation: self.rotation.and_then(Part::into_curve),
-            scale: self.scale.and_then(Part::into_curve),
-        }))
-    }
 }

@@ -238,7 +238,7 @@ fn keys_are_rows_of_a_table() {
     assert_eq!(lines[2][..6], ["1", "1", "1", "0", "1", "0"]);
     let number = |cell: &str| cell.parse::<f32>().expect("a number");
     let rotation = Quat::from_array([9, 10, 11, 12].map(|column| number(lines[2][column])));
-    assert_eq!(rotation, clip.tracks[1].rotations()[1], "every digit is there");
+    assert_eq!(rotation, clip.tracks[1].key(1).rotation, "every digit is there");
 }
 
 #[test]

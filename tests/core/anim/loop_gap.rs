@@ -123,7 +123,7 @@ fn signs_of_quaternions_and_scales_are_taken_for_what_they_are() {
     ]);
     document.clips[0].bones[2] = track([key(0.0, [0.0, 1.0, 0.0])]);
     let (model, _) = model_of(&document);
-    assert!(model.clips[0].tracks[0].rotations()[3].w < -0.99);
+    assert!(model.clips[0].tracks[0].key(3).rotation.w < -0.99);
     let gap = gap_of(&model, 2.0);
     assert!(gap.joints[0].rotation_degrees < 1e-3, "a whole turn is none");
     assert_eq!((gap.joints[1].scale, gap.worst), (0.5, Some(JointIndex(1))));

@@ -1,13 +1,14 @@
 //! Curves as straight pieces.
 
 use bindpose::anim::{LocalJoint, STRAIGHT_ERROR, straight};
-use bindpose::model::{Curve, Curves, Track};
-use glam::{Quat, Vec3, Vec4};
+use bindpose::model::{Channel, Track};
+use glam::{Quat, Vec3};
 
-fn track(curves: Curves) -> Track {
+use crate::documents::{with_rotation, with_translation};
+
+fn still() -> Track {
     let still = |time_secs| (time_secs, LocalJoint::IDENTITY);
-    let keys = Track::new([still(0.0), still(1.0), still(2.0)]).expect("times increase");
-    keys.with_curves(curves)
+    Track::new([still(0.0), still(1.0), still(2.0)]).expect("times increase")
 }
 
 fn greatest_error(track: &Track) -> f32 {
@@ -25,15 +26,12 @@ fn greatest_error(track: &Track) -> f32 {
 fn pieces_stay_beside_a_spline_that_eases_in_and_out() {
     let key = |time_secs, x| (time_secs, Vec3::X * x, [Vec3::ZERO; 2]);
     let turn = |time_secs, radians| {
-        let rotation = Vec4::from(Quat::from_rotation_y(radians));
-        (time_secs, rotation, [Vec4::ZERO; 2])
+        let still = Quat::from_xyzw(0.0, 0.0, 0.0, 0.0);
+        (time_secs, Quat::from_rotation_y(radians), [still; 2])
     };
-    let curves = Curves {
-        translation: Curve::cubic([key(0.0, 0.0), key(1.0, 10.0), key(2.0, -5.0)]).ok(),
-        rotation: Curve::cubic([turn(0.0, 0.0), turn(1.0, 1.5), turn(2.0, 3.0)]).ok(),
-        scale: None,
-    };
-    let track = track(curves);
+    let turned = Channel::spline([turn(0.0, 0.0), turn(1.0, 1.5), turn(2.0, 3.0)]);
+    let moved = Channel::spline([key(0.0, 0.0), key(1.0, 10.0), key(2.0, -5.0)]);
+    let track = with_rotation(&with_translation(&still(), moved), turned);
     let error = greatest_error(&track);
     assert!(error < 4.0 * 15.0 * STRAIGHT_ERROR, "{error}");
     let keys = straight(&track).key_count();
@@ -42,11 +40,8 @@ fn pieces_stay_beside_a_spline_that_eases_in_and_out() {
 
 #[test]
 fn a_held_value_is_held_to_the_last_number_before_the_next_key() {
-    let curves = Curves {
-        translation: Curve::step([(0.0, Vec3::X), (1.0, Vec3::Y), (2.0, Vec3::Z)]).ok(),
-        ..Curves::default()
-    };
-    let track = track(curves);
+    let held = Channel::held([(0.0, Vec3::X), (1.0, Vec3::Y), (2.0, Vec3::Z)]);
+    let track = with_translation(&still(), held);
     let straight = straight(&track);
     for time_secs in [0.0, 0.5, 1.0_f32.next_down(), 1.0, 1.5, 2.0_f32.next_down(), 2.0] {
         assert_eq!(straight.at(time_secs), track.at(time_secs), "{time_secs}");

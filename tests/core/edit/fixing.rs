@@ -5,11 +5,11 @@ use bindpose::check;
 use bindpose::diagnostic::codes;
 use bindpose::edit::Edits;
 use bindpose::format::{Document, LineMap};
-use bindpose::model::{Curve, Curves, Model};
+use bindpose::model::{Channel, Model};
 use glam::Vec3;
 
 use super::{apart, edit, figure, seen, size, swaying};
-use crate::documents::{arm, key, model_of, quad, track, vertex};
+use crate::documents::{arm, key, model_of, quad, track, vertex, with_translation};
 use crate::rigs;
 
 const FIX: Edits = Edits {
@@ -135,13 +135,8 @@ fn a_curve_between_equal_keys_is_no_still_bone() {
     let still = model.clips[0].tracks[0].key(0);
     let keys = [0.0, 1.0, 2.0].map(|secs| (secs, still));
     let wave = keys.map(|(secs, joint)| (secs, joint.translation, [Vec3::ONE, Vec3::ONE]));
-    let curves = Curves {
-        translation: Some(Curve::cubic(wave).expect("keys in order")),
-        ..Curves::default()
-    };
-    let track = bindpose::model::Track::new(keys)
-        .expect("keys in order")
-        .with_curves(curves);
+    let track = bindpose::model::Track::new(keys).expect("keys in order");
+    let track = with_translation(&track, Channel::spline(wave));
     model.clips[0] = bindpose::model::Clip::new("one", vec![track]);
     let fixed = edit(&model, &FIX);
     assert_eq!(fixed.model.clips, model.clips);

@@ -2,12 +2,12 @@
 
 use bindpose::anim::CompiledClip;
 use bindpose::edit::Edits;
-use bindpose::model::{Clip, Curve, Curves, LocalJoint, Model, Track};
-use glam::{Quat, Vec3, Vec4};
+use bindpose::model::{Channel, Clip, LocalJoint, Model, Track, Way};
+use glam::{Quat, Vec3};
 use proptest::prelude::*;
 
 use super::{apart, curved, edit, seen_in, size, spread, try_edit};
-use crate::documents::model_of;
+use crate::documents::{model_of, with_rotation, with_translation};
 use crate::rigs;
 
 fn range(from: f32, to: f32) -> Edits {
@@ -72,7 +72,7 @@ fn the_cuts_are_keys_and_curves_stay_curves() {
             assert_eq!(new.key(key).translation, old.at(secs).translation);
             assert_eq!(new.key(key).scale, old.at(secs).scale);
         }
-        assert_eq!(new.curves().is_some(), old.curves().is_some());
+        assert_eq!((new.holds(), new.bends()), (old.holds(), old.bends()));
         for step in 0..=100 {
             let secs = 0.5 + 0.0075 * step as f32;
             let (new, old) = (new.at(secs - 0.5), old.at(secs));
@@ -99,16 +99,12 @@ fn a_jump_of_a_curve_stays_one_where_rounding_would_close_it() {
         ..LocalJoint::IDENTITY
     };
     let keys = times_secs.map(|secs| (secs, joint(secs)));
-    let held = Curve::step(times_secs.map(|secs| (secs, Vec3::splat(secs)))).expect("sound keys");
-    // A curve may have some of the track's keys.
-    let bent = times_secs[2..]
-        .iter()
-        .map(|&secs| (secs, Vec4::from(turned(secs)), [Vec4::ZERO; 2]));
-    let track = Track::new(keys).expect("sound keys").with_curves(Curves {
-        translation: Some(held),
-        rotation: Some(Curve::cubic(bent).expect("sound keys")),
-        scale: None,
-    });
+    let held = Channel::held(times_secs.map(|secs| (secs, Vec3::splat(secs))));
+    // A channel may have some of the track's times.
+    let still = Quat::from_xyzw(0.0, 0.0, 0.0, 0.0);
+    let bent = times_secs[2..].iter().map(|&secs| (secs, turned(secs), [still; 2]));
+    let track = with_translation(&Track::new(keys).expect("sound keys"), held);
+    let track = with_rotation(&track, Channel::spline(bent));
     let tracks = vec![track; model.skeleton.joint_count()];
     model.clips = vec![Clip::new("jumps", tracks)];
     let cut = edit(&model, &range(-50.0, 1.0)).model;
@@ -116,17 +112,15 @@ fn a_jump_of_a_curve_stays_one_where_rounding_would_close_it() {
     let jump_secs = 0.1_f32 + 50.0;
     let expected = [0.0, jump_secs, jump_secs.next_up(), 51.0];
     assert_eq!(track.times_secs(), expected);
-    let curves = track.curves().expect("they stay curves");
-    let held = curves.translation.as_ref().expect("it stays a curve");
+    let (held, bent) = (track.translation(), track.rotation());
+    assert!(
+        *held.way() == Way::Held && matches!(bent.way(), Way::Spline(_)),
+        "they stay as they are"
+    );
     assert_eq!(held.times_secs(), expected);
     assert_eq!(held.value_at(jump_secs), Vec3::splat(times_secs[1]));
     assert_eq!(held.value_at(jump_secs.next_up()), Vec3::splat(times_secs[2]));
-    let bent = curves.rotation.as_ref().expect("it stays a curve");
-    assert_eq!(
-        bent.times_secs(),
-        [0.0, jump_secs.next_up(), 51.0],
-        "still among the track's"
-    );
+    assert_eq!(bent.times_secs(), [0.0, jump_secs, 51.0], "it has no jump itself");
 }
 
 #[test]

@@ -2,12 +2,12 @@
 
 use bindpose::anim::{CompiledClip, PoseBuffers};
 use bindpose::edit::{EditJob, Edits};
-use bindpose::model::{Clip, Influences, JointNames, LocalJoint, Model, Track};
+use bindpose::model::{Channel, Clip, Influences, JointNames, LocalJoint, Model, Track, Way};
 use glam::{Quat, Vec3, Vec3A};
 use proptest::prelude::*;
 
 use super::{curved, edit, figure, key_times, size, swaying, try_edit};
-use crate::documents::model_of;
+use crate::documents::{model_of, with_rotation, with_translation};
 use crate::rigs;
 
 fn reduce(tolerance: f32) -> Edits {
@@ -122,6 +122,67 @@ fn two_keys_of_a_straight_way_are_enough() {
     let (model, _) = model_of(&rigs::rig(1, vec![rigs::even("way", 1, 0.0, 400, 30.0)]));
     let edited = edit(&model, &reduce(1e-4));
     assert_eq!(edited.model.clips[0].tracks[0].times_secs().len(), 2);
+}
+
+#[test]
+fn steps_and_splines_lose_keys_that_say_little_and_stay_such() {
+    const KEYS: u16 = 200;
+    let secs = |key: u16| f32::from(key) * 0.02;
+    let mut model = model_of(&swaying(3, 2.0)).0;
+    let held = (0..KEYS).map(|key| {
+        (
+            secs(key),
+            Vec3::splat(0.3 * f32::from(key / 50) + 1e-6 * f32::from(key % 2)),
+        )
+    });
+    let turned = (0..KEYS).map(|key| {
+        let half = 0.4 * (3.0 * secs(key)).sin();
+        let slope = Quat::from_xyzw(half.cos(), 0.0, 0.0, -half.sin()) * (1.2 * (3.0 * secs(key)).cos());
+        (secs(key), Quat::from_rotation_x(2.0 * half), [slope; 2])
+    });
+    let still = (0..KEYS).map(|key| (secs(key), Vec3::ONE, [Vec3::ZERO; 2]));
+    let track = Track::of_channels(
+        Channel::held(held).expect("sound keys"),
+        Channel::spline(turned).expect("sound keys"),
+        Channel::spline(still).expect("sound keys"),
+    );
+    let tracks = model.clips[0].tracks.iter().map(|_| track.clone()).collect();
+    model.clips = vec![Clip::new("curves", tracks)];
+    let mut before = 0;
+    for tolerance in [1e-4, 1e-3, 1e-2] {
+        let left_out = check(&model, tolerance);
+        assert!(left_out >= before && left_out > 0, "{left_out} after {before}");
+        before = left_out;
+    }
+    let reduced = edit(&model, &reduce(1e-3)).model;
+    for track in &reduced.clips[0].tracks {
+        assert_eq!(track.translation().times_secs(), [0, 50, 100, 150, 199].map(secs));
+        assert_eq!(*track.translation().way(), Way::Held);
+        let of_spline = track.rotation().times_secs().len();
+        assert!((4..40).contains(&of_spline), "{of_spline}");
+        assert_eq!(track.scale().times_secs(), [0, 199].map(secs));
+        assert!(matches!(
+            (track.rotation().way(), track.scale().way()),
+            (Way::Spline(_), Way::Spline(_))
+        ));
+    }
+}
+
+#[test]
+fn channels_of_different_times_lose_their_own_keys() {
+    let mut model = model_of(&swaying(2, 2.0)).0;
+    let secs = |key: u16| f32::from(key) * 0.02;
+    let moved = Channel::straight((0..100).map(|key| (secs(key), Vec3::X * f32::from(key % 2))));
+    let turned = (0..99).map(|key| (secs(key), Quat::from_rotation_x(0.01 * f32::from(key))));
+    let track = with_rotation(&with_translation(&Track::default(), moved), Channel::straight(turned));
+    model.clips = vec![Clip::new("channels", vec![track.clone(), track])];
+    let edited = edit(&model, &reduce(1e-3));
+    for track in &edited.model.clips[0].tracks {
+        assert_eq!(track.translation().times_secs().len(), 100);
+        assert_eq!(track.rotation().times_secs(), [0, 98].map(secs));
+    }
+    let told = "\"channels\" has 204 keys in its channels instead of 398; ";
+    assert!(edited.changes[0].message.starts_with(told), "{:?}", edited.changes);
 }
 
 #[test]

@@ -5,13 +5,13 @@ use bindpose::format::{Document, LineMap};
 use bindpose::image::{self, Image};
 use bindpose::import::m3d::from_document;
 use bindpose::model::{
-    AlphaMode, Curve, Curves, Front, Handedness, JointNames, LocalJoint, MapSlot, Material, Model, Reflectance, Track,
+    AlphaMode, Channel, Front, Handedness, JointNames, LocalJoint, MapSlot, Material, Model, Reflectance, Track,
     UpAxis, Wrap,
 };
 use glam::{Affine2, Mat2, Quat, Vec2, Vec3, Vec4};
 use serde_json::{Value, json};
 
-use crate::documents::{arm, quad, reordered};
+use crate::documents::{arm, quad, reordered, with_rotation, with_translation};
 
 fn model(document: &Document) -> Model {
     from_document(document, &LineMap::default()).expect("it is sound").0
@@ -53,10 +53,9 @@ pub(super) fn models() -> Vec<(String, Model)> {
 /// The arm with held values and splines.
 fn curved() -> Model {
     let mut model = model(&arm());
-    let turned = |angle: f32| Vec4::from(Quat::from_rotation_z(angle));
-    let step = Curve::step([(0.0, Vec3::Y), (0.5, Vec3::Y * 1.5), (1.0, Vec3::Y)]).expect("sound keys");
-    let slope = [Vec4::new(0.0, 0.0, 0.5, 0.0); 2];
-    let cubic = Curve::cubic([0.0, 0.5, 1.0].map(|time_secs| (time_secs, turned(time_secs), slope)));
+    let held = Channel::held([(0.0, Vec3::Y), (0.5, Vec3::Y * 1.5), (1.0, Vec3::Y)]);
+    let slope = [Quat::from_xyzw(0.0, 0.0, 0.5, 0.0); 2];
+    let spline = Channel::spline([0.0, 0.5, 1.0].map(|secs| (secs, Quat::from_rotation_z(secs), slope)));
     let keys = [(0.0, 1.0), (0.5, 1.5), (1.0, 1.0)].map(|(time_secs, height)| {
         let joint = LocalJoint {
             translation: Vec3::Y * height,
@@ -66,14 +65,8 @@ fn curved() -> Model {
         (time_secs, joint)
     });
     let track = Track::new(keys).expect("sound keys");
-    model.clips[0].tracks[1] = track.clone().with_curves(Curves {
-        translation: Some(step),
-        ..Curves::default()
-    });
-    model.clips[0].tracks[2] = track.with_curves(Curves {
-        rotation: Some(cubic.expect("sound keys")),
-        ..Curves::default()
-    });
+    model.clips[0].tracks[1] = with_translation(&track, held);
+    model.clips[0].tracks[2] = with_rotation(&track, spline);
     model
 }
 

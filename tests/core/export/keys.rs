@@ -3,14 +3,14 @@
 use bindpose::edit::{Edits, apply};
 use bindpose::export::{MapImages, glb};
 use bindpose::import::import;
-use bindpose::model::{Clip, Curve, Curves, JointNames, LocalJoint, Model, Track};
+use bindpose::model::{Channel, Clip, JointNames, LocalJoint, Model, Track};
 use glam::{Quat, Vec3};
 use proptest::prelude::*;
 use serde_json::Value;
 
 use super::both_ways::made;
 use super::glb::{chunks, models};
-use crate::documents::{REAL_FILES, arm, figure, model_of, real_file};
+use crate::documents::{REAL_FILES, arm, figure, model_of, real_file, with_translation};
 use crate::gltf::moving;
 use crate::gltf_files::Gltf;
 use crate::shared::shared;
@@ -64,7 +64,31 @@ fn assert_same_tracks(name: &str, old: &Model, new: &Model) {
                 for (key, &time_secs) in track.times_secs().iter().enumerate() {
                     assert_eq!(track.key(key), again.key(key), "{at} at {time_secs} s");
                 }
-                assert_eq!(track.curves(), again.curves(), "{at}");
+                assert_eq!((track.holds(), track.bends()), (again.holds(), again.bends()), "{at}");
+            }
+        }
+    }
+}
+
+/// Asserts that clips have the same channels, with the same keys. A single key beside other channels may be left out where it says what the
+/// node says at rest; what it says is the track's.
+fn assert_same_channels(name: &str, old: &Model, new: &Model) {
+    assert_same_tracks(name, old, new);
+    for (before, after) in old.clips.iter().zip(&new.clips) {
+        for (bone, joint) in old.skeleton.joint_of_bone().iter().enumerate() {
+            let again = &after.tracks[new.skeleton.joint_of_bone()[bone].index()];
+            let (track, at) = (
+                &before.tracks[joint.index()],
+                format!("{name} {} bone {bone}", before.name),
+            );
+            if track.translation().times_secs().len() != 1 {
+                assert_eq!(track.translation(), again.translation(), "{at}");
+            }
+            if track.rotation().times_secs().len() != 1 {
+                assert_eq!(track.rotation(), again.rotation(), "{at}");
+            }
+            if track.scale().times_secs().len() != 1 {
+                assert_eq!(track.scale(), again.scale(), "{at}");
             }
         }
     }
@@ -92,7 +116,7 @@ fn what_was_read_is_written_with_its_own_keys() {
         let of_written = chunks(&bytes).0;
         let counts = [&of_source, &of_written].map(key_count);
         assert!(counts[1] <= counts[0], "{name}: {counts:?}");
-        assert_same_tracks(name, &model, &read(&bytes));
+        assert_same_channels(name, &model, &read(&bytes));
     }
 }
 
@@ -135,14 +159,12 @@ fn channels_of_one_joint_keep_their_own_times() {
     let bytes = written(&model);
     let counts = |root: &Value| channels(root).into_iter().map(|(.., count)| count).collect::<Vec<_>>();
     let of_source = counts(&file.json);
-    let mut found = counts(&chunks(&bytes).0);
+    let found = counts(&chunks(&bytes).0);
     assert_eq!(of_source, [100, 3, 3, 4, 51, 3]);
     let merged: Vec<_> = model.clips[0].tracks.iter().map(Track::key_count).collect();
-    assert_eq!(merged, [104, 56], "reading has all times of a joint in one list");
-    found.sort_unstable();
-    // The one that stands still keeps a single key: the rotation has its first and its last time as well.
-    assert_eq!(found, [1, 3, 3, 4, 51, 100]);
-    assert_same_tracks("own times", &model, &read(&bytes));
+    assert_eq!(merged, [104, 56], "a track has all times of its channels");
+    assert_eq!(found, of_source);
+    assert_same_channels("own times", &model, &read(&bytes));
 }
 
 /// The model as the file has it, brought back into its own space.
@@ -163,12 +185,9 @@ fn back(model: &Model) -> Model {
 fn from_zero(mut model: Model) -> Model {
     for clip in &mut model.clips {
         let shift_secs = clip.start_secs.min(0.0);
-        let moved = |track: &Track| match track.curves() {
-            None if track.has_keys() && shift_secs < 0.0 => {
-                let keys = (0..track.key_count()).map(|key| (track.times_secs()[key] - shift_secs, track.key(key)));
-                Track::new(keys).expect("sound keys")
-            }
-            _ => track.clone(),
+        let moved = |track: &Track| match track.has_keys() && !track.holds() && !track.bends() && shift_secs < 0.0 {
+            true => Track::new(track.keys().map(|(secs, joint)| (secs - shift_secs, joint))).expect("sound keys"),
+            false => track.clone(),
         };
         let tracks = clip.tracks.iter().map(moved).collect();
         *clip = Clip::new(&clip.name, tracks);
@@ -224,27 +243,30 @@ fn a_track_of_many_keys_is_written_in_time_that_grows_with_them() {
 }
 
 #[test]
-fn curves_hold_times_for_the_channels_beside_them() {
+fn channels_of_rows_that_keep_still_have_one_key_or_none() {
     let times_secs = [0.0, 0.5, 1.0, 1.5, 2.0];
     let joint = |secs: f32| LocalJoint {
-        translation: Vec3::splat(if secs < 1.0 { 1.0 } else { 2.0 }),
+        translation: Vec3::splat(3.0),
         scale: Vec3::splat(1.0 + secs),
         ..LocalJoint::IDENTITY
     };
-    let held = [0.0, 1.0].map(|secs| (secs, joint(secs).translation));
-    let track = Track::new(times_secs.map(|secs| (secs, joint(secs)))).expect("sound keys");
-    let track = track.with_curves(Curves {
-        translation: Some(Curve::step(held).expect("sound keys")),
-        ..Curves::default()
-    });
-    let model = with_track(&track);
-    assert_same_tracks("curves", &model, &back(&model));
-    let root = chunks(&written(&model)).0;
-    let of_first = channels(&root).into_iter().filter(|(node, ..)| *node == 0);
-    let counts: Vec<_> = of_first.map(|(_, path, count)| (path, count)).collect();
-    // The scale's ends are enough for it, so the rotation, which keeps still, has the times between that the curve has not.
-    let expected = [("rotation", 2), ("translation", 2), ("scale", 2)];
-    assert_eq!(counts, expected.map(|(path, count)| (path.to_owned(), count)));
+    let rows = Track::new(times_secs.map(|secs| (secs, joint(secs)))).expect("sound keys");
+    let counts = |track: &Track| {
+        let model = with_track(track);
+        assert_same_tracks("rows", &model, &back(&model));
+        let of_first = channels(&chunks(&written(&model)).0)
+            .into_iter()
+            .filter(|(node, ..)| *node == 0);
+        of_first.map(|(_, path, count)| (path, count)).collect::<Vec<_>>()
+    };
+    let named = |path: &str, count| (path.to_owned(), count);
+    // The rotation is that of the bone at rest.
+    assert_eq!(counts(&rows), [named("translation", 1), named("scale", 5)]);
+    let held = [0.0, 1.0].map(|secs| (secs, Vec3::splat(1.0 + secs)));
+    let held = with_translation(&rows, Channel::held(held));
+    assert_eq!(counts(&held), [named("translation", 2), named("scale", 5)]);
+    let still = Track::new(times_secs.map(|secs| (secs, joint(0.0)))).expect("sound keys");
+    assert_eq!(counts(&still), [named("translation", 5)]);
 }
 
 proptest! {

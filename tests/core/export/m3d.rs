@@ -8,13 +8,12 @@ use bindpose::export::{Loss, m3d, m3d_losses, one_word};
 use bindpose::format::{Dialect, Document, LineMap, parse};
 use bindpose::import::m3d::from_document;
 use bindpose::model::{
-    AlphaMode, Curve, Curves, Front, Handedness, JointNames, LocalJoint, Material, Model, Reflectance, Track, UpAxis,
-    Wrap,
+    AlphaMode, Channel, Front, Handedness, JointNames, LocalJoint, Material, Model, Reflectance, Track, UpAxis, Wrap,
 };
 use glam::{Quat, Vec2, Vec3, Vec4};
 use proptest::prelude::*;
 
-use crate::documents::{REAL_FILES, arm, figure, material, quad, real_file};
+use crate::documents::{REAL_FILES, arm, figure, material, quad, real_file, with_rotation, with_translation};
 use crate::format::written_documents as document;
 
 fn written(model: &Model, dialect: Dialect) -> Vec<u8> {
@@ -185,26 +184,19 @@ fn rich() -> Model {
     if let Some(map) = &mut model.materials[0].diffuse_map {
         map.sampling.wrap = [Wrap::Clamp; 2];
     }
-    let step = Curve::step([(0.0, Vec3::ZERO), (1.0, Vec3::X)]).expect("sound keys");
-    let cubic = Curve::cubic([(0.0, Vec4::W, [Vec4::ZERO; 2]), (1.0, Vec4::Z, [Vec4::ZERO; 2])]).expect("sound keys");
+    let held = Channel::held([(0.0, Vec3::ZERO), (1.0, Vec3::X)]);
+    let still = [Quat::from_xyzw(0.0, 0.0, 0.0, 0.0); 2];
+    let half_a_turn = Quat::from_xyzw(0.0, 0.0, 1.0, 0.0);
+    let spline = Channel::spline([(0.0, Quat::IDENTITY, still), (1.0, half_a_turn, still)]);
     let key = |translation, rotation| LocalJoint {
         translation,
         rotation,
         ..LocalJoint::IDENTITY
     };
-    let keys = [
-        (0.0, key(Vec3::ZERO, Quat::IDENTITY)),
-        (1.0, key(Vec3::X, Quat::from_xyzw(0.0, 0.0, 1.0, 0.0))),
-    ];
-    let track = |curves| Track::new(keys).expect("sound keys").with_curves(curves);
-    model.clips[0].tracks[1] = track(Curves {
-        translation: Some(step),
-        ..Curves::default()
-    });
-    model.clips[0].tracks[2] = track(Curves {
-        rotation: Some(cubic),
-        ..Curves::default()
-    });
+    let keys = [(0.0, key(Vec3::ZERO, Quat::IDENTITY)), (1.0, key(Vec3::X, half_a_turn))];
+    let track = Track::new(keys).expect("sound keys");
+    model.clips[0].tracks[1] = with_translation(&track, held);
+    model.clips[0].tracks[2] = with_rotation(&track, spline);
     let rest: Vec<_> = model
         .skeleton
         .rest()
@@ -258,6 +250,27 @@ fn curves_become_straight_keys_that_pose_alike() {
             assert!(1.0 - wanted.rotation.dot(found.rotation).abs() <= 1e-6, "{time_secs}");
         }
     }
+}
+
+#[test]
+fn channels_of_different_times_are_united_and_that_is_told() {
+    let mut model = rich();
+    let moved = Channel::straight([(0.0, Vec3::ZERO), (0.5, Vec3::X), (1.0, Vec3::Y)]);
+    let turned = Channel::straight([(0.25, Quat::IDENTITY), (0.75, Quat::from_rotation_x(1.0))]);
+    let track = with_rotation(&with_translation(&Track::default(), moved), turned);
+    model.clips[0].tracks[0] = track.clone();
+    let told = |model: &Model| -> Option<String> {
+        let mut losses = m3d_losses(model, &JointNames::default(), Dialect::D3d12).into_iter();
+        Some(losses.find(|loss| loss.code == "keys-united")?.message)
+    };
+    let expected = "1 track has channels with keys at different times; each key of one becomes a key of all three, where the others are \
+                    at that time.";
+    assert_eq!(told(&model).as_deref(), Some(expected));
+    let again = read(&written(&model, Dialect::D3d12));
+    let rows = &again.clips[0].tracks[0];
+    assert_eq!(rows.times_secs(), [0.0, 0.25, 0.5, 0.75, 1.0]);
+    assert!(rows.keys().all(|(secs, joint)| joint == track.at(secs)));
+    assert_eq!(told(&again), None, "rows have one time for all three");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Clips: channels with times of their own, and ways between keys.
 
-use bindpose::model::Curves;
+use bindpose::model::Way;
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
 
@@ -52,7 +52,7 @@ fn a_clip_moves_a_mesh_without_a_skin_and_what_is_above_it() {
         (clip.name.as_str(), clip.start_secs, clip.end_secs, clip.key_count),
         ("Wave", 0.0, 3.0, 5)
     );
-    assert!(clip.tracks.iter().all(|track| track.curves().is_none()));
+    assert!(clip.tracks.iter().all(|track| !track.holds() && !track.bends()));
 }
 
 #[test]
@@ -104,15 +104,9 @@ fn steps_and_splines_are_kept_as_such() {
         ]
     });
     let track = read(&file).model.clips[0].tracks[1].clone();
-    let curves: &Curves = track.curves().expect("both are no straight ways");
-    assert!(curves.rotation.is_none());
-    assert!(
-        curves
-            .translation
-            .as_ref()
-            .is_some_and(|curve| curve.tangents().is_none())
-    );
-    assert!(curves.scale.as_ref().is_some_and(|curve| curve.tangents().is_some()));
+    assert!(!track.rotation().has_keys());
+    assert_eq!(*track.translation().way(), Way::Held);
+    assert!(matches!(track.scale().way(), Way::Spline(_)));
     let x = |time_secs| (track.at(time_secs).translation.x, track.at(time_secs).scale.x);
     assert_eq!(x(0.999).0, 1.0);
     assert_eq!(x(1.0).0, 2.0);
@@ -138,7 +132,12 @@ fn keys_that_are_out_of_order_doubled_or_no_numbers_are_mended_and_told() {
     let track = &imported.model.clips[0].tracks[1];
     assert_eq!(track.times_secs(), [0.0, 1.0, 1.0_f32.next_up(), 2.0]);
     assert_eq!(
-        track.translations().iter().map(|place| place.x).collect::<Vec<_>>(),
+        track
+            .translation()
+            .values()
+            .iter()
+            .map(|place| place.x)
+            .collect::<Vec<_>>(),
         [0.0, 1.0, 5.0, 6.0]
     );
     let mut codes = codes_of(&imported);

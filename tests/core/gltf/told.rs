@@ -351,8 +351,7 @@ fn rotations_have_unit_length_whatever_is_between_them() {
         told(&zero, "rotation-zero");
         for imported in [&plain, &long, &zero] {
             let track = &imported.model.clips[0].tracks[0];
-            let of_curve = track.curves().and_then(|curves| curves.rotation.as_ref());
-            let values = of_curve.map(|curve| curve.values().to_vec()).unwrap_or_default();
+            let values = track.rotation().values();
             assert!(
                 values.iter().all(|value| (value.length() - 1.0).abs() < 1e-6),
                 "{way}: {values:?}"
@@ -392,11 +391,11 @@ fn a_spline_that_overflows_is_straight_and_told() {
         told(&imported, "gltf-rule-broken").message,
         "1 channel follows a spline whose numbers overflow between its keys; taken as straight."
     );
-    assert!(imported.model.clips[0].tracks[1].curves().is_none());
+    assert!(!imported.model.clips[0].tracks[1].bends());
     assert_eq!(imported.model.clips[0].tracks[1].at(50.0).translation.x, 0.5);
     let imported = read(&spline(1e3));
     assert!(is_silent(&imported, "gltf-rule-broken"));
-    assert!(imported.model.clips[0].tracks[1].curves().is_some());
+    assert!(imported.model.clips[0].tracks[1].bends());
 }
 
 #[test]
@@ -409,7 +408,7 @@ fn a_key_that_stands_just_behind_a_jump_stays() {
     });
     let track = &read(&file).model.clips[0].tracks[1];
     assert_eq!(track.times_secs(), [0.0, 1.0, jump, jump.next_up(), 2.0]);
-    let x: Vec<f32> = track.translations().iter().map(|at| at.x).collect();
+    let x: Vec<f32> = track.translation().values().iter().map(|at| at.x).collect();
     assert_eq!(x, [0.0, 1.0, 2.0, 3.0, 4.0]);
 }
 

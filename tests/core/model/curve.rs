@@ -1,12 +1,12 @@
 //! Values that are held from key to key, and splines.
 
 use bindpose::diagnostic::Fault;
-use bindpose::model::Curve;
+use bindpose::model::Channel;
 use glam::Vec3;
 
 #[test]
 fn a_held_value_changes_at_its_key() {
-    let curve = Curve::step([(1.0, Vec3::X), (2.0, Vec3::Y)]).expect("times increase");
+    let curve = Channel::held([(1.0, Vec3::X), (2.0, Vec3::Y)]).expect("times increase");
     for (time_secs, value) in [
         (0.0, Vec3::X),
         (1.0, Vec3::X),
@@ -22,7 +22,7 @@ fn a_held_value_changes_at_its_key() {
 fn a_spline_is_the_cubic_that_its_keys_and_slopes_were_taken_from() {
     // x = t³ − 2t, with slope 3t² − 2, between keys 2 s apart.
     let key = |t: f32| (t, Vec3::X * (t * t * t - 2.0 * t), [Vec3::X * (3.0 * t * t - 2.0); 2]);
-    let curve = Curve::cubic([key(-1.0), key(1.0), key(3.0)]).expect("times increase");
+    let curve = Channel::spline([key(-1.0), key(1.0), key(3.0)]).expect("times increase");
     for step in 0..=40 {
         let t = step as f32 * 0.1 - 1.0;
         assert!(
@@ -37,7 +37,7 @@ fn a_spline_is_the_cubic_that_its_keys_and_slopes_were_taken_from() {
 #[test]
 fn keys_that_make_no_curve_are_refused() {
     let nan = [Vec3::ZERO, Vec3::NAN];
-    let refused = |curve: Result<Curve<Vec3>, Fault>| {
+    let refused = |curve: Result<Channel<Vec3>, Fault>| {
         let fault = curve.expect_err("no curve");
         (fault.code, fault.message)
     };
@@ -46,15 +46,15 @@ fn keys_that_make_no_curve_are_refused() {
         ("key-not-finite", message)
     };
     assert_eq!(
-        refused(Curve::step([])),
+        refused(Channel::held([])),
         ("no-keys", "A track needs at least one key.".into())
     );
-    let twice = Curve::step([(1.0, Vec3::X), (1.0, Vec3::Y)]);
+    let twice = Channel::held([(1.0, Vec3::X), (1.0, Vec3::Y)]);
     let message = "Key 1 is not after the key before it; key times must increase.";
     assert_eq!(refused(twice), ("key-not-after", message.into()));
-    assert_eq!(refused(Curve::cubic([(0.0, Vec3::X, nan)])), not_finite(0));
+    assert_eq!(refused(Channel::spline([(0.0, Vec3::X, nan)])), not_finite(0));
     // Its keys can be written, and what is between them not.
     let steep = |time_secs| (time_secs, Vec3::ZERO, [Vec3::X * 3e38; 2]);
-    assert_eq!(refused(Curve::cubic([steep(0.0), steep(100.0)])), not_finite(1));
-    assert!(Curve::cubic([steep(0.0), steep(0.5)]).is_ok());
+    assert_eq!(refused(Channel::spline([steep(0.0), steep(100.0)])), not_finite(1));
+    assert!(Channel::spline([steep(0.0), steep(0.5)]).is_ok());
 }
