@@ -346,14 +346,21 @@ export function mirrorOf(viewer, canvas, pick) {
   root.addEventListener("keydown", (event) => {
     const { key, code, target } = event;
     if (key === "Tab" || event.isComposing) return;
-    const { record, rests, show } = mirrored.get(idOf(target)) ?? {};
-    if (!record) return;
+    const entry = mirrored.get(idOf(target));
+    if (!entry) return;
+    const { record, rests, show } = entry;
     if (isOwnKey(target, record, event)) {
       if (target.type === "text") return;
       // A step begins at the value of now.
       if (rests) show();
       if (!turned.size) viewer.act({ action: "hold" });
-      return void turned.add(code);
+      turned.add(code);
+      if (target.type !== "range" || (key !== "Home" && key !== "End")) return;
+      // The element rounds to its steps: where it shows an end before the value is there, it would say nothing.
+      event.preventDefault();
+      target.value = key === "Home" ? record.min : record.max;
+      entry.movedAt = performance.now();
+      return act(target, "setValue", key === "Home" ? record.min : record.max);
     }
     if (target.localName === "input" && target.type === "text" && key === "Enter") target.dispatchEvent(new Event("change", { bubbles: true }));
     if ((key === "Enter" || key === " ") && record.clickable && target.localName === "div") {

@@ -11,8 +11,7 @@ use crate::scenes::{FRONT, Scene, bent, bent_tube, card};
 const SIZE: [u32; 2] = [240, 120];
 /// Bytes in a row of the bone texture: 256 joints of three texels, four floats each.
 const ROW_BYTES: u64 = 256 * 3 * 16;
-/// Two for each end of a line.
-const ENTRY_BYTES: u64 = 2 * 72;
+const INSTANCE_BYTES: u64 = 72;
 
 /// Bends of the tubes.
 const BENDS: [f32; 3] = [0.3, -0.4, 0.5];
@@ -323,10 +322,10 @@ on_both_backends! {
         assert_eq!(uploaded(|scene| scene.crowd_palettes[0] = Affine3A::from_scale(Vec3::splat(1.5))), ROW_BYTES);
         assert_eq!(uploaded(|scene| scene.crowd_palettes[599] = Affine3A::IDENTITY), ROW_BYTES);
         assert_eq!(uploaded(|scene| scene.crowd_palettes[300..].fill(Affine3A::IDENTITY)), 2 * ROW_BYTES);
-        // The highlight stands after the crowd.
-        let entries = 302 * ENTRY_BYTES;
-        assert_eq!(uploaded(|scene| scene.crowd[7].world_from_model = Affine3A::IDENTITY), entries);
-        assert_eq!(uploaded(|scene| scene.crowd.swap(3, 4)), entries);
+        // The own instance twice, the crowd, the highlight.
+        let instances = 303 * INSTANCE_BYTES;
+        assert_eq!(uploaded(|scene| scene.crowd[7].world_from_model = Affine3A::IDENTITY), instances);
+        assert_eq!(uploaded(|scene| scene.crowd.swap(3, 4)), instances);
     }
 
     /// What is uploaded in parts is what a new renderer uploads whole.

@@ -76,6 +76,18 @@ test("a key that is held on a slider or a button is one step to undo", () => {
   assert.deepEqual(actions(), ["hold", "click", "release"], "it comes up elsewhere");
 });
 
+test("Home and End go to the ends of a slider whose steps are long, wherever it shows itself", () => {
+  const { at, down, up, actions } = mirrorWith([slider(0.3, { max: 0.5, step: 0.5 })]);
+  at("time").focus();
+  actions();
+  down("End");
+  up("End");
+  assert.deepEqual(actions(), ["hold", "setValue 0.5", "release"]);
+  down("Home");
+  up("Home");
+  assert.deepEqual(actions(), ["hold", "setValue 0", "release"]);
+});
+
 test("keys that are held when the focus moves come up where it is then", () => {
   const { at, down, up, asked } = mirrorWith([button("One frame on"), button("Play")]);
   at("Play").focus();
