@@ -352,7 +352,7 @@ fn article(page: &mut String, code: &Code) {
 
 /// What is printed of the fixture; or why there is none.
 fn example(code: &str) -> String {
-    if let Some((why, ..)) = ELSEWHERE.iter().find(|(.., codes)| codes.contains(&code)) {
+    if let Some((why, ..)) = ELSEWHERE.iter().find(|(.., codes)| codes.contains(code)) {
         return format!("<p class=\"none\">{}</p>\n", html(why));
     }
     let text = check(code, "text");
