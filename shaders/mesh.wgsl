@@ -22,7 +22,7 @@ fn fragment_cut(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @lo
     let point = surface_point(mesh, clockwise);
     let color = stored(surface_color(point), mesh.clip.xy);
     // The discard comes after the derivatives: some devices lose them when a neighbour is discarded.
-    if point.made.diffuse_texel.a < material.alpha_clip {
+    if point.substance.diffuse_texel.a < material.alpha_clip {
         discard;
     }
     return vec4<f32>(color, 1.0);
@@ -32,10 +32,10 @@ fn fragment_cut(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @lo
 @fragment
 fn fragment_cut_smooth(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
     let point = surface_point(mesh, clockwise);
-    let alpha_per_pixel = fwidth(point.made.diffuse_texel.a);
+    let alpha_per_pixel = fwidth(point.substance.diffuse_texel.a);
     let color = stored(surface_color(point), mesh.clip.xy);
     // The line where alpha passes the limit, one pixel wide whatever the slope of the map.
-    let coverage = clamp((point.made.diffuse_texel.a - material.alpha_clip) / max(alpha_per_pixel, 1e-4) + 0.5, 0.0, 1.0);
+    let coverage = clamp((point.substance.diffuse_texel.a - material.alpha_clip) / max(alpha_per_pixel, 1e-4) + 0.5, 0.0, 1.0);
     if coverage <= 0.0 {
         discard;
     }

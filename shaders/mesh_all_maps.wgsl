@@ -79,9 +79,9 @@ fn substance(mesh: MeshVertex) -> Substance {
 // glTF: what is no metal reflects this much at normal incidence.
 const DIELECTRIC_FRESNEL0: f32 = 0.04;
 
-fn book_albedo(made: Substance) -> vec3<f32> {
+fn book_albedo(point: Substance) -> vec3<f32> {
     if material_maps.is_metallic_roughness == 1u {
-        return srgb_from_linear(made.albedo);
+        return srgb_from_linear(point.albedo);
     }
-    return material.book_albedo * srgb_from_linear(made.diffuse_texel.rgb);
+    return material.book_albedo * srgb_from_linear(point.diffuse_texel.rgb);
 }

@@ -10,7 +10,7 @@ const OPAQUE_ALPHA: f32 = 0.998;
 fn fragment_opaque_part(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
     let point = surface_point(mesh, clockwise);
     let color = stored(surface_color(point), mesh.clip.xy);
-    if point.made.diffuse_texel.a < OPAQUE_ALPHA {
+    if point.substance.diffuse_texel.a < OPAQUE_ALPHA {
         discard;
     }
     return vec4<f32>(color, 1.0);
@@ -20,7 +20,7 @@ fn fragment_opaque_part(mesh: MeshVertex, @builtin(front_facing) clockwise: bool
 fn fragment_blended(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
     let point = surface_point(mesh, clockwise);
     let color = stored(surface_color(point), mesh.clip.xy);
-    let alpha = clamp(point.made.diffuse_texel.a, 0.0, 1.0);
+    let alpha = clamp(point.substance.diffuse_texel.a, 0.0, 1.0);
     if alpha >= OPAQUE_ALPHA {
         discard;
     }

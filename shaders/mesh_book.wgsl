@@ -9,8 +9,8 @@ fn sky_srgb(direction: vec3<f32>) -> vec3<f32> {
 }
 
 fn surface_color(point: SurfacePoint) -> vec3<f32> {
-    if point.made.is_unlit {
-        return srgb_from_linear(point.made.base_color);
+    if point.substance.is_unlit {
+        return srgb_from_linear(point.substance.base_color);
     }
     let to_lights = array<vec3<f32>, 3>(light.to_key, light.to_book_light_1, light.to_book_light_2);
     var key_visible = 1.0;
@@ -21,9 +21,9 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
     var color: vec3<f32>;
     if material.is_phong == 0u {
         let surface = BookSurface(
-            book_albedo(point.made),
-            point.made.fresnel0,
-            point.made.shininess,
+            book_albedo(point.substance),
+            point.substance.fresnel0,
+            point.substance.shininess,
             point.normal,
             point.to_eye,
         );
@@ -31,7 +31,7 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
             + book_reflectance(surface, mirrored) * sky_srgb(mirrored);
     } else {
         let surface = PhongSurface(
-            srgb_from_linear(point.made.diffuse_texel.rgb),
+            srgb_from_linear(point.substance.diffuse_texel.rgb),
             material.ambient,
             material.book_albedo,
             material.specular,
@@ -42,6 +42,6 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
         color = phong_light(surface, to_lights, key_visible, point.occlusion)
             + material.reflectivity * sky_srgb(mirrored);
     }
-    color += srgb_from_linear(clamp(point.made.emissive, vec3<f32>(0.0), vec3<f32>(1.0)));
+    color += srgb_from_linear(clamp(point.substance.emissive, vec3<f32>(0.0), vec3<f32>(1.0)));
     return clamp(color, vec3<f32>(0.0), vec3<f32>(1.0));
 }

@@ -1,16 +1,16 @@
-// One property of the surface at a time, without light. The numbers are `scene::ViewMode`'s, in the order of its menu.
+// One property of the surface at a time, without light. Names and numbers are `scene::ViewMode`'s, in the order of its menu.
 
-const BASE_COLOR: u32 = 1u;
-const NORMAL_MAP: u32 = 2u;
-const SHADING_NORMAL: u32 = 3u;
-const TANGENT: u32 = 4u;
-const TEX_COORDS: u32 = 5u;
-const ROUGHNESS: u32 = 6u;
-const METALLIC: u32 = 7u;
-const MATERIAL: u32 = 8u;
-const DEPTH: u32 = 9u;
-const AMBIENT_OCCLUSION: u32 = 10u;
-const SHADOW: u32 = 11u;
+const VIEW_BASE_COLOR: u32 = 1u;
+const VIEW_NORMAL_MAP: u32 = 2u;
+const VIEW_NORMAL: u32 = 3u;
+const VIEW_TANGENT: u32 = 4u;
+const VIEW_UV: u32 = 5u;
+const VIEW_ROUGHNESS: u32 = 6u;
+const VIEW_METALLIC: u32 = 7u;
+const VIEW_MATERIAL: u32 = 8u;
+const VIEW_DEPTH: u32 = 9u;
+const VIEW_AO: u32 = 10u;
+const VIEW_SHADOW: u32 = 11u;
 
 // A normal map's texel on a flat surface, in bytes 128, 128, 255.
 const FLAT: vec3<f32> = vec3<f32>(128.0 / 255.0, 128.0 / 255.0, 1.0);
@@ -37,45 +37,45 @@ fn facing_shade(point: SurfacePoint) -> f32 {
 
 fn surface_color(point: SurfacePoint) -> vec3<f32> {
     switch camera.view_mode {
-        case BASE_COLOR: {
-            return srgb_from_linear(point.made.base_color);
+        case VIEW_BASE_COLOR: {
+            return srgb_from_linear(point.substance.base_color);
         }
-        case NORMAL_MAP: {
+        case VIEW_NORMAL_MAP: {
             if material.normal_channels == 0u {
                 return FLAT;
             }
-            let xy = point.made.normal_texel.rg;
+            let xy = point.substance.normal_texel.rg;
             let away = xy * 2.0 - 1.0;
             let z = sqrt(max(1.0 - dot(away, away), 0.0)) * 0.5 + 0.5;
-            return vec3<f32>(xy, select(point.made.normal_texel.b, z, material.normal_channels == 2u));
+            return vec3<f32>(xy, select(point.substance.normal_texel.b, z, material.normal_channels == 2u));
         }
-        case SHADING_NORMAL: {
+        case VIEW_NORMAL: {
             return direction_color(point.normal);
         }
-        case TANGENT: {
+        case VIEW_TANGENT: {
             let unit = normalize_or(point.tangent.xyz, vec3<f32>(0.0));
             return direction_color(unit) * select(0.6, 1.0, point.tangent.w >= 0.0);
         }
-        case TEX_COORDS: {
+        case VIEW_UV: {
             return checker(point.tex_coord) * facing_shade(point);
         }
-        case ROUGHNESS: {
-            return vec3<f32>(1.0 - point.made.shininess);
+        case VIEW_ROUGHNESS: {
+            return vec3<f32>(1.0 - point.substance.shininess);
         }
-        case METALLIC: {
-            return vec3<f32>(point.made.metallic);
+        case VIEW_METALLIC: {
+            return vec3<f32>(point.substance.metallic);
         }
-        case MATERIAL: {
+        case VIEW_MATERIAL: {
             return material.identity_srgb.rgb * facing_shade(point);
         }
-        case DEPTH: {
+        case VIEW_DEPTH: {
             let along = dot(point.world_position - camera.eye, camera.forward);
             return vec3<f32>(1.0 - clamp((along - camera.depth_near) / (camera.depth_far - camera.depth_near), 0.0, 1.0));
         }
-        case AMBIENT_OCCLUSION: {
+        case VIEW_AO: {
             return vec3<f32>(point.occlusion);
         }
-        case SHADOW: {
+        case VIEW_SHADOW: {
             return vec3<f32>(key_arrival(point));
         }
         default: {

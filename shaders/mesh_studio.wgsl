@@ -8,8 +8,8 @@ const RIM_COLOR: vec3<f32> = vec3<f32>(0.50, 0.66, 0.95);
 const LEAST_ROUGHNESS: f32 = 0.08;
 
 fn surface_color(point: SurfacePoint) -> vec3<f32> {
-    if point.made.is_unlit {
-        return srgb_from_linear(point.made.base_color);
+    if point.substance.is_unlit {
+        return srgb_from_linear(point.substance.base_color);
     }
     // Surfaces that face away from the key shadow themselves. The light fades out before that angle, since on coarse triangles with
     // smooth normals the map would show each triangle's edge, and jagged.
@@ -20,17 +20,17 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
         key_visible = own_light * key_arrival(point);
     }
     let surface = StudioSurface(
-        point.made.albedo,
-        point.made.fresnel0,
+        point.substance.albedo,
+        point.substance.fresnel0,
         // The alpha scales 1 - roughness, as in the book's shader. Other formats define glossiness the same way (glTF's
         // KHR_materials_pbrSpecularGlossiness: 1 - roughness).
-        max(1.0 - point.made.shininess, LEAST_ROUGHNESS),
+        max(1.0 - point.substance.shininess, LEAST_ROUGHNESS),
         point.normal,
         point.smooth_normal,
         point.to_eye,
         point.occlusion,
     );
     let lights = StudioLights(light.to_key, KEY_COLOR, key_visible, light.to_rim, RIM_COLOR);
-    let radiance = studio_light(surface, lights) + point.made.emissive;
+    let radiance = studio_light(surface, lights) + point.substance.emissive;
     return srgb_from_linear(tone_mapped(exposed(radiance, camera.exposure_stops)));
 }

@@ -36,6 +36,6 @@ fn substance(mesh: MeshVertex) -> Substance {
 }
 
 // The diffuse colour that the books' light takes, sRGB-encoded: they multiply colours with encoded texels.
-fn book_albedo(made: Substance) -> vec3<f32> {
-    return material.book_albedo * srgb_from_linear(made.diffuse_texel.rgb);
+fn book_albedo(point: Substance) -> vec3<f32> {
+    return material.book_albedo * srgb_from_linear(point.diffuse_texel.rgb);
 }

@@ -35,20 +35,20 @@ struct SurfacePoint {
     // Interpolated from the vertices.
     tangent: vec4<f32>,
     tex_coord: vec2<f32>,
-    made: Substance,
+    substance: Substance,
     // Ambient occlusion: the fraction of the environment that reaches the point.
     occlusion: f32,
 }
 
 // Samples maps and takes derivatives, so every pixel of a triangle must call it.
 fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
-    let made = substance(mesh);
+    let of_maps = substance(mesh);
     let derived_normal = normalize_or(cross(dpdx(mesh.world_position), dpdy(mesh.world_position)), camera.forward);
     let side = select(-1.0, 1.0, clockwise) * mesh.front_sign;
     let to_eye = towards_eye(mesh.world_position);
     let vertex_normal = normalize_or(mesh.world_normal, to_eye * side);
     // Seen from behind, a bump is a dent.
-    let normal = mapped_normal(made.normal_texel.rgb, made.normal_scale, vertex_normal, mesh.world_tangent) * side;
+    let normal = mapped_normal(of_maps.normal_texel.rgb, of_maps.normal_scale, vertex_normal, mesh.world_tangent) * side;
     // Its last texels are not blended with what lies beside the map in its texture.
     let in_map = min(mesh.clip.xy / camera.viewport_pixels * half_size(), half_size() - 0.5);
     return SurfacePoint(
@@ -59,8 +59,8 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
         normal,
         mesh.world_tangent,
         mesh.tex_coord,
-        made,
-        textureSampleLevel(occlusion_map, environment_sampler, in_map / vec2<f32>(textureDimensions(occlusion_map)), 0.0).r * made.occlusion,
+        of_maps,
+        textureSampleLevel(occlusion_map, environment_sampler, in_map / vec2<f32>(textureDimensions(occlusion_map)), 0.0).r * of_maps.occlusion,
     );
 }
 

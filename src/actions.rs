@@ -3,6 +3,8 @@
 //!
 //! Keys are words as people read them: `Shift Space`, `Ctrl Z`, `←`. This module knows no window.
 
+use std::fmt;
+
 use glam::Vec2;
 
 use crate::anim::{Direction, SkinView};
@@ -15,6 +17,36 @@ const ORBIT_STEP_RADIANS: f32 = std::f32::consts::PI / 36.0;
 const PAN_STEP: f32 = 0.04;
 /// A key scales the distance by this, or by its inverse.
 const ZOOM_STEP: f32 = 1.08;
+
+/// The stable name of a control, whatever it says and wherever it stands: `frame-model`, `bone-12`. An action has one, and panels give one
+/// to what they show. On the page it is `data-control`, for tests, scripts and guides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Control {
+    name: &'static str,
+    index: Option<usize>,
+}
+
+impl Control {
+    /// A control of this name: words with a hyphen or an underscore between them.
+    pub const fn new(name: &'static str) -> Self {
+        Self { name, index: None }
+    }
+
+    /// One of many alike, by its number.
+    pub const fn at(self, index: usize) -> Self {
+        Self {
+            index: Some(index),
+            ..self
+        }
+    }
+}
+
+impl fmt::Display for Control {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name.to_ascii_lowercase().replace('_', "-"))?;
+        self.index.map_or(Ok(()), |index| write!(f, "-{index}"))
+    }
+}
 
 /// What an action asks for.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,6 +95,8 @@ impl Group {
 /// One action. Its methods answer for a session as it is.
 #[derive(Clone, Copy, Debug)]
 pub struct Action {
+    /// The name of the button, switch or line of a menu that asks for it.
+    pub control: Control,
     /// Where it stands in the table of keys.
     pub group: Group,
     /// What it does, in the words of the table of keys. Neighbours with the same words share a row.
@@ -76,7 +110,7 @@ pub struct Action {
     /// Whether Shift with its key asks for nothing. Otherwise Shift is ignored where it has no meaning of its own.
     pub without_shift: bool,
     /// Whether a message says what its key changed, since neither the picture nor a chip does.
-    pub told: bool,
+    pub announced: bool,
     ask: fn(&Session) -> Option<Ask>,
     now: fn(&Session) -> Option<String>,
 }
@@ -90,15 +124,23 @@ impl Action {
         ask: fn(&Session) -> Option<Ask>,
     ) -> Self {
         Self {
+            control: Control::new(""),
             group,
             does,
             label,
             keys,
             repeats: false,
             without_shift: false,
-            told: false,
+            announced: false,
             ask,
             now: |_| None,
+        }
+    }
+
+    const fn named(self, name: &'static str) -> Self {
+        Self {
+            control: Control::new(name),
+            ..self
         }
     }
 
@@ -117,8 +159,11 @@ impl Action {
         }
     }
 
-    const fn told(self) -> Self {
-        Self { told: true, ..self }
+    const fn announced(self) -> Self {
+        Self {
+            announced: true,
+            ..self
+        }
     }
 
     /// What it asks for. None when it is not possible: a model without bones shows none.
@@ -277,7 +322,7 @@ fn speed(session: &Session) -> Option<String> {
 
 macro_rules! actions {
     ($($(#[$doc:meta])* $name:ident: $action:expr;)*) => {
-        $($(#[$doc])* pub const $name: Action = $action;)*
+        $($(#[$doc])* pub const $name: Action = $action.named(stringify!($name));)*
 
         /// All actions, in the order of the table of keys.
         pub const ALL: &[Action] = &[$($name),*];
@@ -342,7 +387,7 @@ actions! {
     /// To the next loop mode: once, loop, there and back.
     NEXT_LOOP_MODE: Action::new(Group::Time, &["L"], "next loop mode", "Loop mode", |_| ask(PlayCommand::CycleLoopMode))
         .now(|session| Some(session.playback().loop_mode().label().to_owned()))
-        .told();
+        .announced();
     /// To the next clip.
     NEXT_CLIP: Action::new(Group::Time, &["C"], "next clip", "Next clip", |_| ask(PlayCommand::CycleClip(1)));
     /// To the previous clip.
@@ -391,7 +436,7 @@ actions! {
     /// Orthographic or perspective.
     ORTHOGRAPHIC: Action::new(Group::Camera, &["5"], "orthographic", "Orthographic", |_| ask(CameraCommand::ToggleProjection))
         .now(|session| on(session.camera().projection == Projection::Orthographic))
-        .told();
+        .announced();
     /// View from an upper corner.
     ISOMETRIC: Action::new(Group::Camera, &["9"], "isometric, reset", "Isometric", |_| {
         glide(CameraCommand::LookFrom(ViewPreset::Isometric))

@@ -1,8 +1,8 @@
 //! Order of calls in one pass of the window: time, interface, commands, picture.
 
-mod sheet_job;
+mod contact_sheet_job;
 
-pub use sheet_job::{SheetFailure, SheetJob};
+pub use contact_sheet_job::{ContactSheetFailure, ContactSheetJob};
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -15,7 +15,7 @@ use crate::painter::{PainterOptions, SessionPainter};
 use crate::render::{Compositor, Picture, PictureError, device};
 use crate::scene::FrameOptions;
 use crate::session::{ExportedFile, Session};
-use crate::ui::{self, Contrast, Request, SheetRequest, UiState};
+use crate::ui::{self, ContactSheetRequest, Contrast, Request, UiState};
 
 /// Longest step of time: a window that was asleep goes on where it was.
 const MAX_STEP_SECS: f32 = 0.25;
@@ -26,7 +26,7 @@ const PREPARE_PAUSE_SECS: f32 = 0.05;
 /// this, so that a slow one still answers.
 const EXPORT_SECS: [f64; 2] = [0.008, 0.25];
 
-/// What an app is told of where it runs.
+/// What an app is seen_by_panels of where it runs.
 #[derive(Clone, Copy, Debug)]
 pub struct AppOptions {
     pub coarse_pointer: bool,
@@ -109,7 +109,8 @@ impl App {
             top.add(egui_wgpu::Callback::new_paint_callback(window, ShowTarget));
         }
         if session.joints().marked() != marked {
-            // A panel that moved under the pointer may have done that, and no input follows that would update the other panels.
+            // The panels were shown before these commands: those about a new selection show in the next pass. It may also have been a
+            // panel that moved under the pointer, which no input follows.
             ui.ctx().request_repaint();
         }
 
@@ -121,7 +122,7 @@ impl App {
         let requests = state.take_requests();
         session.follow_motion();
         let size = window.size() * ui.pixels_per_point();
-        let told = (session.model_revision(), session.error().is_some());
+        let seen_by_panels = (session.model_revision(), session.error().is_some());
         let cost = {
             let mut renderer = self.gpu.renderer.write();
             let compositor = renderer.callback_resources.get_mut::<Compositor>();
@@ -134,7 +135,7 @@ impl App {
             || self.was_moving
             || !self.painter.is_current(&session)
             // The GPU refused something: the panels of this pass do not tell of it yet.
-            || (session.model_revision(), session.error().is_some()) != told
+            || (session.model_revision(), session.error().is_some()) != seen_by_panels
         {
             ui.ctx().request_repaint();
         } else if let Some(secs) = session.quality().rests_in_secs() {
@@ -233,31 +234,31 @@ impl App {
     ///
     /// # Errors
     /// When there is no room for so many pictures.
-    pub fn begin_sheet(&self, wanted: &SheetRequest) -> Result<SheetJob, SheetFailure> {
-        SheetJob::new(&self.session.borrow(), wanted)
+    pub fn begin_contact_sheet(&self, wanted: &ContactSheetRequest) -> Result<ContactSheetJob, ContactSheetFailure> {
+        ContactSheetJob::new(&self.session.borrow(), wanted)
     }
 
     /// Draws the next picture of a contact sheet. What its session shows must be what the window's shows, but for the view.
     ///
     /// # Errors
     /// When another model or other maps are open now, or the device draws no picture of this size.
-    pub fn draw_next(&mut self, job: &mut SheetJob) -> Result<Picture, SheetFailure> {
+    pub fn draw_next(&mut self, job: &mut ContactSheetJob) -> Result<Picture, ContactSheetFailure> {
         let mut session = self.session.borrow_mut();
         if !self.painter.has_uploaded(&mut session, job.session()) {
-            return Err(SheetFailure::Changed);
+            return Err(ContactSheetFailure::Changed);
         }
         let (frame, target) = job.next();
         Ok(self.painter.picture_into(&frame, target)?)
     }
 
-    /// Shows how far the contact sheet is that a person asked for, as [`SheetJob::progress`] says. False when it was cancelled.
+    /// Shows how far the contact sheet is that a person asked for, as [`ContactSheetJob::progress`] says. False when it was cancelled.
     pub fn show_sheet_progress(&mut self, progress: [usize; 2]) -> bool {
         self.state.borrow_mut().show_sheet_progress(progress)
     }
 
     /// The contact sheet has come to its end, or never will.
-    pub fn end_sheet(&mut self) {
-        self.state.borrow_mut().end_sheet();
+    pub fn end_contact_sheet(&mut self) {
+        self.state.borrow_mut().end_contact_sheet();
     }
 }
 

@@ -12,12 +12,14 @@ const ON = {
 };
 /** What else is on is chosen, where ARIA knows such a state. */
 const CHOSEN = new Set(["option", "tab", "treeitem", "row", "gridcell", "columnheader", "rowheader"]);
-/** Roles that ARIA lets be folded. */
+/** Roles that may be folded. */
 const FOLDED = new Set(["button", "link", "row", "tab", "treeitem", "gridcell", "rowheader", "checkbox", "switch", "menuitem", "menuitemcheckbox", "menuitemradio"]);
 /** Roles that have a place among their like. */
 const PLACED = new Set(["treeitem", "option", "listitem", "radio", "tab", "menuitem", "menuitemradio"]);
-/** Roles that are called by `aria-label`; a name of others would be ignored or forbidden. */
+/** Roles that `aria-label` does not name; they are named by their text. */
 const UNNAMED = new Set(["text", "heading", "listitem", "gridcell", "columnheader", "rowheader", "status", "alert"]);
+/** Controls that open a dialog of the browser: what is picked there. */
+const PICKED = { "open-files": "files", "add-clips": "clips" };
 /** What opens over the rest, and takes the focus with it. */
 const OVERLAYS = new Set(["dialog", "alertdialog", "menu"]);
 /** Keys of a slider that the browser turns into a value. */
@@ -41,7 +43,7 @@ let mirrors = 0;
 
 /**
  * Mirrors the controls of `viewer` behind the canvas that it runs on. `pick(what)` opens the dialog for
- * "files" or "clips"; a browser may let it only within the click. Gives what takes the viewer's `mirror` events, and `remove()`.
+ * "files" or "clips", within the click. Gives what takes the viewer's `mirror` events, and `remove()`.
  */
 export function mirrorOf(viewer, canvas, pick) {
   const prefix = `mirror${++mirrors}-`;
@@ -133,6 +135,7 @@ export function mirrorOf(viewer, canvas, pick) {
     } else {
       set("aria-label", name);
     }
+    set("data-control", record.control);
     set("aria-description", record.description);
     set("aria-disabled", record.disabled || null);
     set("aria-invalid", record.invalid || null);
@@ -320,7 +323,7 @@ export function mirrorOf(viewer, canvas, pick) {
   root.addEventListener("click", ({ target }) => {
     const { record } = mirrored.get(idOf(target)) ?? {};
     if (!record?.clickable || record.disabled) return;
-    if (record.picks && pick) return pick(record.picks);
+    if (pick && PICKED[record.control]) return pick(PICKED[record.control]);
     // From here on the viewer says where the focus is: what opens may take it before the viewer has told that it was here.
     asked = undefined;
     act(target, "click");

@@ -160,8 +160,9 @@ impl ArcLanes {
     /// sin(part · angle) / sin(angle), written with [`sine_over_angle`] so that they hold for an angle of 0 too.
     #[inline]
     fn weights(&self, part: Vec4) -> [Vec4; 2] {
-        [Vec4::ONE - part, part]
-            .map(|part| part * sine_over_angle(self.angle_squared * part * part) * self.angle_over_sine)
+        let weight = |part| part * sine_over_angle(self.angle_squared * part * part) * self.angle_over_sine;
+        // No `map` of an array: it is not inlined.
+        [weight(Vec4::ONE - part), weight(part)]
     }
 }
 

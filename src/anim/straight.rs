@@ -75,7 +75,7 @@ fn add_between<T: ChannelValue>(
     let time_at = |part: f32| start.0 + (end.0 - start.0) * part;
     // Not the middle alone: a curve that eases in and out crosses its chord there.
     let strays = |part: f32| {
-        let ends = [start.1, end.1.beside(start.1).unwrap_or(end.1)];
+        let ends = [start.1, end.1.near(start.1).unwrap_or(end.1)];
         apart(T::between(ends, f64::from(part)), channel.at(time_at(part))) > MOST_ERROR
     };
     let middle_secs = time_at(0.5);

@@ -4,17 +4,17 @@ use glam::Vec3;
 
 use crate::anim::{CompiledClip, Palette, PoseBuffers, skin_position};
 use crate::diagnostic::collect::{Diagnostics, Place};
-use crate::diagnostic::{Moment, Places, Row, Subject, codes};
+use crate::diagnostic::{Entry, Moment, Places, Subject, codes};
 use crate::model::{Mesh, Model};
 
 /// Triangles looked at for a clip, spread over the mesh: enough to estimate a fraction.
-const LOOKED_AT: usize = 4_000;
+const TRIANGLES_PER_CLIP: usize = 4_000;
 
 /// Triangles looked at for all clips together, so that thousands of clips do not look at the mesh thousands of times.
-const LOOKED_AT_IN_ALL: usize = 100 * LOOKED_AT;
+const TRIANGLES_IN_ALL: usize = 100 * TRIANGLES_PER_CLIP;
 
 /// The least number of triangles looked at for a clip.
-const LEAST_LOOKED_AT: usize = 50;
+const LEAST_TRIANGLES: usize = 50;
 
 /// An edge is torn when it grew this many times more than the median edge of the pose.
 const TORN: f32 = 4.0;
@@ -33,7 +33,7 @@ pub(super) fn note_exploded(
     if model.mesh.influences.is_empty() {
         return;
     }
-    let looked_at = (LOOKED_AT_IN_ALL / compiled.len().max(1)).clamp(LEAST_LOOKED_AT, LOOKED_AT);
+    let looked_at = (TRIANGLES_IN_ALL / compiled.len().max(1)).clamp(LEAST_TRIANGLES, TRIANGLES_PER_CLIP);
     let mut pose = PoseBuffers::default();
     for (index, (clip, compiled)) in (0u32..).zip(model.clips.iter().zip(compiled)) {
         // Before its start every track holds its first key.
@@ -42,7 +42,7 @@ pub(super) fn note_exploded(
         if torn > TORN_FRACTION {
             diagnostics.add(
                 &codes::EXPLODED,
-                Place::on(Subject::Clip(index), places.line(Row::Clip(index))).at([Moment {
+                Place::on(Subject::Clip(index), places.line(Entry::Clip(index))).at([Moment {
                     time_secs: Some(clip.start_secs),
                     bone: None,
                 }]),

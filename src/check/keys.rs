@@ -2,7 +2,7 @@
 
 use crate::anim::JointChange;
 use crate::diagnostic::collect::{Diagnostics, Moments, Place, counted};
-use crate::diagnostic::{Moment, Places, Row, Subject, codes};
+use crate::diagnostic::{Entry, Moment, Places, Subject, codes};
 use crate::model::{Clip, JointIndex, Model, Track};
 
 /// Up to this many equal keys of a bone are none too many: the first and the last are a common way to say how long it keeps still.
@@ -17,7 +17,9 @@ pub(super) fn note_still_tracks(model: &Model, places: &dyn Places, diagnostics:
         let of_bones = model.skeleton.file_bones().iter().zip(&clip.tracks);
         let mut still = Moments::default();
         for (&bone, _) in of_bones.filter(|(_, track)| is_still(track)) {
-            still.add(Moment::of_bone(bone), || places.line(Row::Track { clip: index, bone }));
+            still.add(Moment::of_bone(bone), || {
+                places.line(Entry::Track { clip: index, bone })
+            });
         }
         let keys: usize = clip.tracks.iter().map(Track::key_count).sum();
         if let Some(surplus) = surplus_keys(clip) {
@@ -72,7 +74,7 @@ pub(super) fn note_loop_gaps(model: &Model, places: &dyn Places, diagnostics: &m
             let bone = model.skeleton.file_bones()[joint.index()];
             diagnostics.add(
                 &codes::LOOP_JUMPS,
-                Place::on(Subject::Clip(index), places.line(Row::Track { clip: index, bone })).at([Moment::new(clip.end_secs, bone)]),
+                Place::on(Subject::Clip(index), places.line(Entry::Track { clip: index, bone })).at([Moment::new(clip.end_secs, bone)]),
                 format!(
                     "\"{}\" ends near its first pose, but bone {bone} jumps by {:.1} % of the model's size where it begins again.",
                     clip.name,

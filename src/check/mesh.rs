@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::diagnostic::collect::{Diagnostics, Tally, counted};
-use crate::diagnostic::{Places, Row, Subject, codes};
+use crate::diagnostic::{Entry, Places, Subject, codes};
 use crate::model::{Aabb, Mesh, Model};
 
 /// A triangle lower than this fraction of the mesh's diagonal has no area: positions have about seven digits in a file and in an
@@ -48,7 +48,7 @@ pub(super) fn note_useless(mesh: &Mesh, places: &dyn Places, diagnostics: &mut D
     if flat.count > 0 {
         diagnostics.add(
             &codes::TRIANGLES_WITHOUT_AREA,
-            places.of_rows(&flat, Subject::Triangle, Row::Triangle),
+            places.of_rows(&flat, Subject::Triangle, Entry::Triangle),
             format!(
                 "{} no area: corners coincide or lie in a line.",
                 counted(flat.count, "triangle has", "triangles have")
@@ -58,7 +58,7 @@ pub(super) fn note_useless(mesh: &Mesh, places: &dyn Places, diagnostics: &mut D
     if unused.count > 0 {
         diagnostics.add(
             &codes::VERTICES_UNUSED,
-            places.of_rows(&unused, Subject::Vertex, Row::Vertex),
+            places.of_rows(&unused, Subject::Vertex, Entry::Vertex),
             format!(
                 "{} of no triangle.",
                 counted(unused.count, "vertex is a corner", "vertices are corners")
@@ -93,7 +93,7 @@ pub(super) fn note_turned_away(model: &Model, places: &dyn Places, diagnostics: 
     }
     let mut note = |code, tally: &Tally, what| {
         if tally.count > 0 {
-            let place = places.of_rows(tally, Subject::Triangle, Row::Triangle);
+            let place = places.of_rows(tally, Subject::Triangle, Entry::Triangle);
             diagnostics.add(
                 code,
                 place,
@@ -136,14 +136,14 @@ fn is_flat([a, b, c]: [DVec3; 3], least_height: f64) -> bool {
 }
 
 /// Notes triangles of the same three vertices, and edges of more than two triangles. Both come from sorted lists, so a vertex or an
-/// edge with any number of triangles costs no more than others. Vertices count as the same by their number, not by their place: a mesh
+/// edge with any number of triangles costs hardly more than others. Vertices count as the same by their number, not by their place: a mesh
 /// may well be sewn together of sheets that touch.
 pub(super) fn note_repeated(mesh: &Mesh, places: &dyn Places, diagnostics: &mut Diagnostics) {
     let mut by_corners = by_corners(mesh);
     let repeated: Vec<u32> = repeated(&by_corners).map(|(_, triangle)| triangle).collect();
     note_same_corners(repeated, places, diagnostics);
     by_corners.dedup_by_key(|(corners, _)| *corners);
-    note_crowded_edges(by_corners, places, diagnostics);
+    note_crowded_edges(by_corners, mesh.vertex_count(), places, diagnostics);
 }
 
 /// Each triangle that has the vertices of another one before, after that one.
@@ -153,20 +153,48 @@ pub(crate) fn repeated_triangles(mesh: &Mesh) -> Vec<(u32, u32)> {
 
 /// Triangles with their corners in order, sorted by these. One with equal corners is no triangle; it is told of elsewhere.
 fn by_corners(mesh: &Mesh) -> Vec<([u32; 3], u32)> {
-    let mut by_corners: Vec<([u32; 3], u32)> = triangles(mesh)
+    let with_area: Vec<([u32; 3], u32)> = triangles(mesh)
         .map(|(triangle, mut corners)| {
             corners.sort_unstable();
             (corners, triangle)
         })
         .filter(|([a, b, c], _)| a != b && b != c)
         .collect();
-    // As one number each they are sorted faster.
-    by_corners.sort_unstable_by_key(|&([a, b, c], triangle)| {
-        [a, b, c, triangle]
-            .into_iter()
-            .fold(0_u128, |number, part| number << 32 | u128::from(part))
-    });
-    by_corners
+    sorted_by_vertex(
+        &with_area,
+        mesh.vertex_count(),
+        |&([a, ..], _)| a,
+        |&([_, b, c], triangle)| (b, c, triangle),
+    )
+}
+
+/// Sorts by a vertex, and what has the same vertex by a key. The first is done by counting: a mesh has few triangles at each vertex.
+fn sorted_by_vertex<T: Copy, K: Ord>(
+    items: &[T],
+    vertex_count: usize,
+    vertex_of: impl Fn(&T) -> u32,
+    key_of: impl Fn(&T) -> K,
+) -> Vec<T> {
+    // Where the items of each vertex end; filled from the back, where they begin.
+    let mut places = vec![0_usize; vertex_count + 1];
+    for item in items {
+        places[vertex_of(item) as usize] += 1;
+    }
+    let mut end = 0;
+    for place in &mut places {
+        end += *place;
+        *place = end;
+    }
+    let mut sorted = items.to_vec();
+    for &item in items {
+        let place = &mut places[vertex_of(&item) as usize];
+        *place -= 1;
+        sorted[*place] = item;
+    }
+    for ends in places.windows(2) {
+        sorted[ends[0]..ends[1]].sort_unstable_by_key(&key_of);
+    }
+    sorted
 }
 
 fn repeated(by_corners: &[([u32; 3], u32)]) -> impl Iterator<Item = (u32, u32)> {
@@ -183,7 +211,7 @@ fn note_same_corners(mut repeated: Vec<u32>, places: &dyn Places, diagnostics: &
     repeated.into_iter().for_each(|triangle| tally.add(triangle));
     diagnostics.add(
         &codes::TRIANGLES_REPEATED,
-        places.of_rows(&tally, Subject::Triangle, Row::Triangle),
+        places.of_rows(&tally, Subject::Triangle, Entry::Triangle),
         format!(
             "{} the same three vertices as another one before.",
             counted(tally.count, "triangle has", "triangles have")
@@ -192,10 +220,15 @@ fn note_same_corners(mut repeated: Vec<u32>, places: &dyn Places, diagnostics: &
 }
 
 /// Takes different triangles with their corners in order.
-fn note_crowded_edges(mut triangles: Vec<([u32; 3], u32)>, places: &dyn Places, diagnostics: &mut Diagnostics) {
-    let mut edges: Vec<u64> = triangles.iter().flat_map(|(corners, _)| edges_of(*corners)).collect();
-    edges.sort_unstable();
-    let mut crowded: Vec<u64> = edges
+fn note_crowded_edges(
+    mut triangles: Vec<([u32; 3], u32)>,
+    vertex_count: usize,
+    places: &dyn Places,
+    diagnostics: &mut Diagnostics,
+) {
+    let edges: Vec<[u32; 2]> = triangles.iter().flat_map(|(corners, _)| edges_of(*corners)).collect();
+    let edges = sorted_by_vertex(&edges, vertex_count, |&[from, _]| from, |&[_, to]| to);
+    let mut crowded: Vec<[u32; 2]> = edges
         .windows(3)
         .filter(|three| three[0] == three[2])
         .map(|three| three[0])
@@ -221,7 +254,7 @@ fn note_crowded_edges(mut triangles: Vec<([u32; 3], u32)>, places: &dyn Places, 
     }
     diagnostics.add(
         &codes::EDGES_CROWDED,
-        places.of_rows(&third, Subject::Triangle, Row::Triangle),
+        places.of_rows(&third, Subject::Triangle, Entry::Triangle),
         format!(
             "{} to more than two triangles.",
             counted(third.count, "edge belongs", "edges belong")
@@ -229,7 +262,7 @@ fn note_crowded_edges(mut triangles: Vec<([u32; 3], u32)>, places: &dyn Places, 
     );
 }
 
-/// The edges of corners in order, each as one number that has both ends.
-fn edges_of([a, b, c]: [u32; 3]) -> [u64; 3] {
-    [[a, b], [b, c], [a, c]].map(|[from, to]| u64::from(from) << 32 | u64::from(to))
+/// The edges of corners in order, each from its lesser end.
+fn edges_of([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
+    [[a, b], [b, c], [a, c]]
 }

@@ -4,7 +4,7 @@ use glam::{Affine3A, DAffine3, DMat3, DVec3};
 
 use crate::anim::{CompiledClip, PoseBuffers};
 use crate::diagnostic::collect::{Diagnostics, Place};
-use crate::diagnostic::{Moment, Places, Row, Subject, codes};
+use crate::diagnostic::{Entry, Moment, Places, Subject, codes};
 use crate::model::{Clip, Model, Skeleton, Track};
 
 /// Numbers above this count as overflow. That leaves room for the sums that make a pose: each must fit into `f32`.
@@ -27,7 +27,7 @@ pub(super) fn note_overflows(
             );
             diagnostics.add(
                 &codes::POSE_OVERFLOWS,
-                Place::on(Subject::Clip(index), places.line(Row::Track { clip: index, bone }))
+                Place::on(Subject::Clip(index), places.line(Entry::Track { clip: index, bone }))
                     .at([Moment::new(time_secs, bone)]),
                 message,
             );

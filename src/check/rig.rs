@@ -7,7 +7,7 @@ use glam::Mat3A;
 
 use crate::anim::{CompiledClip, PoseBuffers};
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
-use crate::diagnostic::{Moment, Places, Row, Subject, codes};
+use crate::diagnostic::{Entry, Moment, Places, Subject, codes};
 use crate::model::{Clip, Model, Skeleton};
 
 /// Notes bones in whose subtree no bone has a weight. A mesh without any weights has a finding of its own.
@@ -37,7 +37,7 @@ pub(super) fn note_idle_bones(model: &Model, places: &dyn Places, diagnostics: &
     if idle.count > 0 {
         diagnostics.add(
             &codes::BONES_IDLE,
-            places.of_rows(&idle, Subject::Bone, Row::Bone),
+            places.of_rows(&idle, Subject::Bone, Entry::Bone),
             format!(
                 "{} no vertex, nor does a bone below.",
                 counted(idle.count, "bone moves", "bones move")
@@ -53,10 +53,10 @@ const UNEVEN: f32 = 0.01;
 const SHEARED: f32 = 0.05;
 
 /// Poses looked at for a clip, spread over its length: a motion that shears does so for a while.
-const LOOKED_AT: usize = 20;
+const POSES_PER_CLIP: usize = 20;
 
 /// Poses looked at for all clips together, so that thousands of clips cost no more than a few.
-const LOOKED_AT_IN_ALL: usize = 50 * LOOKED_AT;
+const POSES_IN_ALL: usize = 50 * POSES_PER_CLIP;
 
 /// Notes clips that shear a bone: one is turned, and one above it is scaled by different factors.
 pub(super) fn note_shears(
@@ -68,12 +68,12 @@ pub(super) fn note_shears(
     let uneven: Vec<usize> = (0..model.clips.len())
         .filter(|&clip| scales_unevenly(&model.clips[clip]))
         .collect();
-    let looked_at = (LOOKED_AT_IN_ALL / uneven.len().max(1)).clamp(2, LOOKED_AT);
+    let looked_at = (POSES_IN_ALL / uneven.len().max(1)).clamp(2, POSES_PER_CLIP);
     for clip in uneven {
         if let Some((time_secs, bone)) = first_shear(&model.skeleton, &compiled[clip], looked_at) {
             diagnostics.add(
                 &codes::SCALE_SHEARS,
-                Place::on(Subject::Clip(clip as u32), places.line(Row::Track { clip: clip as u32, bone })).at([Moment::new(time_secs, bone)]),
+                Place::on(Subject::Clip(clip as u32), places.line(Entry::Track { clip: clip as u32, bone })).at([Moment::new(time_secs, bone)]),
                 format!(
                     "At {} s of \"{}\" bone {bone} is sheared: it is turned, and a bone above it is scaled by different factors.",
                     (time_secs * 1e3).round() / 1e3,

@@ -1,7 +1,7 @@
 //! Texture coordinates and tangents that spoil the maps which a material names.
 
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
-use crate::diagnostic::{Places, Row, Subject, codes};
+use crate::diagnostic::{Entry, Places, Subject, codes};
 use crate::model::{Front, Green, Material, Mesh, Model};
 
 /// The cosine of the angle between a bitangent and the way in which v grows, below which it points clearly the other way: by more than 135°. In the books'
@@ -20,7 +20,7 @@ pub(super) fn note_equal_coords(model: &Model, places: &dyn Places, diagnostics:
         if is_one && submesh.triangle_count > 0 && has_map(&model.materials[submesh.material as usize]) {
             diagnostics.add(
                 &codes::TEX_COORDS_EQUAL,
-                Place::on(Subject::Subset(index), places.line(Row::Subset(index))),
+                Place::on(Subject::Subset(index), places.line(Entry::Subset(index))),
                 format!("All texture coordinates of subset {index} are equal, so its maps show one point."),
             );
         }
@@ -54,7 +54,7 @@ pub(super) fn note_tangent_signs(model: &Model, places: &dyn Places, diagnostics
     if against.count > 0 {
         diagnostics.add(
             &codes::TANGENT_SIGN_AGAINST_UV,
-            places.of_rows(&against, Subject::Vertex, Row::Tangent),
+            places.of_rows(&against, Subject::Vertex, Entry::Tangent),
             format!(
                 "{} a tangent whose sign contradicts the texture coordinates.",
                 counted(against.count, "vertex has", "vertices have")

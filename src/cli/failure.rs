@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use super::diagnostic::write_diagnostic;
 use super::text::Plain;
 use crate::check::report::OneLine;
-use crate::contact_sheet::SheetError;
+use crate::contact_sheet::ContactSheetError;
 use crate::edit::EditError;
 use crate::export::ExportError;
 use crate::image::EncodeError;
@@ -73,7 +73,7 @@ pub(super) enum Failure {
     #[error("{0}")]
     WrongUse(String),
     #[error("{0}")]
-    Sheet(#[from] SheetError),
+    ContactSheet(#[from] ContactSheetError),
     #[error("{0}")]
     NoDevice(#[from] DeviceError),
     #[error("{vulkan}\n       {gl}")]

@@ -17,7 +17,7 @@ const GAP: f32 = 0.7;
 
 /// Why a sheet cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum SheetError {
+pub enum ContactSheetError {
     #[error("a sheet of {width} × {height} pixels is too large: at most {MOST_PIXELS} pixels in all")]
     TooLarge {
         /// Pixels.
@@ -63,11 +63,11 @@ pub struct Layout {
 }
 
 impl Layout {
-    pub fn new([width, height]: [u32; 2], [columns, rows]: [u32; 2]) -> Result<Self, SheetError> {
+    pub fn new([width, height]: [u32; 2], [columns, rows]: [u32; 2]) -> Result<Self, ContactSheetError> {
         if u64::from(width) * u64::from(height) > MOST_PIXELS {
-            return Err(SheetError::TooLarge { width, height });
+            return Err(ContactSheetError::TooLarge { width, height });
         }
-        let no_room = SheetError::NoRoom {
+        let no_room = ContactSheetError::NoRoom {
             width,
             height,
             columns,

@@ -6,7 +6,7 @@ mod label;
 mod layout;
 
 pub use label::INTER_REGULAR;
-pub use layout::SheetError;
+pub use layout::ContactSheetError;
 
 use crate::image::{EncodeError, encode_png};
 use crate::scene::Theme;
@@ -58,7 +58,7 @@ impl ContactSheet {
     ///
     /// # Errors
     /// When it has too many pixels, or too few for so many pictures.
-    pub fn new(size: [u32; 2], cells: [u32; 2], theme: Theme, transparent: bool) -> Result<Self, SheetError> {
+    pub fn new(size: [u32; 2], cells: [u32; 2], theme: Theme, transparent: bool) -> Result<Self, ContactSheetError> {
         let layout = Layout::new(size, cells)?;
         let inks = Inks::of(theme);
         let [red, green, blue] = inks.ground;

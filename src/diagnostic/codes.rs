@@ -17,8 +17,8 @@ pub fn named(name: &str) -> Option<&'static Code> {
     all().find(|code| code.name == name)
 }
 
-/// A constant for each row, and a list for each group. A row has: name, severity, sentence; what it means; what is done about it here; what the
-/// author of the file does about it; and how the program mends it, where it does.
+/// A constant for each row, and a list for each group. A row has, in this order: name, severity, sentence; what it means; what is done about it
+/// here; what the author of the file does about it; and how the program mends it, where it does.
 macro_rules! table {
     (@mended) => { Mended::No };
     (@mended $mended:ident) => { Mended::$mended };
@@ -662,7 +662,7 @@ table! {
             "Scale bones by one factor for all axes, or apply the scale before the export.";
     }
 
-    /// What the checks of a model in motion give.
+    /// What the checks of posed vertices give: where the keys of a clip bring the mesh.
     OF_MOTION {
         EXPLODED = "exploded", Warning,
             "The keys of a clip do not belong to the bone offsets: the mesh flies apart.",

@@ -1,4 +1,7 @@
 //! Collects the diagnostics of one stage, so that many alike become one.
+//!
+//! A [`Subject`] is a part of the model. An [`Entry`](super::Entry) is what the file says of it, and [`Places`](super::Places) tells where in the file
+//! that stands. A [`Place`] is what a diagnostic is told of both; [`Tally`] gathers one for many parts alike.
 
 use std::collections::{HashMap, HashSet};
 

@@ -11,7 +11,7 @@ mod places;
 
 use std::fmt;
 
-pub use places::{Places, Row};
+pub use places::{Entry, Places};
 
 /// A place in a file. Both numbers start at 1; the column counts bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

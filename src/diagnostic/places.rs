@@ -1,12 +1,16 @@
 //! Where the parts of a model stand in its file, and what stands at a place: one question for all formats.
 
+use std::fmt;
+
 use super::Subject;
 use super::collect::{Place, Tally};
 
-/// What a file has of a part of the model, by the file's numbers.
+/// What a file says of one part of a model, by the file's numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "named as the parts are")]
-pub enum Row {
+pub enum Entry {
+    /// The counts at the beginning.
+    Header,
     Material(u32),
     Subset(u32),
     Vertex(u32),
@@ -18,7 +22,7 @@ pub enum Row {
     /// The inverse bind matrix of a bone.
     Offset(u32),
     Clip(u32),
-    /// The keys of a bone in a clip.
+    /// The keys of a bone in a clip, and how many they are.
     Track {
         clip: u32,
         bone: u32,
@@ -30,32 +34,50 @@ pub enum Row {
     },
 }
 
+impl fmt::Display for Entry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Header => f.write_str("the header"),
+            Self::Material(index) => write!(f, "material {index}"),
+            Self::Subset(index) => write!(f, "subset {index}"),
+            Self::Vertex(index) => write!(f, "vertex {index}"),
+            Self::Tangent(index) => write!(f, "the tangent of vertex {index}"),
+            Self::Triangle(index) => write!(f, "triangle {index}"),
+            Self::Bone(bone) => write!(f, "the parent of bone {bone}"),
+            Self::Offset(bone) => write!(f, "the offset of bone {bone}"),
+            Self::Clip(index) => write!(f, "clip {index}"),
+            Self::Track { clip, bone } => write!(f, "bone {bone} of clip {clip}"),
+            Self::Key { clip, bone, key } => write!(f, "key {key} of bone {bone} in clip {clip}"),
+        }
+    }
+}
+
 /// What a format can tell of places. A text has lines, glTF has JSON pointers; what a format does not have is `None`.
 pub trait Places {
-    /// The line on which a row begins, from 1.
-    fn line(&self, _row: Row) -> Option<u32> {
+    /// The line on which an entry begins, from 1.
+    fn line(&self, _entry: Entry) -> Option<u32> {
         None
     }
 
-    /// What stands on a line: the row that begins there, or the last one before it.
-    fn row_on(&self, _line: u32) -> Option<Row> {
+    /// What stands on a line: the entry that begins there, or the last one before it.
+    fn entry_on(&self, _line: u32) -> Option<Entry> {
         None
     }
 
-    /// The pointer to a row.
-    fn pointer(&self, _row: Row) -> Option<String> {
+    /// The pointer to an entry.
+    fn pointer(&self, _entry: Entry) -> Option<String> {
         None
     }
 
-    /// The row that a pointer leads to, or into.
-    fn row_at(&self, _pointer: &str) -> Option<Row> {
+    /// The entry that a pointer leads to, or into.
+    fn entry_at(&self, _pointer: &str) -> Option<Entry> {
         None
     }
 }
 
 impl dyn Places + '_ {
-    /// Rows that are told of together.
-    pub(crate) fn of_rows(&self, rows: &Tally, subject: fn(u32) -> Subject, row: fn(u32) -> Row) -> Place {
-        Place::of_rows_on(rows, subject, |index| self.line(row(index)))
+    /// Entries that are told of together.
+    pub(crate) fn of_rows(&self, rows: &Tally, subject: fn(u32) -> Subject, entry: fn(u32) -> Entry) -> Place {
+        Place::of_rows_on(rows, subject, |index| self.line(entry(index)))
     }
 }

@@ -339,7 +339,7 @@ pub(super) fn give_keys(edited: &mut Edited, begins_at_zero: bool) -> Result<(),
             continue;
         }
         let keyed = |track: &Track| match track.has_keys() {
-            true => track.sooner(shift_secs),
+            true => track.shifted_earlier(shift_secs),
             false => Track::new([(start_secs - shift_secs, track.key(0))]),
         };
         let tracks = clip.tracks.iter().map(keyed).collect::<Result<_, _>>()?;

@@ -48,13 +48,13 @@ fn part(clip: &Clip, range_secs: [f32; 2]) -> Result<Clip, Fault> {
     {
         *keyed = Track::new(range_secs.map(|secs| (secs, keyed.key(0))))?;
     }
-    let from_zero = tracks.iter().map(|track| track.sooner(range_secs[0]));
+    let from_zero = tracks.iter().map(|track| track.shifted_earlier(range_secs[0]));
     let tracks = from_zero.collect::<Result<_, _>>()?;
     Ok(with_tracks(clip, tracks))
 }
 
 fn part_of_track(track: &Track, range_secs: [f32; 2]) -> Result<Track, Fault> {
-    // A spline of rotations has unit length at its keys alone, as files want it of keys: cut between them it goes on straight.
+    // Files want unit quaternions at keys. A spline is not of unit length between its keys, so a cut there makes the rotation go straight.
     let rotation = track.rotation();
     let cuts_spline = range_secs
         .iter()

@@ -1,6 +1,6 @@
 //! What a `.m3d` file says, in the file's own words. No meaning is added here; [`import`](crate::import) translates.
 
-use crate::diagnostic::{Places, Row};
+use crate::diagnostic::{Entry, Places};
 
 /// Which of the known spellings of the format a file uses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -193,7 +193,7 @@ impl LineMap {
     }
 
     /// The clip, track or key that begins last up to a line, and where.
-    fn row_of_clips(&self, line: u32) -> Option<(u32, Row)> {
+    fn entry_of_clips(&self, line: u32) -> Option<(u32, Entry)> {
         let clip = self
             .clips
             .partition_point(|of_clip| of_clip.clip <= line)
@@ -201,7 +201,7 @@ impl LineMap {
         let of_clip = &self.clips[clip];
         let clip = clip as u32;
         let Some(bone) = of_clip.bones.partition_point(|&start| start <= line).checked_sub(1) else {
-            return Some((of_clip.clip, Row::Clip(clip)));
+            return Some((of_clip.clip, Entry::Clip(clip)));
         };
         let (start, bone) = (of_clip.bones[bone], bone as u32);
         let run = of_clip.key_runs.partition_point(|run| run.line <= line).checked_sub(1);
@@ -209,9 +209,9 @@ impl LineMap {
         Some(match run {
             Some(run) => {
                 let key = run.key + (line - run.line);
-                (line, Row::Key { clip, bone, key })
+                (line, Entry::Key { clip, bone, key })
             }
-            None => (start, Row::Track { clip, bone }),
+            None => (start, Entry::Track { clip, bone }),
         })
     }
 
@@ -228,38 +228,39 @@ impl LineMap {
 }
 
 impl Places for LineMap {
-    fn line(&self, row: Row) -> Option<u32> {
+    fn line(&self, entry: Entry) -> Option<u32> {
         let at = |lines: &[u32], index: u32| lines.get(index as usize).copied();
-        match row {
-            Row::Material(index) => at(&self.materials, index),
-            Row::Subset(index) => at(&self.subsets, index),
-            Row::Vertex(index) => at(&self.vertices, index),
-            Row::Tangent(index) => self.vertex_line(index, VertexField::Tangent),
-            Row::Triangle(index) => at(&self.triangles, index),
-            Row::Bone(index) => at(&self.bone_parents, index),
-            Row::Offset(index) => at(&self.bone_offsets, index),
-            Row::Clip(index) => Some(self.clips.get(index as usize)?.clip),
-            Row::Track { clip, bone } => self.track(clip, bone),
-            Row::Key { clip, bone, key } => self.clips.get(clip as usize)?.key(bone, key),
+        match entry {
+            Entry::Header => None,
+            Entry::Material(index) => at(&self.materials, index),
+            Entry::Subset(index) => at(&self.subsets, index),
+            Entry::Vertex(index) => at(&self.vertices, index),
+            Entry::Tangent(index) => self.vertex_line(index, VertexField::Tangent),
+            Entry::Triangle(index) => at(&self.triangles, index),
+            Entry::Bone(index) => at(&self.bone_parents, index),
+            Entry::Offset(index) => at(&self.bone_offsets, index),
+            Entry::Clip(index) => Some(self.clips.get(index as usize)?.clip),
+            Entry::Track { clip, bone } => self.track(clip, bone),
+            Entry::Key { clip, bone, key } => self.clips.get(clip as usize)?.key(bone, key),
         }
     }
 
-    fn row_on(&self, line: u32) -> Option<Row> {
-        let last = |lines: &[u32], row: fn(u32) -> Row| {
+    fn entry_on(&self, line: u32) -> Option<Entry> {
+        let last = |lines: &[u32], entry: fn(u32) -> Entry| {
             let index = lines.partition_point(|&start| start <= line).checked_sub(1)?;
-            Some((lines[index], row(index as u32)))
+            Some((lines[index], entry(index as u32)))
         };
         let lists = [
-            last(&self.materials, Row::Material),
-            last(&self.subsets, Row::Subset),
-            last(&self.vertices, Row::Vertex),
-            last(&self.triangles, Row::Triangle),
-            last(&self.bone_offsets, Row::Offset),
-            last(&self.bone_parents, Row::Bone),
-            self.row_of_clips(line),
+            last(&self.materials, Entry::Material),
+            last(&self.subsets, Entry::Subset),
+            last(&self.vertices, Entry::Vertex),
+            last(&self.triangles, Entry::Triangle),
+            last(&self.bone_offsets, Entry::Offset),
+            last(&self.bone_parents, Entry::Bone),
+            self.entry_of_clips(line),
         ];
         let nearest = lists.into_iter().flatten().max_by_key(|(start, _)| *start);
-        nearest.map(|(_, row)| row)
+        nearest.map(|(_, entry)| entry)
     }
 }
 

@@ -54,10 +54,11 @@ pub use document::*;
 pub use excerpt::{Excerpt, LineIndex, excerpt, is_printable};
 pub use label::Section;
 pub use likeness::begins_like_model;
+pub use quick::QuickVertices;
 pub use write::write;
 
 use self::reader::Reader;
-use crate::diagnostic::{Diagnostic, Fault, Places, Position, Row, codes};
+use crate::diagnostic::{Diagnostic, Entry, Fault, Places, Position, codes};
 use kind::DiagnosticKind;
 use likeness::Stranger;
 
@@ -70,15 +71,17 @@ pub struct Parsed {
     pub lines: LineMap,
     /// What was mended or is worth knowing, in the order of the file.
     pub diagnostics: Vec<Diagnostic>,
+    /// Where its vertices are, if a second reader can pass over them.
+    pub quick_vertices: Option<QuickVertices>,
 }
 
 impl Places for Parsed {
-    fn line(&self, row: Row) -> Option<u32> {
-        self.lines.line(row)
+    fn line(&self, entry: Entry) -> Option<u32> {
+        self.lines.line(entry)
     }
 
-    fn row_on(&self, line: u32) -> Option<Row> {
-        self.lines.row_on(line)
+    fn entry_on(&self, line: u32) -> Option<Entry> {
+        self.lines.entry_on(line)
     }
 }
 
@@ -148,6 +151,7 @@ pub fn parse(bytes: &[u8]) -> Result<Parsed, Fault> {
         document,
         lines,
         diagnostics: reader.kinds.into_diagnostics(),
+        quick_vertices: vertices.quick,
     })
 }
 

@@ -24,6 +24,19 @@ const LONG: VertexLabels = [
 /// As imm_engine writes them.
 const SHORT: VertexLabels = [b"P:", b"T:", b"N:", b"T:", b"W:", b"I:"];
 
+/// Where the vertices of a file are that all stand as the books' exporter writes them: who reads the same bytes with this reader comes to
+/// the same vertices, and can pass over them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct QuickVertices {
+    /// Offset of the first, and behind the last.
+    pub(crate) bytes: [usize; 2],
+    /// Line behind the last, and its offset.
+    pub(crate) end_line: u32,
+    pub(crate) end_line_start: usize,
+    /// Whether they have weights.
+    pub(crate) bones: u32,
+}
+
 /// Reads a vertex; with bones, its blend indices are below `bones`. Also gives the line of its position.
 #[inline]
 pub(crate) fn vertex<const SHORT_LABELS: bool>(cursor: &mut Cursor<'_>, bones: u32) -> Option<(Vertex, u32)> {

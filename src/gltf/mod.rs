@@ -5,6 +5,7 @@
 
 mod accessor;
 mod buffers;
+mod component;
 mod container;
 mod fault;
 mod json;
@@ -14,10 +15,11 @@ mod rules;
 mod uri;
 
 pub use crate::diagnostic::Fault;
-pub(crate) use accessor::Fit;
-pub use accessor::{Effort, Reader, Wanted};
+pub use accessor::{Effort, Reader};
 pub(crate) use buffers::out_of_range;
 pub use buffers::{Buffers, FindFile};
+pub(crate) use component::Fit;
+pub use component::Wanted;
 pub use container::{Container, begins_like_gltf, open};
 pub(crate) use fault::fault;
 pub use json::{

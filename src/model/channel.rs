@@ -38,8 +38,8 @@ pub trait ChannelValue:
     fn bits(self) -> [u32; 4];
     /// What lies at a part of the straight way. It is made in f64.
     fn between(ends: [Self; 2], part: f64) -> Self;
-    /// The value as one beside another: a rotation at unit length, on the other's side. `None` for one without a direction.
-    fn beside(self, other: Self) -> Option<Self>;
+    /// The value for blending with another one: of the two numbers of a rotation the one nearer to the other's, at unit length. `None` for one without a direction.
+    fn near(self, other: Self) -> Option<Self>;
 }
 
 impl ChannelValue for Vec3 {
@@ -59,7 +59,7 @@ impl ChannelValue for Vec3 {
         from.as_dvec3().lerp(to.as_dvec3(), part).as_vec3()
     }
 
-    fn beside(self, _: Self) -> Option<Self> {
+    fn near(self, _: Self) -> Option<Self> {
         Some(self)
     }
 }
@@ -82,7 +82,7 @@ impl ChannelValue for Quat {
         from.slerp(to, part).normalize().as_quat()
     }
 
-    fn beside(self, other: Self) -> Option<Self> {
+    fn near(self, other: Self) -> Option<Self> {
         let rotation = unit(self)?;
         // q and −q are the same rotation, but blending across them spins the long way.
         Some(if rotation.dot(other) < 0.0 { -rotation } else { rotation })
@@ -151,7 +151,7 @@ impl<T: ChannelValue> Channel<T> {
                 return Err(key_not_after(key));
             }
             let value = match way {
-                Way::Straight => values[key].beside(values[key.saturating_sub(1)]),
+                Way::Straight => values[key].near(values[key.saturating_sub(1)]),
                 Way::Held | Way::Spline(_) => Some(values[key]),
             };
             let slopes = match &way {
@@ -201,12 +201,12 @@ impl<T: ChannelValue> Channel<T> {
         }
     }
 
-    /// The same keys, `secs` sooner. Two keys make a jump: where rounding would bring their times together, the second has the next time
+    /// The same keys, `secs` earlier. Two keys make a jump: where rounding would bring their times together, the second has the next time
     /// that a number can name.
     ///
     /// # Errors
     /// When a time is no longer finite.
-    pub(crate) fn sooner(&self, secs: f32) -> Result<Self, Fault> {
+    pub(crate) fn shifted_earlier(&self, secs: f32) -> Result<Self, Fault> {
         let mut times_secs: Vec<f32> = Vec::with_capacity(self.times_secs.len());
         for time_secs in self.times_secs.iter().map(|time_secs| time_secs - secs) {
             let free_secs = times_secs.last().map_or(time_secs, |before| before.next_up());
@@ -305,7 +305,7 @@ impl<T: ChannelValue> Channel<T> {
         let value = self.between(from, time_secs);
         match self.way {
             Way::Straight => value,
-            Way::Held | Way::Spline(_) => value.beside(self.values[from]).unwrap_or(self.values[from]),
+            Way::Held | Way::Spline(_) => value.near(self.values[from]).unwrap_or(self.values[from]),
         }
     }
 

@@ -51,7 +51,7 @@ impl TextureAxes {
 }
 
 /// For each vertex the sum over its triangles, each weighted by its area. Triangles without an area on the surface or in
-/// the texture say nothing, nor do those of which the mesh lacks a corner.
+/// the texture are skipped, and those of which the mesh lacks a corner.
 fn texture_axes(mesh: &Mesh) -> Vec<TextureAxes> {
     let mut axes = vec![TextureAxes::default(); mesh.vertex_count()];
     for corners in mesh.indices.chunks_exact(3) {

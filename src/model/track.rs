@@ -104,15 +104,15 @@ impl Track {
         })
     }
 
-    /// The same keys, `secs` sooner; a track at rest has no times.
+    /// The same keys, `secs` earlier; a track at rest has no times.
     ///
     /// # Errors
     /// When a time is no longer finite.
-    pub(crate) fn sooner(&self, secs: f32) -> Result<Self, Fault> {
+    pub(crate) fn shifted_earlier(&self, secs: f32) -> Result<Self, Fault> {
         Ok(Self::of_channels(
-            self.translation.sooner(secs)?,
-            self.rotation.sooner(secs)?,
-            self.scale.sooner(secs)?,
+            self.translation.shifted_earlier(secs)?,
+            self.rotation.shifted_earlier(secs)?,
+            self.scale.shifted_earlier(secs)?,
         ))
     }
 
@@ -156,7 +156,7 @@ impl Track {
             })
     }
 
-    /// Whether a channel has keys; the one key of a joint that a clip leaves at rest was not given.
+    /// Whether a channel has keys in the file. A track without any still counts one key: the rest pose.
     pub fn has_keys(&self) -> bool {
         self.translation.has_keys() || self.rotation.has_keys() || self.scale.has_keys()
     }

@@ -8,22 +8,20 @@ use super::model::{GpuModel, Posed};
 use super::pipelines::{Layouts, Pipelines};
 use super::recipe::{Draw, ModelDraw, WorldShape};
 use super::uniforms::{encoded, instance_size, theme_colors};
-use crate::scene::{Overlay, OverlayGeometry, OverlayVertex, RenderFrame};
+use crate::scene::{AXES_SRGB, Overlay, OverlayGeometry, OverlayVertex, RenderFrame};
 use crate::shaders::Line;
 
 const NORMAL_SRGB: [f32; 4] = [0.36, 0.72, 1.0, 0.95];
 const TANGENT_SRGB: [f32; 4] = [1.0, 0.56, 0.33, 0.95];
 
 const BOUNDS_SRGB: [u8; 4] = [255, 181, 84, 230];
-/// x, y, z in the colours that every tool has.
-const AXES_SRGB: [[u8; 4]; 3] = [[242, 77, 87, 255], [128, 204, 51, 255], [61, 138, 250, 255]];
 /// Length of the axes, in radii of the scene.
 const AXIS_LENGTH: f32 = 0.5;
 
 /// The nearest fraction of the depth range holds what is seen through the model.
 const THROUGH_DEPTH: f32 = 0.01;
 
-/// All that is drawn beside the model.
+/// All lines and shapes: those on the model, those seen through it, and those beside it.
 pub(super) struct Overlays {
     wire: LineStyle,
     normals: LineStyle,
@@ -59,8 +57,8 @@ impl Overlays {
         }
     }
 
-    /// Draws ghosts, highlight and lines of the model over the finished model. The caller sets group 0, and an empty group 2.
-    pub(super) fn draw_over_model(
+    /// Draws what lies on the finished model: ghosts, highlight, its edges and normals. The caller sets group 0, and an empty group 2.
+    pub(super) fn draw_on_model(
         &self,
         device: &wgpu::Device,
         pass: &mut wgpu::RenderPass<'_>,
@@ -131,7 +129,7 @@ struct Shapes {
     buffer: wgpu::Buffer,
     capacity: usize,
     /// First come the vertices that the model hides, then those that are seen through it.
-    hidden_count: u32,
+    depth_tested_count: u32,
     count: u32,
 }
 
@@ -141,7 +139,7 @@ impl Shapes {
         Self {
             buffer: Self::buffer(device, capacity),
             capacity,
-            hidden_count: 0,
+            depth_tested_count: 0,
             count: 0,
         }
     }
@@ -166,7 +164,7 @@ impl Shapes {
             queue.write_buffer(&self.buffer, at, bytemuck::cast_slice(part));
             at += size_of_val(*part) as u64;
         }
-        self.hidden_count = hidden.len() as u32;
+        self.depth_tested_count = hidden.len() as u32;
         self.count = count as u32;
     }
 }
@@ -187,11 +185,11 @@ impl WorldShapes {
 
     fn write(&mut self, device: &wgpu::Device, queue: &Queue, frame: &RenderFrame<'_>) {
         let nothing = OverlayGeometry::default();
-        let over_model = frame.over_model.unwrap_or(&nothing);
+        let seen_through = frame.seen_through.unwrap_or(&nothing);
         let axes = axes(frame);
         self.lines
-            .write(device, queue, &bounds(frame).lines, &[&over_model.lines, &axes.lines]);
-        self.triangles.write(device, queue, &[], &[&over_model.triangles]);
+            .write(device, queue, &bounds(frame).lines, &[&seen_through.lines, &axes.lines]);
+        self.triangles.write(device, queue, &[], &[&seen_through.triangles]);
     }
 
     fn draw(
@@ -218,9 +216,9 @@ impl WorldShapes {
                 (WorldShape::Lines, &self.lines),
             ] {
                 let vertices = if through {
-                    shapes.hidden_count..shapes.count
+                    shapes.depth_tested_count..shapes.count
                 } else {
-                    0..shapes.hidden_count
+                    0..shapes.depth_tested_count
                 };
                 if !vertices.is_empty() {
                     pass.set_pipeline(&pipelines.get(Draw::World { shape, through }));

@@ -291,7 +291,7 @@ impl Recipe {
                     vertex: "world_vertex".into(),
                     // Shapes that are seen through the model have a depth range of their own and hide each other in it.
                     depth: Some(depth(through, wgpu::CompareFunction::LessEqual)),
-                    ..Self::over_model(samples, shaders::LINES, topology)
+                    ..Self::lines_on_model(samples, shaders::LINES, topology)
                 }
             }
             Draw::Occlusion(Light::Book) => fullscreen(shaders::OCCLUSION_BOOK, "fragment"),
@@ -399,7 +399,7 @@ impl Recipe {
             }
             ModelDraw::Edges => Recipe {
                 vertex: entry("edge"),
-                ..Self::over_model(picture, shaders::LINES, wgpu::PrimitiveTopology::LineList)
+                ..Self::lines_on_model(picture, shaders::LINES, wgpu::PrimitiveTopology::LineList)
             },
             ModelDraw::Normals | ModelDraw::Tangents => Recipe {
                 vertex: entry(if draw == ModelDraw::Normals {
@@ -409,17 +409,17 @@ impl Recipe {
                 }),
                 // A line a vertex: the mesh's vertices are instances of one line.
                 step_mode: wgpu::VertexStepMode::Instance,
-                ..Self::over_model(picture, shaders::LINES, wgpu::PrimitiveTopology::LineList)
+                ..Self::lines_on_model(picture, shaders::LINES, wgpu::PrimitiveTopology::LineList)
             },
             ModelDraw::Highlight => Recipe {
                 vertex: entry("vertex"),
-                ..Self::over_model(picture, shaders::HIGHLIGHT, wgpu::PrimitiveTopology::TriangleList)
+                ..Self::lines_on_model(picture, shaders::HIGHLIGHT, wgpu::PrimitiveTopology::TriangleList)
             },
         }
     }
 
     /// Blended over the finished model, and hidden by what is nearer.
-    fn over_model(samples: SampleCount, program: Program, topology: wgpu::PrimitiveTopology) -> Self {
+    fn lines_on_model(samples: SampleCount, program: Program, topology: wgpu::PrimitiveTopology) -> Self {
         Recipe {
             program,
             vertex: String::new(),

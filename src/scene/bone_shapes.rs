@@ -99,7 +99,7 @@ impl BoneColors {
 }
 
 /// x, y, z as every tool colours them.
-const AXES_SRGB: [[u8; 4]; 3] = [
+pub const AXES_SRGB: [[u8; 4]; 3] = [
     [0xF2, 0x4D, 0x57, 0xFF],
     [0x80, 0xCC, 0x33, 0xFF],
     [0x3D, 0x8A, 0xFA, 0xFF],
@@ -118,7 +118,7 @@ const LEAST_THICKNESS: f32 = 0.25;
 const SIDES: [f32; 4] = [1.0, 0.84, 0.68, 0.84];
 
 /// Appends the bones in a style to `out`.
-pub fn draw_bones(
+pub fn append_bones(
     bones: &Bones,
     style: BoneStyle,
     marked: MarkedJoints,
@@ -129,7 +129,7 @@ pub fn draw_bones(
 }
 
 /// Appends only the bones of the hovered and of the selected joint.
-pub fn draw_marked_bones(
+pub fn append_marked_bones(
     bones: &Bones,
     style: BoneStyle,
     marked: MarkedJoints,

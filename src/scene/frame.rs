@@ -78,7 +78,7 @@ pub struct RenderFrame<'a> {
     /// The model in other poses.
     pub ghosts: Ghosts<'a>,
     /// Lines and triangles that show through the model; `None` where there are none.
-    pub over_model: Option<&'a OverlayGeometry>,
+    pub seen_through: Option<&'a OverlayGeometry>,
     /// How the model is drawn, and what is drawn beside it.
     pub options: FrameOptions,
 }

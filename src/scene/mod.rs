@@ -20,7 +20,7 @@ mod tint;
 pub use crate::model::Aabb;
 pub use appearance::{Background, Detail, Light, Overlay, Overlays, Pass, Passes, Theme, ViewMode, map_kind};
 pub use bone_picking::{LabelPlace, Screen, label_places, pick_joint};
-pub use bone_shapes::{BoneColors, BoneStyle, MarkedJoints, draw_bones, draw_marked_bones};
+pub use bone_shapes::{AXES_SRGB, BoneColors, BoneStyle, MarkedJoints, append_bones, append_marked_bones};
 pub use bones::{Bone, Bones};
 pub use camera::{Camera, DEFAULT_FOV_Y_RADIANS, MAX_PITCH_RADIANS, Projection, ViewPreset};
 pub use cost::{FrameCost, TimedPass};

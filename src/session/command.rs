@@ -10,7 +10,7 @@ use super::look::quality::QualityCommand;
 use super::open::opening::FileCommand;
 use super::play::crowd::CrowdCommand;
 use super::play::playing::PlayCommand;
-use super::told::view_state::ViewState;
+use super::published::view_state::ViewState;
 use super::write::export::ExportCommand;
 use crate::model::{Handedness, UpAxis};
 use crate::scene::Theme;

@@ -22,7 +22,7 @@ pub(super) struct InputOrder {
     pressed_in: Option<u64>,
 }
 
-/// A press that is held longer is no click, and of a finger a long one.
+/// A press that is held longer is no click; a finger's is a long press.
 const MOST_CLICK_SECS: f64 = 0.8;
 
 impl egui::Plugin for InputOrder {
@@ -34,7 +34,7 @@ impl egui::Plugin for InputOrder {
         self.waiting.extend(input.events.drain(..));
         let count = first_pass(&self.waiting);
         input.events.extend(self.waiting.drain(..count));
-        // Frames may be longer than a click. What is let go in the frame after the press is one, however long that took.
+        // A slow frame must not turn a click into a long press: a release in the frame after the press is always a click.
         let frame = ctx.cumulative_frame_nr();
         if input.events.iter().any(|event| Kind::of(event) == Kind::Press) {
             self.pressed_in = Some(frame);

@@ -42,7 +42,7 @@ pub(super) fn read(ui: &Ui, cx: &mut Cx<'_, UiState>, popover_open: bool) {
             _ => None,
         };
         if let Some(ask) = asked.and_then(|action| action.ask(cx.session)) {
-            cx.state.announcer.by_key |= asked.is_some_and(|action| action.told);
+            cx.state.announcer.by_key |= asked.is_some_and(|action| action.announced);
             carry_out(ask, ui, cx);
         }
     }

@@ -17,10 +17,10 @@ use egui::{Popup, Rect, Ui};
 pub use keys::owns_key;
 pub use kit::theme;
 pub use kit::theme::Contrast;
-pub use panels::picture::{picture_name, report_name, sheet_name};
+pub use panels::picture::{contact_sheet_name, picture_name, report_name};
 pub use rim::announce::{Announcement, view_in_words};
 pub use rim::mirror::{Mirror, MirrorAction, MirrorChanges, MirrorId, MirrorInput, MirrorNode};
-pub use state::{DrawerPage, MAX_PICTURE_SIDE, Request, SheetRequest, UiState};
+pub use state::{ContactSheetRequest, DrawerPage, MAX_PICTURE_SIDE, Request, UiState};
 pub use window::message::Messages;
 
 use crate::scene::{Insets, Theme};
@@ -35,7 +35,7 @@ use window::arrangement::Arrangement;
 use window::message::Offer;
 use window::{chips, layout, message, split, viewport};
 
-/// The camera frames the model in no less of the window's height. Chips lie over it where they leave less.
+/// The model is framed in at least this fraction of the window's height. Where the chips would leave less, they lie over it.
 const LEAST_BELOW_CHIPS: f32 = 0.1;
 
 /// Gives a context what the interface needs: fonts, styles, the order of input, and what watches its widgets for the page.
@@ -78,7 +78,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     cx.commands.push(set_theme(ui));
     let grip = Grip::now(ui.ctx());
     begin_edit(cx.state, grip, cx.commands);
-    // It was set in an earlier pass. By now the panels about the selection are open.
+    // Set in an earlier pass: by now the inspector is laid out, and the camera can frame the selection beside it.
     let frames_selection = std::mem::take(&mut cx.state.frames_selection);
     // A click outside of a popover closes it and does nothing else. So does Esc.
     let popover_open = Popup::is_any_open(ui.ctx());
@@ -136,7 +136,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
         .skeleton
         .hover(cx.session, cx.state.timeline.hovered(), cx.commands);
     cx.state.skeleton.settle_naming(ui, cx.commands);
-    cx.state.skeleton.draw_bones(cx.session, cx.commands);
+    cx.state.skeleton.show_bones_with_tree(cx.session, cx.commands);
     // Shortcuts come last, since a focused control takes its keys first. Keys typed into a field are not shortcuts, whether the field
     // had the focus when the pass began or has it now.
     let typing = cx.state.keyboard.is_typing(ui.ctx()) || cx.state.skeleton.awaits_field();

@@ -39,8 +39,8 @@ pub enum Request {
         /// Without a background.
         transparent: bool,
     },
-    /// Save a contact sheet; [`sheet_name`](crate::ui::sheet_name) says how the file is called.
-    SaveSheet(SheetRequest),
+    /// Save a contact sheet; [`contact_sheet_name`](crate::ui::contact_sheet_name) says how the file is called.
+    SaveContactSheet(ContactSheetRequest),
     /// Save the report of all that was found in the open file; [`report_name`](crate::ui::report_name) says how the file is called.
     SaveReport,
     /// Show the page of codes at this one.
@@ -52,7 +52,7 @@ pub enum Request {
 
 /// A contact sheet as it is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SheetRequest {
+pub struct ContactSheetRequest {
     /// Width and height of the whole sheet in pixels.
     pub size: [u32; 2],
     /// Columns and rows of pictures.
@@ -239,7 +239,7 @@ impl UiState {
     }
 
     /// Asks for a contact sheet as chosen.
-    pub(super) fn save_sheet(&mut self, ui: &Ui) {
+    pub(super) fn save_contact_sheet(&mut self, ui: &Ui) {
         let PictureChoice {
             sheet_transparent: transparent,
             cells,
@@ -251,7 +251,7 @@ impl UiState {
             count: (columns * rows) as usize,
             ..DrawnSheet::default()
         });
-        self.requests.push(Request::SaveSheet(SheetRequest {
+        self.requests.push(Request::SaveContactSheet(ContactSheetRequest {
             size: self.picture.size_in_pixels(ui),
             cells,
             turntable,
@@ -269,7 +269,7 @@ impl UiState {
     }
 
     /// No contact sheet is being drawn any more.
-    pub fn end_sheet(&mut self) {
+    pub fn end_contact_sheet(&mut self) {
         self.drawn_sheet = None;
     }
 }

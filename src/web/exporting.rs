@@ -6,7 +6,7 @@ use js_sys::{Array, Promise, Uint8Array};
 use wasm_bindgen::prelude::*;
 
 use super::arguments::{checked, given, optional};
-use super::run::Shared;
+use super::shared::Shared;
 use super::viewer::Viewer;
 use super::{field, is_absent, next_task, object, promise};
 use crate::script::{self, Misuse};

@@ -9,6 +9,7 @@
 
 mod arguments;
 mod backend;
+mod canvas;
 mod contrast;
 mod drawing;
 mod exporting;
@@ -18,6 +19,8 @@ mod opening;
 mod picture;
 mod playing;
 mod run;
+mod saving;
+mod shared;
 mod state;
 mod viewer;
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use js_sys::{Array, Promise, Uint8Array};
 use wasm_bindgen::prelude::*;
 
-use super::run::Shared;
+use super::shared::Shared;
 use super::viewer::Viewer;
 use super::{abort_error, field, next_task, promise, reduced_motion};
 use crate::session::{File, FileCommand, LoadJob, LoadStep};

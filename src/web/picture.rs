@@ -7,9 +7,9 @@ use js_sys::{Array, Uint8Array};
 use wasm_bindgen::prelude::*;
 
 use super::{abort_error, field, is_absent, next_task, sleep};
-use crate::app::{App, SheetFailure};
+use crate::app::{App, ContactSheetFailure};
 use crate::scene::{Background, FrameOptions, Light, Overlay, ViewMode};
-use crate::ui::SheetRequest;
+use crate::ui::ContactSheetRequest;
 
 pub(super) type AppSlot = Rc<RefCell<Option<App>>>;
 
@@ -48,7 +48,7 @@ const CELLS: [u32; 2] = [4, 3];
 pub(super) async fn contact_sheet(app: AppSlot, canvas_size: [u32; 2], options: JsValue) -> Result<JsValue, JsValue> {
     let sides = ["width", "height"].map(|name| (name, field(&options, name)));
     let cells = ["columns", "rows"].map(|name| (name, field(&options, name)));
-    let wanted = SheetRequest {
+    let wanted = ContactSheetRequest {
         size: whole_numbers(sides, canvas_size, longest_side(&app)?)?,
         cells: whole_numbers(cells, CELLS, MOST_CELLS)?,
         turntable: field(&options, "turntable").is_truthy(),
@@ -61,9 +61,9 @@ pub(super) async fn contact_sheet(app: AppSlot, canvas_size: [u32; 2], options: 
 }
 
 /// The contact sheet that is asked for in the window, and its size. `None` when it was cancelled.
-pub(super) async fn sheet_of_window(
+pub(super) async fn contact_sheet_of_window(
     app: AppSlot,
-    wanted: SheetRequest,
+    wanted: ContactSheetRequest,
     repaint: impl Fn(),
 ) -> Result<Option<(JsValue, [u32; 2])>, JsError> {
     let size = within(wanted.size, longest_side(&app)?);
@@ -72,7 +72,7 @@ pub(super) async fn sheet_of_window(
         let mut app = app.borrow_mut();
         app.as_mut().is_some_and(|app| app.show_sheet_progress(progress))
     };
-    let png = sheet(Rc::clone(&app), SheetRequest { size, ..wanted }, goes_on).await?;
+    let png = sheet(Rc::clone(&app), ContactSheetRequest { size, ..wanted }, goes_on).await?;
     Ok(png.map(|png| (png, size)))
 }
 
@@ -82,10 +82,10 @@ pub(super) async fn sheet_of_window(
 /// When the viewer is not running or another model was opened, the sheet has no room, or the GPU fails.
 async fn sheet(
     app: AppSlot,
-    wanted: SheetRequest,
+    wanted: ContactSheetRequest,
     goes_on: impl Fn([usize; 2]) -> bool,
 ) -> Result<Option<JsValue>, JsError> {
-    let begun = app.borrow().as_ref().map(|app| app.begin_sheet(&wanted));
+    let begun = app.borrow().as_ref().map(|app| app.begin_contact_sheet(&wanted));
     let mut job = begun.ok_or_else(not_running)??;
     loop {
         let progress = job.progress();
@@ -100,7 +100,7 @@ async fn sheet(
             None => return Err(not_running()),
         };
         let pixels = picture.pixels(async || sleep(1).await).await;
-        job.place(&pixels.map_err(SheetFailure::from)?);
+        job.place(&pixels.map_err(ContactSheetFailure::from)?);
         // Input and the window's own frames come in between.
         next_task().await;
     }

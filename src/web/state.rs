@@ -7,9 +7,11 @@ use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::{JsCast as _, JsValue};
 
-use crate::scene::{Detail, FrameCost, Overlay, Pass, Projection, Theme, TimedPass};
+use crate::scene::{Detail, FrameCost, Pass, Theme, TimedPass};
 use crate::session::summary::{self, Books, Finding};
-use crate::session::{Checklist, CrowdState, Event, LoadError, Session};
+use crate::session::{
+    AppearanceState, Checklist, CrowdState, Event, LoadError, PlaybackState, Quality, Session, ViewState,
+};
 
 /// `bindpose.state()`.
 #[derive(Serialize)]
@@ -20,17 +22,17 @@ pub(super) struct State<'a> {
     /// Paths of all models that are open, in the order of opening.
     models: Vec<&'a str>,
     textures: Textures<'a>,
-    blend: Option<Blend<'a>>,
+    blend: Option<Blend>,
     time_secs: f32,
     playing: bool,
     backward: bool,
     #[serde(flatten)]
-    playback: Playback<'a>,
+    playback: Playback,
     camera: Camera,
     grid_visible: bool,
     look: Look,
     skeleton: Skeleton<'a>,
-    crowd: Crowd,
+    crowd: CrowdState,
     cost: Cost,
     undo: Option<&'a str>,
     redo: Option<&'a str>,
@@ -62,15 +64,15 @@ struct Textures<'a> {
 
 /// The clip that is blended into the one on show, and its weight in the pose.
 #[derive(Serialize)]
-struct Blend<'a> {
-    clip: Option<&'a str>,
+struct Blend {
+    clip: Option<String>,
     share: f32,
 }
 
 /// What of the model plays, and how.
 #[derive(Serialize)]
-struct Playback<'a> {
-    clip: Option<&'a str>,
+struct Playback {
+    clip: Option<String>,
     range_secs: Option<[f32; 2]>,
     speed: f32,
     #[serde(rename = "loop")]
@@ -126,14 +128,6 @@ struct Skeleton<'a> {
     names: BTreeMap<String, &'a str>,
 }
 
-/// How many instances of the model there are, and which one the rest of the state is of.
-#[derive(Serialize)]
-struct Crowd {
-    count: usize,
-    seed: u32,
-    selected: usize,
-}
-
 /// What the frame that was drawn last cost.
 #[derive(Serialize)]
 struct Cost {
@@ -160,8 +154,13 @@ impl<'a> State<'a> {
         frames_rendered: u64,
         theme: Option<Theme>,
     ) -> Self {
-        let playback = session.playback();
-        let camera = session.camera();
+        let ViewState {
+            camera,
+            appearance,
+            playback,
+            crowd,
+            selection,
+        } = session.view_state();
         let Checklist {
             named,
             missing,
@@ -177,22 +176,34 @@ impl<'a> State<'a> {
                 missing,
                 unreadable,
             },
-            blend: blend(session),
-            time_secs: playback.time_secs(),
-            playing: playback.is_playing(),
-            backward: playback.is_backward(),
-            playback: Playback::of(session),
+            blend: playback.blend.clone().map(|(clip, share)| Blend {
+                clip: Some(clip),
+                share,
+            }),
+            time_secs: playback.time_secs,
+            playing: playback.playing,
+            backward: playback.backward,
             camera: Camera {
-                target: camera.target.to_array(),
+                target: camera.target,
                 distance: camera.distance,
                 yaw_radians: camera.yaw_radians,
                 pitch_radians: camera.pitch_radians,
-                orthographic: camera.projection == Projection::Orthographic,
+                orthographic: camera.orthographic,
             },
             grid_visible: session.grid_visible(),
-            look: look(session),
-            skeleton: skeleton(session),
-            crowd: crowd(session),
+            look: look(&appearance, session.quality()),
+            skeleton: Skeleton {
+                selected: selection.bone,
+                vertex: selection.vertex,
+                bones_visible: appearance.bones_visible,
+                bone_style: appearance.bone_style.name(),
+                labels_visible: appearance.labels_visible,
+                skin_view: appearance.skin_view.map(|view| view.name()),
+                bind_share: playback.bind_weight,
+                names: names(session),
+            },
+            playback: playback.into(),
+            crowd,
             cost: cost(session),
             undo: session.history().undo_label(),
             redo: session.history().redo_label(),
@@ -222,38 +233,25 @@ fn model(session: &Session) -> Option<Model<'_>> {
     })
 }
 
-fn blend(session: &Session) -> Option<Blend<'_>> {
-    let blend = session.blend()?;
-    let clip = session.open_model().and_then(|open| open.model.clips.get(blend.clip));
-    Some(Blend {
-        clip: clip.map(|clip| &*clip.name),
-        share: blend.weight,
-    })
-}
-
-impl<'a> Playback<'a> {
-    fn of(session: &'a Session) -> Self {
-        let playback = session.playback();
+impl From<PlaybackState> for Playback {
+    fn from(state: PlaybackState) -> Self {
         Self {
-            clip: session.clip().map(|clip| &*clip.name),
-            range_secs: playback.range_secs(),
-            speed: playback.speed(),
-            loop_mode: playback.loop_mode().name(),
-            wrap: playback.wrap_mode().name(),
+            clip: state.clip,
+            range_secs: state.range_secs,
+            speed: state.speed,
+            loop_mode: state.loop_mode.name(),
+            wrap: state.wrap_mode.name(),
         }
     }
 }
 
-fn look(session: &Session) -> Look {
-    let look = session.look();
-    let overlays = Overlay::ALL.into_iter().filter(|&overlay| look.overlays.has(overlay));
-    let quality = session.quality();
+fn look(look: &AppearanceState, quality: &Quality) -> Look {
     Look {
         light: look.light.name(),
         split: look.split,
         view_mode: look.view_mode.name(),
         background: look.background.name(),
-        overlays: overlays.map(Overlay::name).collect(),
+        overlays: look.overlays.iter().map(|overlay| overlay.name()).collect(),
         exposure: look.exposure_stops,
         passes: Pass::ALL.map(|pass| (pass.name(), quality.state(pass).name())).into(),
         render_scale: quality.render_scale().fraction(),
@@ -278,25 +276,10 @@ fn detail_name(detail: Detail) -> &'static str {
     }
 }
 
-fn skeleton(session: &Session) -> Skeleton<'_> {
-    let (joints, look) = (session.joints(), session.look());
-    let bones = session.open_model().map(|open| open.model.skeleton.file_bones());
+/// The names that bones were given, by their numbers in the file.
+fn names(session: &Session) -> BTreeMap<String, &str> {
     let names = session.joint_names().all().iter();
-    Skeleton {
-        selected: joints.selected().and_then(|joint| bones?.get(joint.index()).copied()),
-        vertex: joints.selected_vertex().map(|selected| selected.vertex),
-        bones_visible: look.bones_visible,
-        bone_style: look.bone_style.name(),
-        labels_visible: look.labels_visible(),
-        skin_view: look.skin_view.map(|view| view.name()),
-        bind_share: session.bind_weight(),
-        names: names.map(|(bone, name)| (bone.to_string(), name.as_str())).collect(),
-    }
-}
-
-fn crowd(session: &Session) -> Crowd {
-    let CrowdState { count, seed, selected } = session.crowd();
-    Crowd { count, seed, selected }
+    names.map(|(bone, name)| (bone.to_string(), name.as_str())).collect()
 }
 
 fn cost(session: &Session) -> Cost {
@@ -336,7 +319,7 @@ pub(super) fn event_detail(session: &Session, event: Event) -> JsValue {
         Event::Play | Event::Pause | Event::TimeUpdate => {
             to_js(&BTreeMap::from([("time_secs", session.playback().time_secs())]))
         }
-        Event::PlaybackChange => to_js(&Playback::of(session)),
+        Event::PlaybackChange => to_js(&Playback::from(session.view_state().playback)),
     }
 }
 

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { atRest, call, keep, settled, state, test, turnPhone, until } from "./harness.js";
-import { LOW_SHEET_BUTTON, LOW_TIME_BAR, PHONE_TIME_BAR } from "./widgets.js";
+import { bounds, place, timeBar } from "./widgets.js";
 
 const PHONE = { phone: true };
 const STEPS = 6;
@@ -52,7 +52,7 @@ test("a finger turns the view, two move it and bring it nearer", PHONE, async (p
 });
 
 test("a finger on the bar carries the time", PHONE, async (page) => {
-  const { first, last, y } = PHONE_TIME_BAR;
+  const { first, last, y } = timeBar(await bounds(page, "time"));
   const { model } = await state(page);
   const [{ endSecs }] = model.clips;
   const middle = (first + last) / 2;
@@ -68,22 +68,22 @@ test("on a phone that is turned on its side the model makes way for what is open
   await turnPhone(page, 844, 390);
   const { camera: low } = await until(page, ({ camera }) => camera.distance !== upright.distance);
   assert.ok(near(apart(low, upright), 0, 0.2 * upright.distance), "it is framed anew");
-  await page.touchscreen.tap(...LOW_SHEET_BUTTON);
+  await page.touchscreen.tap(...(await place(page, "dope-sheet")));
   const { camera: beside } = await until(page, ({ camera }) => apart(camera, low) > 0.2 * low.distance);
   await atRest(page);
   await keep(page, "phone-on-its-side");
-  const { first, last, y } = LOW_TIME_BAR;
+  const { first, last, y } = timeBar(await bounds(page, "time"));
   const { timeSecs, camera } = await fingers(page, [[first, y], [last, y]]);
   assert.ok(near(timeSecs, model.clips[0].endSecs, 0.02), `${timeSecs}`);
   assert.deepEqual(camera, beside, "the model stays where it is");
-  await page.touchscreen.tap(...LOW_SHEET_BUTTON);
+  await page.touchscreen.tap(...(await place(page, "dope-sheet")));
   await until(page, ({ camera }) => near(apart(camera, low), 0, 1e-3));
 });
 
 test("a device of two pixels to the point that the browser emulates has the page at its size", { own: true }, async (page) => {
   const devtools = await page.context().newCDPSession(page);
   await devtools.send("Emulation.setDeviceMetricsOverride", { width: 390, height: 844, deviceScaleFactor: 2, mobile: true });
-  const more = page.getByRole("button", { name: "More" });
+  const more = page.locator("[data-control=more]");
   await more.waitFor({ state: "attached" });
   await atRest(page);
   const seen = await page.evaluate(() => [devicePixelRatio, document.querySelector("canvas").width, document.querySelector("canvas").height]);

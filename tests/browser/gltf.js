@@ -8,7 +8,7 @@ import { AnimationMixer, Vector3 } from "three";
 import { loaded, trianglesOf, withoutPictures } from "./gltf_files.js";
 import { FIXTURES, SAMPLE, SHARED, call, dropAndWait, keep, settled, state, test, unless, until } from "./harness.js";
 import { assertGolden, difference, picture } from "./picture.js";
-import { MODEL_PAGE, SKELETON_PAGE } from "./widgets.js";
+import { click } from "./widgets.js";
 
 const BANNER = `${FIXTURES}gltf/banner.glb`;
 const CESIUM_MAN = `${SHARED}gltf/models/CesiumMan.glb`;
@@ -65,11 +65,11 @@ test("glTF opens with its joints, clips and maps, and what is exported of it is 
     assert.deepEqual([textures.named > 0, textures.missing, textures.unreadable], [true, [], []], path);
     const drawn = await drawnAt(page, clip, 0.75);
     if (path === BANNER) await assertGolden(page, "gltf-banner", drawn);
-    await page.mouse.click(...SKELETON_PAGE);
+    await click(page, "page-1");
     await page.getByRole("treeitem", { name: joint }).first().waitFor();
     await keep(page, `gltf-${basename(path, ".glb")}`);
     // The bones are drawn with their page, and not in the picture that this one is compared with.
-    await page.mouse.click(...MODEL_PAGE);
+    await click(page, "page-0");
     await until(page, ({ skeleton }) => !skeleton.bonesVisible);
     const { bytes } = await exported(page, { format: "glb" });
     const [source, again] = await Promise.all([readFileSync(path), bytes].map((bytes) => loaded(withoutPictures(bytes))));

@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { atRest, drag, drop, keep, settled, state, test, until } from "./harness.js";
 import { difference, picture } from "./picture.js";
-import { GROUND, LIGHT_BUTTON, LIGHT_POPOVER, SPLIT_HANDLE } from "./widgets.js";
+import { GROUND, place, click } from "./widgets.js";
 
 
 /** Gives the view the keyboard, with a click that selects nothing. */
@@ -79,15 +79,16 @@ test("Alt and a drag turn the surroundings, and the camera stays", { draws: true
 });
 
 test("the picture is divided, and its handle moves where the lights meet", { draws: true, passes: true }, async (page) => {
-  await page.mouse.click(...LIGHT_BUTTON);
+  await click(page, "light");
   await settled(page);
-  await page.mouse.click(...LIGHT_POPOVER.split);
+  await click(page, "split");
   await until(page, ({ look }) => look.split === 0.5);
   await keep(page, "look-light-popover");
   await page.keyboard.press("Escape");
   await settled(page);
-  const target = [430, SPLIT_HANDLE[1]];
-  await drag(page, SPLIT_HANDLE, target);
+  const handle = await place(page, "split-handle");
+  const target = [430, handle[1]];
+  await drag(page, handle, target);
   const { split } = (await until(page, ({ look }) => look.split !== 0.5)).look;
   await atRest(page);
   assert.ok(Math.abs(split - target[0] / 960) < 0.01, `${split}`);
@@ -102,12 +103,12 @@ test("the picture is divided, and its handle moves where the lights meet", { dra
 });
 
 test("a pass that is left out is missing in the picture", { draws: true, passes: true }, async (page) => {
-  await page.mouse.click(...LIGHT_BUTTON);
+  await click(page, "light");
   await settled(page);
-  for (const [pass, row] of Object.entries(LIGHT_POPOVER.passes)) {
+  for (const pass of ["shadow", "reflections", "contact", "ao"]) {
     const before = await picture(page);
     assert.equal((await state(page)).look.passes[pass], "drawn");
-    await page.mouse.click(...row);
+    await click(page, pass);
     await until(page, ({ look }) => look.passes[pass] === "off");
     const without = await picture(page);
     assert.ok(difference(before, without, { tolerance: 2 }) > 0.002, `${pass}: ${difference(before, without, { tolerance: 2 })}`);

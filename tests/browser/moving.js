@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { atRest, call, settled, state, test, until } from "./harness.js";
 import { assertGolden, picture } from "./picture.js";
-import { GROUND, TURNTABLE_BUTTON } from "./widgets.js";
+import { GROUND, click } from "./widgets.js";
 
 /** A window so small that this GPU of software draws several frames a second. */
 const SMALL = { viewport: { width: 360, height: 300 }, motion: true };
@@ -55,10 +55,10 @@ test("under reduced motion it stays where it was let go", {
 test("the turntable turns the view until it is stopped", { motion: true }, async (page) => {
   await call(page, "pause");
   const { camera } = await atRest(page);
-  await page.mouse.click(...TURNTABLE_BUTTON);
+  await click(page, "turntable");
   const turned = ({ yawRadians }) => Math.abs(Math.sin((yawRadians - camera.yawRadians) / 2));
   await until(page, (now) => turned(now.camera) > 0.05);
-  await page.mouse.click(...TURNTABLE_BUTTON);
+  await click(page, "turntable");
   const stopped = await atRest(page);
   assert.equal(stopped.camera.pitchRadians, camera.pitchRadians);
   assert.equal(stopped.camera.distance, camera.distance);

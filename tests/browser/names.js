@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { atRest, keep, running, settled, test, until } from "./harness.js";
 import { decoded, difference } from "./picture.js";
-import { GROUND, SECOND_BONE, SKELETON_PAGE, TREE } from "./widgets.js";
+import { GROUND, bounds, place, click } from "./widgets.js";
 
 
 /** What the browser keeps for this page. */
@@ -14,18 +14,18 @@ function kept(page) {
 /** Opens the tree. A click before the page has come to rest would find nothing there yet. */
 async function openTree(page) {
   await atRest(page);
-  await page.mouse.click(...SKELETON_PAGE);
+  await click(page, "page-1");
 }
 
 /** The rows of the tree, with nothing under the pointer. */
 async function tree(page) {
   await page.mouse.move(...GROUND);
   await settled(page);
-  return decoded(page, await page.screenshot({ clip: TREE }));
+  return decoded(page, await page.screenshot({ clip: await bounds(page, "model") }));
 }
 
 async function nameSecondBone(page, name) {
-  await page.mouse.dblclick(...SECOND_BONE);
+  await page.mouse.dblclick(...(await place(page, "bone-1")));
   await atRest(page);
   await page.keyboard.type(name, { delay: 30 });
   await page.keyboard.press("Enter");
@@ -101,9 +101,9 @@ test("a name that is typed in one slow frame is kept, and none of its letters is
     globalThis.requestAnimationFrame = (draw) => setTimeout(() => soon(draw), 1000);
   });
   const before = await until(page, ({ playing }) => playing);
-  await page.mouse.click(...SKELETON_PAGE);
+  await click(page, "page-1");
   await page.waitForTimeout(2500);
-  await page.mouse.dblclick(...SECOND_BONE);
+  await page.mouse.dblclick(...(await place(page, "bone-1")));
   await page.keyboard.type("Spin A");
   await page.keyboard.press("Enter");
   const { skeleton, look, playing, rangeSecs } = await until(page, ({ skeleton }) => skeleton.names[1]);

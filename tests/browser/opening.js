@@ -8,7 +8,7 @@ import {
   FIXTURES, LARGE, SAMPLE, SHARED, call, drop, dropAndWait, filesIn, keep, settled, state, test, unless, until,
 } from "./harness.js";
 import { assertDrawn, difference, picture } from "./picture.js";
-import { FILE_MENU, GROUND, LAST_OF_THREE } from "./widgets.js";
+import { GROUND, click } from "./widgets.js";
 
 /** A copy of the sample under another name, in a folder of its own. */
 function copyOfSample(...parts) {
@@ -230,10 +230,10 @@ test("R opens again the model of a folder that was chosen", {}, async (page) => 
   await dropAndWait(page, [join(folder, "pack")]);
   assert.equal((await state(page)).model.name, "large.m3d");
   await settled(page);
-  await page.mouse.click(...FILE_MENU);
-  await page.waitForSelector('[aria-label="pack/small.m3d"]', { state: "attached" });
+  await click(page, "models");
+  await page.locator("[data-control=model-2]").waitFor({ state: "attached" });
   await settled(page);
-  await page.mouse.click(...LAST_OF_THREE);
+  await click(page, "model-2");
   await until(page, ({ model }) => model.name === "small.m3d");
   writeFileSync(path, readFileSync(path, "latin1").replace("AnimationClip Take1", "AnimationClip Stroll"), "latin1");
   await page.mouse.click(...GROUND);

@@ -3,9 +3,7 @@
 import assert from "node:assert/strict";
 import { call, drag, keep, settled, state, test, until } from "./harness.js";
 import { difference, picture } from "./picture.js";
-import {
-  BLEND_END, BLEND_KNOB, BLEND_MOST, BLEND_SECOND_CLIP, CLIPS_BUTTON, RANGE_IN, RANGE_OUT, TIME_BAR,
-} from "./widgets.js";
+import { bounds, place, click, timeBar } from "./widgets.js";
 
 test("time advances, with events, and pauses", { motion: true }, async (page) => {
   await page.evaluate(() => {
@@ -58,8 +56,11 @@ test("a clip is chosen by its name; a name that is not there changes nothing", {
   assert.equal((await state(page)).clip, model.clips[1].name);
 });
 
-/** Where a fraction of the clip is on the bar. */
-const onBar = (fraction) => [TIME_BAR.first + fraction * (TIME_BAR.last - TIME_BAR.first), TIME_BAR.y];
+/** Gives where a fraction of the clip is on the bar. */
+async function barOf(page) {
+  const { first, last, y } = timeBar(await bounds(page, "time"));
+  return (fraction) => [first + fraction * (last - first), y];
+}
 
 /** The state when the time stands still: of a clip that plays, while the pointer holds it. */
 async function held(page) {
@@ -79,6 +80,7 @@ test("a drag on the bar carries the time, which goes on from there", { motion: t
   const fractionOf = ({ timeSecs }) => (timeSecs - startSecs) / (endSecs - startSecs);
   // The strip can be taken hold of once it was drawn.
   await settled(page);
+  const onBar = await barOf(page);
   await page.mouse.move(...onBar(0.2));
   await page.mouse.down();
   for (const fraction of [0.4, 0.9, 0.3]) {
@@ -89,7 +91,7 @@ test("a drag on the bar carries the time, which goes on from there", { motion: t
     assert.ok(Math.abs(fractionOf(now) - fraction) < 0.004, `held at ${fraction}, the time stands at ${fractionOf(now)}`);
     assert.equal(now.playing, true, "the pointer holds the time; it is not paused");
   }
-  await page.mouse.move(TIME_BAR.last + 200, TIME_BAR.y);
+  await page.mouse.move(onBar(1)[0] + 200, onBar(1)[1]);
   await until(page, (now) => Math.abs(fractionOf(now) - 1) < 1e-4);
   await page.mouse.move(...onBar(0.5));
   await until(page, (now) => Math.abs(fractionOf(now) - 0.5) < 0.004);
@@ -99,7 +101,7 @@ test("a drag on the bar carries the time, which goes on from there", { motion: t
 });
 
 test("a click on the bar of a paused clip goes there and stays", {}, async (page) => {
-  await page.mouse.click(...onBar(0.75));
+  await page.mouse.click(...(await barOf(page))(0.75));
   const { timeSecs, playing } = await until(page, ({ timeSecs }) => timeSecs > 0);
   assert.equal(playing, false);
   const { model } = await state(page);
@@ -111,11 +113,12 @@ test("a click on the bar of a paused clip goes there and stays", {}, async (page
 test("the ends of the range are dragged from frame to frame, and playing stays between them", {}, async (page) => {
   await call(page, "pause");
   const frames = 32;
-  await drag(page, RANGE_OUT, onBar(20.2 / frames));
+  const onBar = await barOf(page);
+  await drag(page, await place(page, "range-out"), onBar(20.2 / frames));
   const within = (first, last) => ({ rangeSecs }) =>
     [first, last].every((frame, end) => Math.abs(30 * rangeSecs?.[end] - frame) < 1e-3);
   await until(page, within(0, 20));
-  await drag(page, RANGE_IN, onBar(9.8 / frames));
+  await drag(page, await place(page, "range-in"), onBar(9.8 / frames));
   const { rangeSecs } = await until(page, within(10, 20));
   await settled(page);
   await keep(page, "range");
@@ -196,21 +199,21 @@ test("calls that make no sense throw, say what they take, and change nothing", {
 test("a clip is blended into another with the mouse, more and less, and no longer", {}, async (page) => {
   const { model } = await state(page);
   const alone = await picture(page);
-  await page.mouse.click(...CLIPS_BUTTON);
+  await click(page, "clips");
   await settled(page);
-  await page.mouse.click(...BLEND_SECOND_CLIP);
+  await click(page, "blend-clip-1");
   const { blend } = await until(page, (now) => now.blend !== null);
   assert.deepEqual(blend, { clip: model.clips[1].name, share: 0.5 });
   await settled(page);
   await keep(page, "blend");
   const half = await picture(page);
   assert.ok(difference(alone, half) > 0.005, `${difference(alone, half)} of the pixels`);
-  await drag(page, BLEND_KNOB, BLEND_MOST);
+  await drag(page, await place(page, "blend-weight"), await place(page, "blend-weight", 1));
   await until(page, (now) => now.blend?.share === 1);
   await settled(page);
   const whole = await picture(page);
   assert.ok(difference(half, whole) > 0.005, `${difference(half, whole)} of the pixels`);
-  await page.mouse.click(...BLEND_END);
+  await click(page, "end-blend");
   await until(page, (now) => now.blend === null);
   await settled(page);
   assert.equal((await picture(page)).digest, alone.digest, "and nothing of it is left");

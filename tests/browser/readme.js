@@ -3,7 +3,7 @@
 import { mkdirSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { atRest, call, settled, state, test, until } from "./harness.js";
-import { SKELETON_PAGE } from "./widgets.js";
+import { click } from "./widgets.js";
 
 const FOLDER = fileURLToPath(new URL("../../assets/page/", import.meta.url));
 mkdirSync(FOLDER, { recursive: true });
@@ -15,9 +15,6 @@ const WHOLE = { viewport: WINDOW, fine: true, passes: true, own: true };
 const GROUND = [820, 640];
 const HAND = [676, 392];
 const EXPLAIN = [1205, 247];
-const SHEET_BUTTON = [1250, 760];
-const LIGHT_BUTTON = [924, 30];
-const SPLIT_SWITCH = [1242, 140];
 
 /** In the middle of a step. */
 async function inStep(page) {
@@ -39,13 +36,13 @@ test("light", { ...WHOLE, colorScheme: "light" }, async (page) => {
 
 test("dark, with the timeline open", WHOLE, async (page) => {
   await inStep(page);
-  await page.mouse.click(...SHEET_BUTTON);
+  await click(page, "dope-sheet");
   await keep(page, "dark-timeline");
 });
 
 test("one vertex explained", WHOLE, async (page) => {
   await inStep(page);
-  await page.mouse.click(...SKELETON_PAGE);
+  await click(page, "page-1");
   await settled(page);
   await page.mouse.click(...GROUND);
   await page.keyboard.press("w");
@@ -63,9 +60,9 @@ test("one vertex explained", WHOLE, async (page) => {
 
 test("both lights side by side", WHOLE, async (page) => {
   await inStep(page);
-  await page.mouse.click(...LIGHT_BUTTON);
+  await click(page, "light");
   await settled(page);
-  await page.mouse.click(...SPLIT_SWITCH);
+  await click(page, "split");
   await until(page, ({ look }) => look.split !== null);
   await page.keyboard.press("Escape");
   await keep(page, "both-lights");

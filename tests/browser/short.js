@@ -5,7 +5,7 @@ import { mkdirSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { after, before, test } from "node:test";
 import { launch } from "./other_browsers.js";
-import { CHEST, GROUND, TIME_BAR } from "./widgets.js";
+import { CHEST, GROUND, timeBar } from "./widgets.js";
 
 /** Given by `cargo xtask test`: where the page is, the browser's name and its program. */
 const { PAGE, BROWSER, PROGRAM } = process.env;
@@ -107,7 +107,8 @@ check("keys go to the viewer once the view was clicked", async () => {
 
 check("a drag on the bar scrubs, and one in the view turns the camera", async () => {
   const { model, camera } = await state();
-  const onBar = (fraction) => [TIME_BAR.first + fraction * (TIME_BAR.last - TIME_BAR.first), TIME_BAR.y];
+  const { first, last, y } = timeBar(await page.evaluate(() => document.querySelector("[data-control=time]").getBoundingClientRect().toJSON()));
+  const onBar = (fraction) => [first + fraction * (last - first), y];
   await page.drag(onBar(0.2), onBar(0.5));
   const half = model.clips[0].endSecs / 2;
   const { camera: still } = await until(({ timeSecs }) => Math.abs(timeSecs - half) < 0.04 * half);

@@ -4,13 +4,13 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { SAMPLE, atRest, keep, settled, state, test, until } from "./harness.js";
 import { decoded, difference, picture } from "./picture.js";
-import { BONES, GROUND, LEGEND_BAR, SKELETON_PAGE } from "./widgets.js";
+import { BONES, GROUND, bounds, click } from "./widgets.js";
 
 
 /** Opens the page of bones, which clicks in the view are then about. The second click gives the view the keyboard and selects nothing. */
 async function openSkeleton(page) {
   await atRest(page);
-  await page.mouse.click(...SKELETON_PAGE);
+  await click(page, "page-1");
   await settled(page);
   await page.mouse.click(...GROUND);
 }
@@ -121,7 +121,9 @@ test("vertices have the colours that the legend has for their weights", { draws:
   await page.mouse.move(...GROUND);
   const now = await atRest(page);
   await keep(page, "weights");
-  const legend = await decoded(page, await page.screenshot({ clip: LEGEND_BAR }));
+  // The colours begin 5 points below its upper edge.
+  const { x, y, width } = await bounds(page, "legend-colours");
+  const legend = await decoded(page, await page.screenshot({ clip: { x, y: y + 7, width, height: 3 } }));
   const drawn = await picture(page, { width: 480, height: 300, overlays: [] });
   const seen = plainlySeen(now, drawn, bone);
 

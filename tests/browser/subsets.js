@@ -4,9 +4,10 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { atRest, drag, keep, settled, test } from "./harness.js";
 import { decoded, difference, picture } from "./picture.js";
-import {
-  CHEST, GROUND, INSPECTOR, RESET_MATERIAL, ROUGHNESS_KNOB, ROUGHNESS_LEAST, TRIM_EYE,
-} from "./widgets.js";
+import { CHEST, GROUND, INSPECTOR, place, click } from "./widgets.js";
+
+/** The subset of the sample that is orange. */
+const TRIM = 2;
 
 
 /** The part of the page where the inspector is when something is selected. */
@@ -35,11 +36,11 @@ test("the eye of a subset hides it and shows it again", { draws: true }, async (
   await atRest(page);
   const all = await picture(page);
   const clickEye = async () => {
-    await page.mouse.move(...TRIM_EYE);
+    await page.mouse.move(...(await place(page, "model")));
     await page.mouse.wheel(0, 1000);
     // The list glides to its end.
     for (let frames = 0; frames < 20; frames += 2) await settled(page);
-    await page.mouse.click(...TRIM_EYE);
+    await click(page, `hide-subset-${TRIM}`);
     await settled(page);
     await page.mouse.move(...GROUND);
     await atRest(page);
@@ -64,14 +65,14 @@ test("roughness is edited in the inspector, and Reset brings the very same pictu
   const before = await picture(page);
   await page.mouse.click(...CHEST);
   await atRest(page);
-  await drag(page, ROUGHNESS_KNOB, ROUGHNESS_LEAST);
+  await drag(page, await place(page, "roughness"), await place(page, "roughness", 0));
   await page.mouse.move(...GROUND);
   await atRest(page);
   const smooth = await picture(page);
   // Four parts of a hundred are reflected, so what becomes sharper in them is faint.
   assert.ok(difference(before, smooth, { tolerance: 2 }) > 0.005, `${difference(before, smooth, { tolerance: 2 })}`);
   await keep(page, "subset-smooth");
-  await page.mouse.click(...RESET_MATERIAL);
+  await click(page, "reset-material");
   await page.mouse.move(...GROUND);
   await atRest(page);
   assert.equal((await picture(page)).digest, before.digest);

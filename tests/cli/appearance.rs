@@ -1,10 +1,9 @@
 //! `bindpose render` under other lights, in other modes, on other grounds: the page's menus as arguments.
 
+use bindpose::scene::ViewMode;
 use image::RgbaImage;
 
 use crate::program::{FIGURE, run, scratch_name, words};
-
-const MODES: &str = "lit base-color normal-map normal tangent uv roughness metallic material depth ao shadow";
 
 fn draw(name: &str, arguments: &[&str]) -> RgbaImage {
     let path = scratch_name(&format!("look-{name}.png"));
@@ -24,7 +23,7 @@ fn differs(a: &RgbaImage, b: &RgbaImage) -> f64 {
 
 #[test]
 fn every_view_mode_is_another_picture() {
-    let modes: Vec<&str> = MODES.split(' ').collect();
+    let modes = ViewMode::ALL.map(ViewMode::name);
     let pictures: Vec<_> = modes.iter().map(|mode| draw(mode, &["--view-mode", mode])).collect();
     for (index, picture) in pictures.iter().enumerate() {
         for (other, mode) in pictures[..index].iter().zip(&modes) {

@@ -5,7 +5,8 @@ mod stream;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use bindpose::check::book::{Book, Known, Outcome, Row, Verdict, read, verdict};
+use bindpose::check::book::{Book, Known, Outcome, Verdict, read, verdict};
+use bindpose::diagnostic::Entry;
 use bindpose::format::{Dialect, Document, Material, Reflectance, Subset, parse, write};
 use bindpose::model::Handedness;
 use proptest::prelude::*;
@@ -34,7 +35,7 @@ fn verdict_of(book: Book, document: &Document) -> Verdict {
     let known = Known {
         document: Some(document),
         handedness: Some(Handedness::Right),
-        missing_maps: None,
+        ..Known::default()
     };
     verdict(book, write(document).as_bytes(), &known)
 }
@@ -95,7 +96,7 @@ fn what_a_loader_reads_is_what_the_file_means() {
         let meant = parse(&fixture.bytes).expect("good fixtures can be read").document;
         for book in Book::ALL {
             let trouble = verdict(book, &fixture.bytes, &Known::default()).trouble;
-            let said = as_said(&read(book, &fixture.bytes).document);
+            let said = as_said(&read(book, &fixture.bytes, &Known::default()).document);
             if trouble.is_none() {
                 assert_eq!(said, as_said(&meant), "{} by {}", fixture.name, book.name());
                 compared += 1;
@@ -159,7 +160,7 @@ proptest! {
         let meant = parse(text.as_bytes()).expect("what is written can be read").document;
         let trouble = verdict(book, text.as_bytes(), &Known::default()).trouble;
         prop_assert!(trouble.is_none(), "{trouble:?}\n{text}");
-        prop_assert_eq!(as_said(&read(book, text.as_bytes()).document), as_said(&meant));
+        prop_assert_eq!(as_said(&read(book, text.as_bytes(), &Known::default()).document), as_said(&meant));
     }
 }
 
@@ -202,7 +203,7 @@ proptest! {
         let bytes = damaged(&write(&document), &damage);
         let plain = word_by_word(&bytes);
         for book in Book::ALL {
-            let (quick, plain) = (read(book, &bytes), read(book, &plain));
+            let (quick, plain) = (read(book, &bytes, &Known::default()), read(book, &plain, &Known::default()));
             prop_assert_eq!(quick.stop, plain.stop);
             prop_assert_eq!(quick.mistake, plain.mistake);
             prop_assert_eq!(quick.counts, plain.counts);
@@ -223,7 +224,10 @@ fn rows_of_fixtures_and_real_files_are_read_as_word_by_word() {
     for bytes in of_fixtures.chain(real) {
         let plain = word_by_word(&bytes);
         for book in Book::ALL {
-            let (quick, plain) = (read(book, &bytes), read(book, &plain));
+            let (quick, plain) = (
+                read(book, &bytes, &Known::default()),
+                read(book, &plain, &Known::default()),
+            );
             assert_eq!((quick.stop, quick.mistake), (plain.stop, plain.mistake));
             assert!(quick.document == plain.document && quick.counts == plain.counts);
         }
@@ -268,7 +272,7 @@ fn a_clip_name_of_two_words_stops_a_loader_in_its_first_bone() {
     document.clips[0].name = "Take 001".into();
     let verdict = verdict_of(Book::D3d12, &document);
     let trouble = verdict.trouble.as_ref().expect("it stops");
-    assert_eq!(trouble.row, Row::Bone { clip: 0, bone: 0 });
+    assert_eq!(trouble.entry, Entry::Track { clip: 0, bone: 0 });
     assert!(
         trouble
             .why
@@ -342,6 +346,7 @@ fn a_material_without_a_map_ends_the_demo_whoever_asks() {
             document,
             handedness: Some(Handedness::Right),
             missing_maps: Some(&[]),
+            ..Known::default()
         };
         let verdict = verdict(Book::D3d12, text.as_bytes(), &known);
         assert_eq!((verdict.outcome, verdict.ends), (Outcome::EndsWithError, true));
@@ -506,6 +511,7 @@ fn handedness_and_missing_maps_are_limits_where_they_are_known() {
         document: Some(&document),
         handedness: Some(Handedness::Left),
         missing_maps: Some(&missing),
+        ..Known::default()
     };
     let verdict = verdict(Book::D3d12, text.as_bytes(), &known);
     assert_eq!(codes_of(&verdict), ["book-handedness", "map-missing"]);
@@ -553,4 +559,35 @@ fn a_cut_file_is_judged_at_every_byte() {
         let is_whole = verdict.shows == "The model in \"Take1\".";
         assert_eq!(verdict.reads(), is_whole, "{end}: {verdict:?}");
     }
+}
+
+/// Vertices that are taken over are those that it reads itself, and what comes after them is read at the same place.
+#[test]
+fn a_loader_makes_the_same_of_a_file_whose_vertices_are_known() {
+    let own = ["good", "bad"]
+        .into_iter()
+        .flat_map(fixtures)
+        .map(|fixture| fixture.bytes);
+    let real = REAL_FILES
+        .iter()
+        .filter_map(|name| shared_bytes(&format!("models/{name}.m3d")));
+    let files = own.chain(real);
+    let mut taken_over = 0;
+    for bytes in files.chain([write(&arm()).into_bytes(), write(&quad()).into_bytes()]) {
+        let Ok(parsed) = parse(&bytes) else { continue };
+        let plain = Known {
+            document: Some(&parsed.document),
+            ..Known::default()
+        };
+        let known = Known {
+            quick_vertices: parsed.quick_vertices,
+            ..plain
+        };
+        taken_over += usize::from(known.quick_vertices.is_some());
+        for book in Book::ALL {
+            let [plain, known] = [&plain, &known].map(|known| format!("{:?}", read(book, &bytes, known)));
+            assert!(plain == known, "{}", book.name());
+        }
+    }
+    assert!(taken_over >= 2, "{taken_over} files have vertices that are known");
 }

@@ -43,7 +43,6 @@ mod looks;
 mod map_uploads;
 mod maps;
 mod normal_maps;
-mod over_model;
 mod painter;
 mod parts;
 mod passes;
@@ -52,6 +51,7 @@ mod picture;
 mod prepared;
 mod robust;
 mod scenes;
+mod seen_through;
 mod sets;
 mod shadows;
 #[path = "../common/shared.rs"]

@@ -27,8 +27,8 @@ const ASKED: [Ask; 10] = [
     ("Z", |scene| scene.options.overlays.set(Overlay::Wireframe, true)),
     ("N", |scene| scene.options.overlays.set(Overlay::Normals, true)),
     ("B", |scene| {
-        scene.over_model.line(Vec3::ZERO, Vec3::Y, [255; 4]);
-        scene.over_model.triangle([Vec3::ZERO, Vec3::X, Vec3::Y], [255; 4]);
+        scene.seen_through.line(Vec3::ZERO, Vec3::Y, [255; 4]);
+        scene.seen_through.triangle([Vec3::ZERO, Vec3::X, Vec3::Y], [255; 4]);
     }),
     ("the pointer", |scene| scene.highlighted = Some(0)),
     ("T", |scene| scene.options.view_mode = ViewMode::BaseColor),

@@ -29,7 +29,7 @@ pub(crate) struct Scene {
     pub(crate) in_sight: usize,
     /// One palette after another.
     pub(crate) crowd_palettes: Vec<Affine3A>,
-    pub(crate) over_model: OverlayGeometry,
+    pub(crate) seen_through: OverlayGeometry,
 }
 
 impl Scene {
@@ -60,7 +60,7 @@ impl Scene {
             crowd: Vec::new(),
             in_sight: 0,
             crowd_palettes: Vec::new(),
-            over_model: OverlayGeometry::default(),
+            seen_through: OverlayGeometry::default(),
         }
     }
 
@@ -126,7 +126,7 @@ impl Scene {
                 palettes: &self.ghosts,
                 colors_srgb: &GHOST_SRGB[..self.ghosts.len()],
             },
-            over_model: Some(&self.over_model),
+            seen_through: Some(&self.seen_through),
             options: self.options,
         }
     }

@@ -4,12 +4,12 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use std::time::Duration;
 
-use bindpose::app::{App, AppOptions, SheetFailure, SheetJob};
+use bindpose::app::{App, AppOptions, ContactSheetFailure, ContactSheetJob};
 use bindpose::scene::Theme;
 use bindpose::session::{
     CameraCommand, ExportCommand, ExportOptions, File, FileCommand, LookCommand, PlayCommand, Session,
 };
-use bindpose::ui::{self, SheetRequest, UiState};
+use bindpose::ui::{self, ContactSheetRequest, UiState};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
@@ -110,7 +110,7 @@ fn a_frame_is_told_what_the_cpu_spent_on_it() {
     assert_eq!(cost.cpu_secs, Some(0.25), "the clock was looked at before and after");
 }
 
-const SHEET: SheetRequest = SheetRequest {
+const SHEET: ContactSheetRequest = ContactSheetRequest {
     size: [300, 200],
     cells: [2, 2],
     turntable: false,
@@ -118,15 +118,18 @@ const SHEET: SheetRequest = SheetRequest {
 };
 
 /// Draws the next picture of a sheet into its place.
-fn draw_next(app: &Shared<Option<App>>, job: &mut SheetJob) -> Result<(), SheetFailure> {
+fn draw_next(app: &Shared<Option<App>>, job: &mut ContactSheetJob) -> Result<(), ContactSheetFailure> {
     let picture = app.borrow_mut().as_mut().expect("it ran").draw_next(job)?;
     job.place(&picture.pixels_blocking()?);
     Ok(())
 }
 
-fn begin(app: &Shared<Option<App>>, wanted: &SheetRequest) -> SheetJob {
+fn begin(app: &Shared<Option<App>>, wanted: &ContactSheetRequest) -> ContactSheetJob {
     let app = app.borrow();
-    app.as_ref().expect("it ran").begin_sheet(wanted).expect("has room")
+    app.as_ref()
+        .expect("it ran")
+        .begin_contact_sheet(wanted)
+        .expect("has room")
 }
 
 #[test]
@@ -171,7 +174,7 @@ fn a_contact_sheet_ends_when_another_model_is_opened() {
     draw_next(&app, &mut job).expect("draws");
     session.borrow_mut().apply(FileCommand::Add(vec![still("b.m3d")]));
     let failure = draw_next(&app, &mut job).expect_err("the GPU has another model");
-    assert!(matches!(failure, SheetFailure::Changed), "{failure}");
+    assert!(matches!(failure, ContactSheetFailure::Changed), "{failure}");
     assert_eq!(
         session.borrow().open_model().map(|open| open.file.base_name()),
         Some("b.m3d")
@@ -186,11 +189,11 @@ fn a_contact_sheet_without_room_is_refused() {
     let (mut harness, _session, app) = window(still("a.m3d"));
     harness.run();
     let app = app.borrow();
-    let wanted = SheetRequest {
+    let wanted = ContactSheetRequest {
         cells: [50, 50],
         ..SHEET
     };
-    let refused = app.as_ref().expect("it ran").begin_sheet(&wanted).err();
+    let refused = app.as_ref().expect("it ran").begin_contact_sheet(&wanted).err();
     let told = refused.expect("it is refused").to_string();
     assert_eq!(
         told,

@@ -99,7 +99,7 @@ fn chips_stand_in_the_view_beside_each_other_and_off_the_panels() {
         let chips = chips(&window);
         assert_eq!(chips.len(), 9, "{chips:?}");
         for (index, (name, rect)) in chips.iter().enumerate() {
-            for panel in ["title", "toolbar", "model", "inspector", "timeline", "sheet", "legend"] {
+            for panel in ["title", "toolbar", "model", "inspector", "timeline", "drawer", "legend"] {
                 if let Some(panel_rect) = shown_panel(&window, panel) {
                     assert!(!rect.intersects(panel_rect), "{name} lies on {panel} in {size}");
                 }

@@ -504,12 +504,12 @@ fn it_fits_windows_of_any_size() {
             assert_apart(&window, &["title", "toolbar", "model", "timeline"]);
         }
     }
-    let sheet: &[&str] = &["title", "sheet"];
+    let sheet: &[&str] = &["title", "drawer"];
     for (size, panels) in [
         (PHONE, sheet),
         (vec2(320.0, 568.0), sheet),
         (vec2(899.0, 700.0), sheet),
-        (vec2(844.0, 390.0), &["title", "sheet", "page"]),
+        (vec2(844.0, 390.0), &["title", "drawer", "page"]),
     ] {
         let mut window = touch_window(size, vec![rig(30, 31)]);
         open(&mut window);

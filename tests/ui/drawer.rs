@@ -12,7 +12,7 @@ use crate::page::{DRAWER_PAGES, PHONE, Window, phone, touch_window};
 use crate::pointer::{fingers, gesture};
 
 fn top(window: &Window) -> f32 {
-    panel(window, "sheet").min.y
+    panel(window, "drawer").min.y
 }
 
 fn open() -> Window {
@@ -46,7 +46,7 @@ fn what_is_picked_while_the_sheet_is_shut_is_named_and_its_name_opens_the_inspec
         window.apply(SubmeshCommand::Select(Some(0)));
         let button = window.rect("Show Painted");
         assert!(button.height() >= 44.0);
-        assert!(!button.intersects(panel(&window, "sheet")) && !button.intersects(panel(&window, "title")));
+        assert!(!button.intersects(panel(&window, "drawer")) && !button.intersects(panel(&window, "title")));
         window.click("Show Painted");
         assert!(window.shows("Selected: Painted") && !window.shows("Show Painted"));
         window.click("Close the sheet");
@@ -184,18 +184,18 @@ fn a_camera_that_was_moved_stays_and_framing_is_offered() {
     let mut window = phone(vec![moving("a.m3d")]);
     window.click("Model facts");
     window.click("Close");
-    assert!(shown_panel(&window, "frame").is_none(), "nobody moved the camera");
+    assert!(shown_panel(&window, "offer-frame").is_none(), "nobody moved the camera");
     window.apply(CameraCommand::Pan {
         drag: glam::Vec2::new(0.1, 0.0),
     });
     let camera = *window.session().camera();
-    assert!(shown_panel(&window, "frame").is_none(), "nothing opened since");
+    assert!(shown_panel(&window, "offer-frame").is_none(), "nothing opened since");
     window.harness.set_size(Vec2::new(PHONE.y, PHONE.x));
     window.pass_on();
     assert_eq!(window.session().camera(), &camera, "it stays when the phone turns");
     window.click("Frame the model");
     assert_ne!(window.session().camera(), &camera);
-    assert!(shown_panel(&window, "frame").is_none(), "done");
+    assert!(shown_panel(&window, "offer-frame").is_none(), "done");
 }
 
 #[test]
@@ -222,7 +222,7 @@ fn the_error_card_leaves_the_transport_free_and_shows_the_mark() {
 fn more_than_half_of_the_sheet_of_the_timeline_is_keys() {
     let mut window = phone(vec![moving("a.m3d")]);
     window.click("Dope sheet and");
-    let sheet = panel(&window, "sheet");
+    let sheet = panel(&window, "drawer");
     let ruler = window.rect("Ruler");
     let keys = Rect::from_min_max(ruler.min, pos2(sheet.max.x, window.rect("Play").min.y));
     assert!(keys.height() >= 0.5 * sheet.height(), "{keys} of {sheet}");

@@ -53,7 +53,7 @@ fn the_greeting_covers_no_control() {
         assert_off(
             &window,
             greeting,
-            &["title", "toolbar", "model", "inspector", "timeline", "sheet"],
+            &["title", "toolbar", "model", "inspector", "timeline", "drawer"],
         );
         for (name, rect) in window.named(|name| name.starts_with("Show ") && name != "Show alone") {
             assert!(

@@ -50,7 +50,7 @@ pub(crate) fn assert_between_sides(window: &Window, size: Vec2) {
 
 /// Rectangles of the panels that the layout opened.
 fn panels(window: &Window) -> Vec<(&'static str, Rect)> {
-    let names = "title toolbar model inspector diagnostics timeline sheet page help error legend greeting";
+    let names = "title toolbar model inspector findings timeline drawer page help error legend greeting";
     let area = |name: &'static str| {
         let id = egui::Id::unique(("panel", name));
         let visible = window
@@ -101,10 +101,10 @@ fn in_a_wide_window_nothing_is_cut_and_no_panel_lies_on_another() {
             if size.y >= 600.0 {
                 window.click("Findings");
                 assert_inside(&window, size);
-                assert_apart(&window, &["title", "toolbar", "model", "diagnostics", "timeline"]);
+                assert_apart(&window, &["title", "toolbar", "model", "findings", "timeline"]);
                 window.apply(SubmeshCommand::Select(Some(0)));
                 assert_inside(&window, size);
-                let all = ["title", "toolbar", "model", "inspector", "diagnostics", "timeline"];
+                let all = ["title", "toolbar", "model", "inspector", "findings", "timeline"];
                 assert_apart(&window, &all);
             }
         }
@@ -124,9 +124,9 @@ fn in_a_narrow_window_a_bar_and_a_sheet_share_the_height() {
         ] {
             let mut window = window(size, files);
             assert_inside(&window, size);
-            assert_apart(&window, &["title", "sheet"]);
+            assert_apart(&window, &["title", "drawer"]);
             window.click("Model facts");
-            assert_apart(&window, &["title", "sheet"]);
+            assert_apart(&window, &["title", "drawer"]);
             let dialect = window.rect("Dialect");
             assert!(dialect.max.y < size.y - 100.0, "what was opened can be seen: {dialect}");
             assert_between_sides(&window, size);
@@ -143,7 +143,7 @@ fn in_a_narrow_window_a_bar_and_a_sheet_share_the_height() {
             assert_inside(&window, size);
             window.click("Model facts");
             assert_between_sides(&window, size);
-            assert_apart(&window, &["title", "sheet"]);
+            assert_apart(&window, &["title", "drawer"]);
             show_findings(&mut window);
             assert_between_sides(&window, size);
         }
@@ -169,11 +169,11 @@ fn in_a_low_window_what_was_opened_stands_beside_the_model() {
             let has_clip = !matches!(files.as_slice(), [file] if *file == still("a.m3d"));
             let mut window = open(size, files);
             assert_inside(&window, size);
-            assert_apart(&window, &["title", "sheet"]);
+            assert_apart(&window, &["title", "drawer"]);
             assert_model_is_free(&mut window, size);
             window.click("Model facts");
             assert_between_sides(&window, size);
-            assert_apart(&window, &["title", "sheet", "page"]);
+            assert_apart(&window, &["title", "drawer", "page"]);
             assert!(panel(&window, "page").contains_rect(window.rect("Dialect")));
             assert_model_is_free(&mut window, size);
             window.apply(LookCommand::SetSkinView(Some(SkinView::Stretch)));
@@ -186,7 +186,7 @@ fn in_a_low_window_what_was_opened_stands_beside_the_model() {
             if has_clip {
                 window.click("Dope sheet and");
                 assert_between_sides(&window, size);
-                assert_apart(&window, &["title", "sheet", "page"]);
+                assert_apart(&window, &["title", "drawer", "page"]);
                 assert_model_is_free(&mut window, size);
             }
         }
@@ -240,7 +240,7 @@ fn the_error_card_and_the_keys_fit_the_window() {
             Rect::from_min_size(egui::Pos2::ZERO, size).contains_rect(help),
             "{help}"
         );
-        assert_off(&window, help, &["title", "toolbar", "model", "timeline", "sheet"]);
+        assert_off(&window, help, &["title", "toolbar", "model", "timeline", "drawer"]);
     }
 }
 
@@ -281,7 +281,7 @@ fn the_legend_lies_on_no_panel_and_not_on_the_model() {
             window.apply(LookCommand::SetSkinView(Some(view)));
             let narrow = size.x < 900.0;
             let base: &[&str] = if narrow {
-                &["title", "sheet", "legend"]
+                &["title", "drawer", "legend"]
             } else {
                 &["title", "toolbar", "model", "timeline", "legend"]
             };
@@ -325,7 +325,7 @@ fn assert_model_is_free(window: &mut Window, size: Vec2) {
     let panels = panels(window);
     let covering = panels
         .iter()
-        .filter(|(name, _)| ["legend", "sheet", "page", "timeline", "model"].contains(name));
+        .filter(|(name, _)| ["legend", "drawer", "page", "timeline", "model"].contains(name));
     for (name, rect) in covering {
         assert!(
             !rect.intersects(model),
@@ -366,7 +366,7 @@ fn what_opens_stands_in_its_place_from_its_first_frame_on() {
         assert_in_place("legend", &|page| {
             page.session.apply(LookCommand::SetSkinView(Some(SkinView::Stretch)));
         });
-        assert_in_place("sheet", &|page| page.state.drawer = Some(DrawerPage::Light));
+        assert_in_place("drawer", &|page| page.state.drawer = Some(DrawerPage::Light));
         assert_in_place("findings", &|page| page.state.diagnostics_open = true);
         assert_in_place("keys", &|page| page.state.help_open = true);
         assert_in_place("error", &|page| {
@@ -522,7 +522,7 @@ fn what_stands_over_the_view_of_a_phone_counts_when_the_model_is_framed() {
         let [top, bottom] = top_of_model(&mut window);
         let chip = window.rect("Leave speed 0.5×");
         assert!(chip.center().y <= top, "{sheet:?}: {chip} over {top}");
-        for below in ["legend", "shortcuts", "sheet"] {
+        for below in ["legend", "shortcuts", "drawer"] {
             let id = egui::Id::unique(("panel", below));
             let shown = window.harness.ctx.memory(|memory| {
                 let is_shown = memory.areas().visible_layer_ids().iter().any(|layer| layer.id == id);

@@ -56,7 +56,7 @@ fn pages_of_the_sheet_fit_a_phone_and_fingers() {
             window.click("More");
             window.click(item);
             assert_between_sides(&window, size);
-            assert_apart(&window, &["title", "sheet"]);
+            assert_apart(&window, &["title", "drawer"]);
             let rect = window.rect(inside);
             assert!(rect.height() >= 44.0 && rect.width() >= 44.0, "{inside}: {rect}");
             window.click("Close the sheet");
@@ -67,7 +67,7 @@ fn pages_of_the_sheet_fit_a_phone_and_fingers() {
         let last = window.rect("Fresnel R0: blue");
         assert!(last.max.x <= size.x - 14.0, "{last} leaves the sheet's margin");
         assert_between_sides(&window, size);
-        assert_apart(&window, &["title", "sheet"]);
+        assert_apart(&window, &["title", "drawer"]);
     }
 }
 

@@ -115,6 +115,12 @@ fn assert_sound(told: &Told, what: &str) {
             let is_scrolled = (role, name) == ("group", "Table of keys");
             assert!(is_scrolled || is_among(CONTROLS, role), "no control: {said}");
         }
+        let is_stable = |letter: char| letter == '-' || letter.is_ascii_lowercase() || letter.is_ascii_digit();
+        assert!(
+            node.control.iter().flat_map(|control| control.chars()).all(is_stable),
+            "{:?}: {said}",
+            node.control
+        );
         assert_ne!(node.description.as_deref(), Some(name), "said twice: {said}");
         assert!(node.expanded.is_none() || is_among(FOLDED, role), "folded: {said}");
         assert!(node.popup.is_none() || node.expanded.is_some(), "opens: {said}");
@@ -419,15 +425,30 @@ fn the_grip_of_the_sheet_says_what_it_opens() {
 }
 
 #[test]
-fn buttons_of_files_say_which_dialog_they_open() {
+fn controls_have_names_that_do_not_change_with_what_they_say() {
     let mut window = window(WIDE, files());
     window.click("Clip ");
     let told = Told::of(&mut window);
-    let picks = |name: &str| told.find("button", name).picks.as_deref();
-    assert_eq!(
-        (picks("Open files…"), picks("Add clips…"), picks("Play")),
-        (Some("files"), Some("clips"), None)
-    );
+    for (role, words, control) in [
+        // The page opens a dialog of the browser for these two.
+        ("button", "Open files…", "open-files"),
+        ("button", "Add clips…", "add-clips"),
+        ("slider", "Time", "time"),
+        ("slider", "Range out", "range-out"),
+        ("button", "Undo", "undo"),
+        ("button", "View mode: ", "view-mode"),
+        ("radio", "Panel: Skeleton", "page-1"),
+        ("region", "Model", "model"),
+        ("region", "Timeline", "timeline"),
+    ] {
+        assert_eq!(told.find(role, words).control.as_deref(), Some(control), "{words}");
+    }
+    // The button that plays says something else while it does.
+    for words in ["Play", "Pause"] {
+        let told = Told::of(&mut window);
+        assert_eq!(told.find("button", words).control.as_deref(), Some("play"));
+        window.apply(PlayCommand::Toggle);
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Pictures and contact sheets as files: their size, their ground and their name.
 
 use bindpose::session::{FileCommand, PlayCommand, Session};
-use bindpose::ui::{Request, SheetRequest, picture_name, sheet_name};
+use bindpose::ui::{ContactSheetRequest, Request, contact_sheet_name, picture_name};
 use egui::accesskit::{Action, Role};
 use egui::{Event, Key, Modifiers};
 
@@ -94,15 +94,15 @@ fn type_into(window: &mut Window, field: &str, number: &str) {
 fn a_contact_sheet_is_asked_for_as_chosen() {
     let mut window = open();
     window.click("Save contact sheet");
-    let first = SheetRequest {
+    let first = ContactSheetRequest {
         size: [1440, 900],
         cells: [4, 3],
         turntable: false,
         transparent: false,
     };
-    assert_eq!(pictures(&window), [Request::SaveSheet(first)]);
+    assert_eq!(pictures(&window), [Request::SaveContactSheet(first)]);
 
-    window.harness.state_mut().state.end_sheet();
+    window.harness.state_mut().state.end_contact_sheet();
     window.pass_on();
     type_into(&mut window, "Columns", "6");
     type_into(&mut window, "Rows", "1");
@@ -111,24 +111,24 @@ fn a_contact_sheet_is_asked_for_as_chosen() {
     window.click("Transparent ground");
     window.click("Square");
     window.click("Save contact sheet");
-    let second = SheetRequest {
+    let second = ContactSheetRequest {
         size: [2048, 2048],
         cells: [6, 1],
         turntable: true,
         transparent: false,
     };
-    assert_eq!(pictures(&window).last(), Some(&Request::SaveSheet(second)));
+    assert_eq!(pictures(&window).last(), Some(&Request::SaveContactSheet(second)));
 
-    window.harness.state_mut().state.end_sheet();
+    window.harness.state_mut().state.end_contact_sheet();
     window.pass_on();
     window.click("Transparent ground");
     window.click("Transparent sheet");
     window.click("Save contact sheet");
-    let third = SheetRequest {
+    let third = ContactSheetRequest {
         transparent: true,
         ..second
     };
-    assert_eq!(pictures(&window).last(), Some(&Request::SaveSheet(third)));
+    assert_eq!(pictures(&window).last(), Some(&Request::SaveContactSheet(third)));
     window.click("Save PNG");
     let (size, transparent) = ([2048, 2048], false);
     let last = pictures(&window).last().cloned();
@@ -163,7 +163,7 @@ fn a_contact_sheet_tells_how_far_it_is_and_is_cancelled() {
     window.click("Picture");
     window.click("Cancel the contact sheet");
     assert!(!tell(&mut window, 7), "it ends before the next picture");
-    window.harness.state_mut().state.end_sheet();
+    window.harness.state_mut().state.end_contact_sheet();
     window.pass_on();
     assert!(window.shows("Save contact sheet"));
     assert_eq!(pictures(&window).len(), 1);
@@ -175,7 +175,7 @@ fn the_keyboard_stays_on_the_button_while_it_changes() {
     window.ask("Save contact sheet", Action::Focus, None);
     window.press(Modifiers::NONE, Key::Enter);
     assert_eq!(window.focused().as_deref(), Some("Cancel the contact sheet"));
-    window.harness.state_mut().state.end_sheet();
+    window.harness.state_mut().state.end_contact_sheet();
     window.pass_on();
     assert_eq!(window.focused().as_deref(), Some("Save contact sheet"));
 }
@@ -200,7 +200,7 @@ fn a_sheet_is_named_by_model_and_clip() {
     let named = |files| {
         let mut session = Session::new(true);
         session.apply(FileCommand::Add(files));
-        sheet_name(&session)
+        contact_sheet_name(&session)
     };
     assert_eq!(named(vec![moving("in/soldier.m3d")]), "soldier-Bend-sheet.png");
     assert_eq!(named(vec![still("a.m3d")]), "a-sheet.png");

@@ -4,6 +4,7 @@ use bindpose::anim::{GhostPlan, SkinView};
 use bindpose::model::JointIndex;
 use bindpose::scene::BoneStyle;
 use bindpose::session::{File, JointCommand, LookCommand};
+use egui::accesskit::Action;
 use egui::{Key, Modifiers, PointerButton, Vec2, vec2};
 
 use crate::chains::mirrored;
@@ -290,6 +291,18 @@ fn the_panel_with_the_tree_is_dragged_wider_and_stays_so() {
 }
 
 #[test]
+fn a_program_that_reads_the_screen_widens_the_panel_by_single_steps() {
+    let mut window = tree(WIDE, 5);
+    let width = |window: &Window| window.rect("Bone 1, ").width();
+    let before = width(&window);
+    window.ask("Width of the panel", Action::Increment, None);
+    let wider = width(&window);
+    assert_eq!(wider - before, 16.0);
+    window.ask("Width of the panel", Action::Decrement, None);
+    assert_eq!(width(&window), before);
+}
+
+#[test]
 fn tree_and_inspector_fit_every_window() {
     for (size, bone_count) in [(WIDE, 300), (SMALL, 300), (SMALL, 1), (vec2(900.0, 600.0), 2_000)] {
         let mut window = tree(size, bone_count);
@@ -308,7 +321,7 @@ fn tree_and_inspector_fit_every_window() {
     window.click("Panel: Skeleton");
     window.apply(LookCommand::SetSkinView(Some(SkinView::Weight)));
     assert_between_sides(&window, PHONE);
-    assert_apart(&window, &["title", "sheet", "legend"]);
+    assert_apart(&window, &["title", "drawer", "legend"]);
     let row = window.rect("Bone 1, ");
     assert!(row.height() >= 44.0, "{row}");
     window.click("Bone 1, ");

@@ -6,7 +6,7 @@ use super::demo::{Book, DEMO_CLIP, DEMO_MATERIALS, DEMO_SCALE, SEEN_HEIGHTS};
 use crate::diagnostic::collect::{counted, named};
 use crate::diagnostic::limits::{MOST_BONE_INDEX, MOST_BONES, MOST_MATERIALS, MOST_VERTICES};
 use crate::diagnostic::{Code, Diagnostic, codes};
-use crate::format::{Document, Material, Vertex};
+use crate::format::{Document, Material, QuickVertices, Vertex};
 use crate::model::Handedness;
 
 /// What is known of a file beside its bytes. What is not known is not judged.
@@ -14,6 +14,8 @@ use crate::model::Handedness;
 pub struct Known<'a> {
     /// What the file means. Without it limits are found only in a file that the loader reads as it is meant.
     pub document: Option<&'a Document>,
+    /// Where the document's vertices stand in the bytes, so that they are not read again.
+    pub quick_vertices: Option<QuickVertices>,
     /// Handedness of the model.
     pub handedness: Option<Handedness>,
     /// Names of maps for which there is no file.

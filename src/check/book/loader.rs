@@ -2,8 +2,9 @@
 //! Without bones the loader for static models is meant, which ends with the triangles.
 
 use super::demo::Book;
-use super::row::Row;
+use super::limits::Known;
 use super::stream::{Stream, Trouble};
+use crate::diagnostic::Entry;
 use crate::format::quick;
 use crate::format::{AnimationClip, BoneAnimation, Dialect, Document, Keyframe, Material, Reflectance, Subset, Vertex};
 
@@ -69,8 +70,9 @@ const MATERIAL: [&str; 13] = [
 ];
 const KEY: [&str; 4] = ["Time", "Pos", "Scale", "Quat"];
 
-/// Reads a file as a book's loader does. Makes room only for what is there.
-pub fn read(book: Book, bytes: &[u8]) -> Reading {
+/// Reads a file as a book's loader does. Makes room only for what is there. Vertices of which is known that it reads them as they are meant
+/// are taken over.
+pub fn read(book: Book, bytes: &[u8], known: &Known<'_>) -> Reading {
     let mut loader = Loader {
         stream: Stream::new(bytes),
         document: Document {
@@ -84,7 +86,7 @@ pub fn read(book: Book, bytes: &[u8]) -> Reading {
     let counts = loader.header();
     loader.materials(counts.materials);
     loader.subsets(counts.materials);
-    loader.vertices(counts.vertices, counts.bones);
+    loader.vertices(counts.vertices, counts.bones, known);
     loader.triangles(counts.triangles, counts.vertices);
     if counts.bones > 0 {
         loader.offsets(counts.bones);
@@ -123,16 +125,16 @@ impl Loader<'_> {
         }
     }
 
-    /// Reads rows until one fails, and keeps those that were read whole.
-    fn rows<T>(
+    /// Reads entries until one fails, and keeps those that were read whole.
+    fn entries<T>(
         &mut self,
         count: u32,
-        row: impl Fn(u32) -> Row,
+        entry: impl Fn(u32) -> Entry,
         read: impl Fn(&mut Stream<'_>, Dialect) -> T,
         list: impl Fn(&mut Document) -> &mut Vec<T>,
     ) {
         for index in 0..count {
-            self.stream.row = row(index);
+            self.stream.entry = entry(index);
             let value = read(&mut self.stream, self.document.dialect);
             if self.stream.has_failed() {
                 return;
@@ -143,26 +145,36 @@ impl Loader<'_> {
 
     fn materials(&mut self, count: u32) {
         self.stream.ruler("the materials");
-        self.rows(count, Row::Material, read_material, |document| &mut document.materials);
+        self.entries(count, Entry::Material, read_material, |document| {
+            &mut document.materials
+        });
     }
 
     fn subsets(&mut self, count: u32) {
         self.stream.ruler("the subsets");
-        self.rows(
+        self.entries(
             count,
-            Row::Subset,
+            Entry::Subset,
             |stream, _| read_subset(stream),
             |document| &mut document.subsets,
         );
     }
 
-    fn vertices(&mut self, count: u32, bones: u32) {
+    fn vertices(&mut self, count: u32, bones: u32, known: &Known<'_>) {
         self.stream.ruler("the vertices");
+        if let (Some(document), Some(quick)) = (known.document, &known.quick_vertices)
+            && document.vertices.len() == count as usize
+            && quick.bones == bones
+            && self.stream.pass_over(quick)
+        {
+            self.document.vertices.clone_from(&document.vertices);
+            return;
+        }
         let read = |stream: &mut Stream<'_>, _| {
             let quick = stream.quick(|cursor| quick::vertex::<false>(cursor, bones));
             quick.map_or_else(|| read_vertex(stream, bones > 0), |(vertex, _)| vertex)
         };
-        self.rows(count, Row::Vertex, read, |document| &mut document.vertices);
+        self.entries(count, Entry::Vertex, read, |document| &mut document.vertices);
     }
 
     fn triangles(&mut self, count: u32, vertices: u32) {
@@ -176,7 +188,7 @@ impl Loader<'_> {
                 |(triangle, _)| triangle,
             )
         };
-        self.rows(count, Row::Triangle, read, |document| &mut document.triangles);
+        self.entries(count, Entry::Triangle, read, |document| &mut document.triangles);
     }
 
     fn offsets(&mut self, count: u32) {
@@ -185,7 +197,7 @@ impl Loader<'_> {
             stream.label("BoneOffset", &[]);
             stream.quick(quick::offset).unwrap_or_else(|| stream.floats("a number"))
         };
-        self.rows(count, Row::Offset, read, |document| &mut document.bone_offsets);
+        self.entries(count, Entry::Offset, read, |document| &mut document.bone_offsets);
     }
 
     fn hierarchy(&mut self, count: u32) {
@@ -194,14 +206,14 @@ impl Loader<'_> {
             stream.label("ParentIndexOfBone", &[]);
             stream.int("the number")
         };
-        self.rows(count, Row::Parent, read, |document| &mut document.bone_parents);
+        self.entries(count, Entry::Bone, read, |document| &mut document.bone_parents);
     }
 
     fn clips(&mut self, count: u32, bones: u32) {
         self.stream.ruler("the clips");
         for clip in 0..count {
             let stream = &mut self.stream;
-            stream.row = Row::Clip(clip);
+            stream.entry = Entry::Clip(clip);
             stream.label("AnimationClip", &[]);
             let Some(name) = stream.name("the name") else { return };
             // A clip whose name was read is there, with as many of its bones as were read.
@@ -211,7 +223,7 @@ impl Loader<'_> {
             });
             stream.skip();
             for bone in 0..bones {
-                stream.row = Row::Bone { clip, bone };
+                stream.entry = Entry::Track { clip, bone };
                 stream.label("Bone", &[]);
                 stream.skip();
                 let keys = stream.uint("the number of keys");
@@ -221,7 +233,7 @@ impl Loader<'_> {
                 }
                 let mut keyframes = Vec::new();
                 for key in 0..keys {
-                    stream.row = Row::Key { clip, bone, key };
+                    stream.entry = Entry::Key { clip, bone, key };
                     let keyframe = match stream.quick(quick::keyframe) {
                         Some((keyframe, _)) => keyframe,
                         None => read_key(stream),

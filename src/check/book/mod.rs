@@ -8,7 +8,6 @@ mod limits;
 mod loader;
 mod number;
 mod outcome;
-mod row;
 mod shows;
 mod stream;
 
@@ -16,7 +15,6 @@ pub use demo::{Book, DEMO_CLIP, DEMO_MATERIALS, DEMO_SCALE, SEEN_HEIGHTS};
 pub use limits::{Known, Limit};
 pub use loader::{Counts, Reading, read};
 pub use outcome::Outcome;
-pub use row::Row;
 pub use stream::{Stream, Trouble};
 
 pub use crate::diagnostic::limits::{MOST_BONES, MOST_MATERIALS, MOST_VERTICES};
@@ -88,7 +86,7 @@ pub fn converted_in_words(limits: &[Limit]) -> String {
 
 /// Reads a file as a book's program does.
 pub fn verdict(book: Book, bytes: &[u8], known: &Known<'_>) -> Verdict {
-    let reading = read(book, bytes);
+    let reading = read(book, bytes, known);
     let trouble = trouble(&reading);
     let document = known.document.or(trouble.is_none().then_some(&reading.document));
     let limits = limits::limits(book, document, &reading.document, known);

@@ -4,7 +4,7 @@ use super::demo::{Book, DEMO_CLIP};
 use super::limits::unreadable_map;
 use super::loader::{Counts, Reading};
 use super::outcome::Outcome;
-use super::row::Row;
+use crate::diagnostic::Entry;
 use crate::diagnostic::limits::{MOST_BONES, MOST_MATERIAL_VIEWS};
 
 /// What one sees of a file with which the demo does not end, in a sentence.
@@ -15,23 +15,23 @@ pub(super) fn shows(reading: &Reading) -> String {
         stop,
         mistake,
     } = reading;
-    let stopped_at = stop.as_ref().filter(|_| !is_complete(reading)).map(|stop| stop.row);
+    let stopped_at = stop.as_ref().filter(|_| !is_complete(reading)).map(|stop| stop.entry);
     match stopped_at {
         // With the first two the demo has ended.
-        Some(Row::Header | Row::Material(_) | Row::Subset(_) | Row::Vertex(_)) => {
+        Some(Entry::Header | Entry::Material(_) | Entry::Subset(_) | Entry::Vertex(_) | Entry::Tangent(_)) => {
             "Nothing: all corners of all triangles are the first vertex.".to_owned()
         }
-        Some(Row::Triangle(read)) => {
+        Some(Entry::Triangle(read)) => {
             format!("Only the first {read} of {} triangles.", counts.triangles)
         }
-        Some(Row::Key { bone, .. } | Row::Bone { bone, .. }) => {
+        Some(Entry::Key { bone, .. } | Entry::Track { bone, .. }) => {
             format!("The model, but bone {bone} moves wrongly: its keys end in zeros.")
         }
-        Some(Row::Offset(_) | Row::Parent(_) | Row::Clip(_)) => {
+        Some(Entry::Offset(_) | Entry::Bone(_) | Entry::Clip(_)) => {
             format!("The model in \"{DEMO_CLIP}\"; other clips are missing.")
         }
-        None => match mistake.as_ref().map(|mistake| mistake.row) {
-            Some(Row::Material(material)) => {
+        None => match mistake.as_ref().map(|mistake| mistake.entry) {
+            Some(Entry::Material(material)) => {
                 format!("The model, but material {material} has values that belong elsewhere.")
             }
             Some(_) => "A torn model: values are taken for others.".to_owned(),
@@ -53,7 +53,7 @@ pub(super) fn is_complete(reading: &Reading) -> bool {
         clips,
     } = *counts;
     let has = |list: usize, count: u32| list == count as usize;
-    let header_was_read = !matches!(&reading.stop, Some(stop) if stop.row == Row::Header);
+    let header_was_read = !matches!(&reading.stop, Some(stop) if stop.entry == Entry::Header);
     let is_skinned = bones > 0;
     header_was_read
         && has(document.materials.len(), materials)
@@ -84,7 +84,7 @@ pub(super) fn ends(book: Book, reading: &Reading) -> Option<(Outcome, String)> {
             "it asks for {gigabytes} GB for the vertices that the header counts"
         ));
     }
-    if let Some(Row::Header | Row::Material(_)) = stop.as_ref().map(|stop| stop.row) {
+    if let Some(Entry::Header | Entry::Material(_)) = stop.as_ref().map(|stop| stop.entry) {
         return error("it looks for a map without a name");
     }
     if let Some((_, name)) = unreadable_map(book, document) {
@@ -108,7 +108,7 @@ pub(super) fn ends(book: Book, reading: &Reading) -> Option<(Outcome, String)> {
     let read = &document.clips[clip].bones;
     // The keys of the bone in which reading stopped are there, as zeros.
     let in_keys =
-        matches!(stop.as_ref().map(|stop| stop.row), Some(Row::Key { .. })) && clip + 1 == document.clips.len();
+        matches!(stop.as_ref().map(|stop| stop.entry), Some(Entry::Key { .. })) && clip + 1 == document.clips.len();
     let there = read.len() + usize::from(in_keys);
     let empty = read.iter().position(|bone| bone.keyframes.is_empty());
     if let Some(bone) = empty.or((there < counts.bones as usize).then_some(there)) {

@@ -6,9 +6,8 @@
 use std::fmt;
 
 use super::number::{Misfit, float_length, whole};
-use super::row::Row;
-use crate::diagnostic::Position;
-use crate::format::Cursor;
+use crate::diagnostic::{Entry, Position};
+use crate::format::{Cursor, QuickVertices};
 
 /// A run of bytes without blanks, and where it stands.
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +44,7 @@ pub struct Trouble {
     /// Bytes that are meant.
     pub length: u32,
     /// What was being read.
-    pub row: Row,
+    pub entry: Entry,
     /// What happens there, one sentence.
     pub why: String,
 }
@@ -54,7 +53,7 @@ pub struct Trouble {
 pub struct Stream<'a> {
     cursor: Cursor<'a>,
     /// What is being read, for messages.
-    pub(super) row: Row,
+    pub(super) entry: Entry,
     stop: Option<Trouble>,
     /// The first word that was taken for another thing than it is, without a failure.
     mistake: Option<Trouble>,
@@ -71,7 +70,7 @@ impl<'a> Stream<'a> {
                 line: 1,
                 line_start: 0,
             },
-            row: Row::Header,
+            entry: Entry::Header,
             stop: None,
             mistake: None,
         }
@@ -97,6 +96,19 @@ impl<'a> Stream<'a> {
         read(&mut self.cursor)
     }
 
+    /// Passes over vertices that [`quick`](Self::quick) reads as they are meant. False, and nothing is passed, where they do not begin here.
+    pub(super) fn pass_over(&mut self, vertices: &QuickVertices) -> bool {
+        let mut ahead = self.cursor;
+        ahead.pass_empty_lines();
+        let begins_here = !self.has_failed() && ahead.at == vertices.bytes[0];
+        if begins_here {
+            ahead.at = vertices.bytes[1];
+            (ahead.line, ahead.line_start) = (vertices.end_line, vertices.end_line_start);
+            self.cursor = ahead;
+        }
+        begins_here
+    }
+
     /// Reads a word that nobody looks at: the line above a section.
     pub(super) fn ruler(&mut self, section: &'static str) {
         if let Some(word) = self.word(format_args!("the line above {section}"))
@@ -109,8 +121,8 @@ impl<'a> Stream<'a> {
 
     /// Reads a word that nobody looks at: the label of a value. `others` are the labels that stand near it.
     pub fn label(&mut self, label: &'static str, others: &[&str]) {
-        let row = self.row;
-        let Some(word) = self.word(format_args!("the label {label} of {row}")) else {
+        let entry = self.entry;
+        let Some(word) = self.word(format_args!("the label {label} of {entry}")) else {
             return;
         };
         // As nearly all of them are written.
@@ -128,29 +140,29 @@ impl<'a> Stream<'a> {
                 .eq(expected.by_ref().map(|byte| byte.to_ascii_lowercase()))
         };
         if word.is_ruler() || (!is(label) && others.iter().any(|other| is(other))) {
-            let why = format!("It takes \"{}\" for the label {label} of {row}.", word.shown());
+            let why = format!("It takes \"{}\" for the label {label} of {entry}.", word.shown());
             self.note_mistake(word, why);
         }
     }
 
     /// Reads a word that is kept, or `None` when the stream fails.
     pub fn name(&mut self, what: &'static str) -> Option<String> {
-        let row = self.row;
-        let word = self.word(format_args!("{what} of {row}"))?;
+        let entry = self.entry;
+        let word = self.word(format_args!("{what} of {entry}"))?;
         Some(String::from_utf8_lossy(word.text).into_owned())
     }
 
     /// Reads a brace or any other word that nobody looks at.
     pub fn skip(&mut self) {
-        let row = self.row;
-        self.word(format_args!("a word of {row}"));
+        let entry = self.entry;
+        self.word(format_args!("a word of {entry}"));
     }
 
     fn note_mistake(&mut self, word: Word<'_>, why: String) {
         self.mistake.get_or_insert(Trouble {
             position: word.position,
             length: word.length(),
-            row: self.row,
+            entry: self.entry,
             why,
         });
     }
@@ -184,7 +196,7 @@ impl<'a> Stream<'a> {
         self.stop = Some(Trouble {
             position: word.position,
             length: word.length(),
-            row: self.row,
+            entry: self.entry,
             why,
         });
     }
@@ -201,23 +213,25 @@ impl<'a> Stream<'a> {
             return T::default();
         }
         let word = self.peek();
-        let row = self.row;
+        let entry = self.entry;
         match take(word.text) {
             Ok((length, value)) => {
                 self.cursor.at += length;
                 return value;
             }
-            Err(_) if word.text.is_empty() => self.fail(word, format!("The file ends where it reads {what} of {row}.")),
+            Err(_) if word.text.is_empty() => {
+                self.fail(word, format!("The file ends where it reads {what} of {entry}."));
+            }
             Err(Misfit::NoNumber) => {
                 let why = format!(
-                    "It reads {what} of {row} and finds \"{}\", which is no {kind}.",
+                    "It reads {what} of {entry} and finds \"{}\", which is no {kind}.",
                     word.shown()
                 );
                 self.fail(word, why);
             }
             Err(Misfit::OutOfRange) => {
                 let why = format!(
-                    "It reads {what} of {row} and finds \"{}\", which is out of range for {kind}.",
+                    "It reads {what} of {entry} and finds \"{}\", which is out of range for {kind}.",
                     word.shown()
                 );
                 self.fail(word, why);

@@ -46,7 +46,7 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     fn track(&mut self, bone: usize, track: &Track, rest: &LocalJoint, space: &Space) {
-        let moved = track.sooner(self.shift_secs).and_then(|track| {
+        let moved = track.shifted_earlier(self.shift_secs).and_then(|track| {
             track.mapped(
                 |value| space.vector(value),
                 |value| space.rotation(value),

@@ -77,7 +77,7 @@ fn offset(model: &Model, joint: JointIndex) -> [f32; 16] {
 }
 
 fn material((material, look): (&Material, &Look), name: String, dialect: Dialect, skinned: bool) -> format::Material {
-    let (diffuse, reflectance) = look.told(material, dialect);
+    let (diffuse, reflectance) = look.written_values(material, dialect);
     let map = |slot| material.map_name(slot).map(one_word);
     format::Material {
         name: if names_materials(dialect) { name } else { String::new() },

@@ -188,7 +188,7 @@ impl Look {
     }
 
     /// What a file of this book says of the material: its diffuse colour, and how it reflects. What the book has words for stays.
-    pub(super) fn told(&self, material: &Material, dialect: Dialect) -> ([f32; 3], format::Reflectance) {
+    pub(super) fn written_values(&self, material: &Material, dialect: Dialect) -> ([f32; 3], format::Reflectance) {
         match (dialect, material.reflectance) {
             (Dialect::D3d12, Reflectance::Fresnel { .. } | Reflectance::Phong { .. }) => {
                 let FresnelSurface {

@@ -1,7 +1,7 @@
 //! Where the parts of a model stand in a glTF file, as JSON pointers, and back.
 
 use super::skeleton::Rig;
-use crate::diagnostic::{self, Row};
+use crate::diagnostic::{self, Entry};
 use crate::gltf::{Effort, Root};
 
 /// What stands where.
@@ -30,33 +30,33 @@ impl Places {
 }
 
 impl diagnostic::Places for Places {
-    fn pointer(&self, row: Row) -> Option<String> {
-        match row {
-            Row::Material(material) => (material < self.materials).then(|| format!("/materials/{material}")),
-            Row::Subset(subset) => {
+    fn pointer(&self, entry: Entry) -> Option<String> {
+        match entry {
+            Entry::Material(material) => (material < self.materials).then(|| format!("/materials/{material}")),
+            Entry::Subset(subset) => {
                 let [mesh, primitive] = self.primitives.get(subset as usize)?;
                 Some(format!("/meshes/{mesh}/primitives/{primitive}"))
             }
-            Row::Bone(bone) | Row::Offset(bone) => Some(format!("/nodes/{}", self.nodes.get(bone as usize)?)),
+            Entry::Bone(bone) | Entry::Offset(bone) => Some(format!("/nodes/{}", self.nodes.get(bone as usize)?)),
             _ => None,
         }
     }
 
-    fn row_at(&self, pointer: &str) -> Option<Row> {
+    fn entry_at(&self, pointer: &str) -> Option<Entry> {
         let mut parts = pointer.split('/').skip(1);
         let mut next = || parts.next();
         let list = next()?;
         let index: u32 = next()?.parse().ok()?;
         match list {
-            "materials" => (index < self.materials).then_some(Row::Material(index)),
+            "materials" => (index < self.materials).then_some(Entry::Material(index)),
             "nodes" => {
                 let bone = self.nodes.iter().position(|&node| node == index)?;
-                Some(Row::Bone(bone as u32))
+                Some(Entry::Bone(bone as u32))
             }
             "meshes" if next()? == "primitives" => {
                 let primitive: u32 = next()?.parse().ok()?;
                 let subset = self.primitives.iter().position(|&part| part == [index, primitive])?;
-                Some(Row::Subset(subset as u32))
+                Some(Entry::Subset(subset as u32))
             }
             _ => None,
         }

@@ -10,7 +10,8 @@ use super::skeleton_cache::{SkeletonCache, SkinColorsKey};
 use crate::anim::{GhostPlan, Palette, PoseBuffers, Trails, ghost_times, palettes_at};
 use crate::model::{JointIndex, Model};
 use crate::scene::{
-    Aabb, BoneColors, Ghosts, MarkedJoints, OverlayGeometry, Theme, VertexColors, draw_marked_bones, joint_colors,
+    Aabb, BoneColors, Ghosts, MarkedJoints, OverlayGeometry, Theme, VertexColors, append_bones, append_marked_bones,
+    joint_colors,
 };
 use crate::session::changes::Revisions;
 use crate::session::open::open_model::OpenModel;
@@ -116,10 +117,16 @@ impl OverlayCache {
         self.geometry.clear();
         let bone_colors = BoneColors::of(theme);
         if look.bones_visible {
-            skeleton.draw_bones(look.bone_style, marked, bone_colors, &mut self.geometry);
+            append_bones(
+                skeleton.bones(),
+                look.bone_style,
+                marked,
+                bone_colors,
+                &mut self.geometry,
+            );
         } else if look.skin_view.is_none() {
             // Colours of the skin tell by themselves which bone they are of.
-            draw_marked_bones(
+            append_marked_bones(
                 skeleton.bones(),
                 look.bone_style,
                 marked,

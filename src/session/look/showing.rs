@@ -54,7 +54,7 @@ impl Session {
             highlighted_submesh: self.selection.submeshes.highlighted(),
             vertex_colors: self.caches.overlays.vertex_colors(),
             ghosts: self.caches.overlays.ghosts(),
-            over_model: Some(self.caches.overlays.geometry()),
+            seen_through: Some(self.caches.overlays.geometry()),
             options: self.frame_options(),
         }
     }

@@ -4,10 +4,7 @@ use glam::{Affine3A, Vec3};
 
 use crate::anim::{ModelPose, SkinView, Stretch, dominant_joints, influence_counts, joint_weights};
 use crate::model::{Handedness, JointIndex, Model, Skeleton, UpAxis};
-use crate::scene::{
-    BoneColors, BoneStyle, Bones, MarkedJoints, OverlayGeometry, colors_of_counts, colors_of_joints, colors_of_values,
-    draw_bones, joint_colors, legend,
-};
+use crate::scene::{Bones, colors_of_counts, colors_of_joints, colors_of_values, joint_colors, legend};
 
 /// Buffers that are kept from pose to pose.
 #[derive(Debug, Default)]
@@ -64,16 +61,6 @@ impl SkeletonCache {
 
     pub(in crate::session) fn bones(&self) -> &Bones {
         &self.bones
-    }
-
-    pub(in crate::session) fn draw_bones(
-        &self,
-        style: BoneStyle,
-        marked: MarkedJoints,
-        colors: BoneColors,
-        out: &mut OverlayGeometry,
-    ) {
-        draw_bones(&self.bones, style, marked, colors, out);
     }
 
     /// A colour for each vertex, sRGB, in the caller's empty buffer. `positions` are those of the pose for a key that needs them.

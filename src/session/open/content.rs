@@ -12,7 +12,7 @@ use crate::session::changes::Changes;
 use crate::session::event::News;
 use crate::session::look::materials::Materials;
 use crate::session::look::sky::Sky;
-use crate::session::told::verdicts::Verdicts;
+use crate::session::published::verdicts::Verdicts;
 
 /// So many bytes of files are kept, with all their pictures: more than a person looks at in turn, and little enough for a page.
 const MOST_BYTES: usize = 1 << 29;

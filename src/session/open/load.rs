@@ -8,7 +8,7 @@ use super::open_model::{JoinedFile, OpenModel};
 use crate::diagnostic::{Code, Diagnostic, codes};
 use crate::format::{self, Excerpt};
 use crate::import;
-use crate::session::told::verdicts::Verdicts;
+use crate::session::published::verdicts::Verdicts;
 
 /// A file that could not be opened.
 #[derive(Clone, Debug, PartialEq)]

@@ -39,7 +39,7 @@ pub struct OpenModel {
     /// The model's clips, compiled for sampling, in their order.
     pub compiled: Vec<CompiledClip>,
     /// The space that it needs without a clip.
-    at_rest: Extent,
+    at_rest: OnceLock<Extent>,
     /// One for each clip of the model.
     pub(in crate::session) clip_facts: Vec<ClipFacts>,
     /// Files whose clips joined, in their order.
@@ -173,10 +173,7 @@ impl OpenModel {
             compiled,
             submesh_names: submesh_names(&model),
             bind_bounds: model.bind_bounds(),
-            at_rest: Extent {
-                bounds: anim::bounds_at_rest(&model),
-                points: anim::extreme_points(&model, None),
-            },
+            at_rest: OnceLock::new(),
             clip_facts: vec![ClipFacts::of_file(file.base_name()); model.clips.len()],
             joined: Vec::new(),
             model,
@@ -188,7 +185,13 @@ impl OpenModel {
         let index = clip.unwrap_or(usize::MAX);
         match (self.compiled.get(index), self.clip_facts.get(index)) {
             (Some(clip), Some(facts)) => facts.extent(&self.model, clip),
-            _ => (self.at_rest.bounds, &self.at_rest.points),
+            _ => {
+                let at_rest = self.at_rest.get_or_init(|| Extent {
+                    bounds: anim::bounds_at_rest(&self.model),
+                    points: anim::extreme_points(&self.model, None),
+                });
+                (at_rest.bounds, &at_rest.points)
+            }
         }
     }
 

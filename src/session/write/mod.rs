@@ -6,3 +6,4 @@ pub(super) mod export_job;
 pub(super) mod export_maps;
 pub(super) mod export_plan;
 pub(super) mod exporting;
+mod picture_files;

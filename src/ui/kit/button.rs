@@ -6,9 +6,11 @@ use egui::{
 };
 
 use super::control::{
-    MOUSE_CONTROL, TOUCH_CONTROL, arrow_steps, control_size, explained, focus_ring, hint_of_name, is_touch, key_hint,
-    note_in_force, paint_ground, paint_row_ground, tell_push,
+    MOUSE_CONTROL, TOUCH_CONTROL, control_size, explained, focus_ring, hint_of_name, is_touch, key_hint, note_in_force,
+    paint_ground, paint_row_ground, tell_push,
 };
+use super::keys::arrow_steps;
+use super::named::{Label, named};
 use super::row::Row;
 use crate::actions::Action;
 use crate::ui::cx::Cx;
@@ -27,11 +29,11 @@ const MENU_LINE: f32 = 26.0;
 
 /// A square button with an icon. `on` marks a switch that is on.
 pub(crate) fn icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
-    hint_of_name(untold_icon_button(ui, icon, label, on), label)
+    hint_of_name(bare_icon_button(ui, icon, label, on), label)
 }
 
 /// The same without a tooltip.
-pub(crate) fn untold_icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
+pub(crate) fn bare_icon_button(ui: &mut Ui, icon: Icon, label: &str, on: bool) -> Response {
     let side = control_size(ui);
     let place = vec2(side - 2.0 * ui.spacing().button_padding.x, ICON_SIZE);
     let response = ui.add(Button::selectable(on, icon_atom(icon, place)).min_size(Vec2::splat(side)));
@@ -55,14 +57,15 @@ fn icon_atom(icon: Icon, size: Vec2) -> Atom<'static> {
 
 /// A square button of an action of the session, with its key in the tooltip.
 pub(in crate::ui) fn action_button<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, action: &Action, icon: Icon) {
-    if icon_button(ui, icon, &action.hint(), action.is_on(cx.session)).clicked() {
+    let button = icon_button(ui, icon, &action.hint(), action.is_on(cx.session));
+    if named(button, action.control).clicked() {
         cx.act(action);
     }
 }
 
 /// The same for an action that does something once.
 pub(in crate::ui) fn push_action<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, action: &Action, icon: Icon) {
-    if push_button(ui, icon, &action.hint()).clicked() {
+    if named(push_button(ui, icon, &action.hint()), action.control).clicked() {
         cx.act(action);
     }
 }
@@ -221,15 +224,15 @@ pub(crate) fn choices<R>(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui)
 /// The least room on either side of the label of a part.
 const SEGMENT_ROOM: f32 = 6.0;
 
-/// A switch with a segment for each choice, over the whole width. Returns a new choice. Painted here: in a row of egui's buttons on a
-/// common ground a finger would have less than the whole height.
-pub(crate) fn segmented<T: Copy + PartialEq>(
+/// A switch with a segment for each choice, over the whole width. Returns a new choice. The stable name of a segment is the switch's with
+/// its place behind. Painted here: in a row of egui's buttons on a common ground a finger would have less than the whole height.
+pub(crate) fn segmented<'a, T: Copy + PartialEq>(
     ui: &mut Ui,
-    name: &str,
+    name: impl Into<Label<'a>>,
     choices: &[(T, &str)],
     in_force: Option<T>,
 ) -> Option<T> {
-    explained_segmented(ui, name, choices, &[], in_force)
+    explained_segmented(ui, name.into(), choices, &[], in_force)
 }
 
 /// The same for a value of the interface itself.
@@ -240,13 +243,14 @@ pub(crate) fn choose<T: Copy + PartialEq>(ui: &mut Ui, name: &str, choices: &[(T
 }
 
 /// The same with a sentence about each choice.
-pub(crate) fn explained_segmented<T: Copy + PartialEq>(
+pub(crate) fn explained_segmented<'a, T: Copy + PartialEq>(
     ui: &mut Ui,
-    name: &str,
+    name: impl Into<Label<'a>>,
     choices: &[(T, &str)],
     sentences: &[&str],
     in_force: Option<T>,
 ) -> Option<T> {
+    let Label { words: name, control } = name.into();
     let tokens = Tokens::of(ui);
     let size = vec2(ui.available_width(), control_size(ui));
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
@@ -294,6 +298,10 @@ pub(crate) fn explained_segmented<T: Copy + PartialEq>(
         part.widget_info(|| {
             WidgetInfo::selected(Role::RadioButton, group.is_enabled(), on, format!("{name}: {label}"))
         });
+        let part = match control {
+            Some(control) => named(part, control.at(index)),
+            None => part,
+        };
         let part = match sentences.get(index) {
             Some(sentence) => explained(part, sentence),
             None => part,
@@ -348,7 +356,8 @@ pub(crate) fn noted_switch_row(
 
 /// The row of an action of the session that is on or off.
 pub(in crate::ui) fn action_switch<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, action: &Action) {
-    if switch_row(ui, action.label, action.key(), action.is_on(cx.session)).clicked() {
+    let switch = switch_row(ui, action.label, action.key(), action.is_on(cx.session));
+    if named(switch, action.control).clicked() {
         cx.act(action);
     }
 }

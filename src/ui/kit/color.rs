@@ -8,7 +8,8 @@ use egui::{
     Role, Sense, Shape, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, lerp, pos2, vec2,
 };
 
-use super::control::{MOUSE_CONTROL, SliderNode, control_size, focus_ring, hint_of_name, slider_keys, tell_popup};
+use super::control::{MOUSE_CONTROL, control_size, focus_ring, hint_of_name, tell_popup};
+use super::keys::{SliderNode, slider_keys};
 use super::number::TypedValue;
 use crate::scene::srgb8_from_linear;
 use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};

@@ -5,6 +5,7 @@ use egui::{Color32, FontId, Rect, Response, Role, Sense, Ui, Vec2, WidgetInfo, p
 use super::button::push_button;
 use super::color::paint_swatch;
 use super::control::{MOUSE_CONTROL, control_size, explained, focus_ring, is_touch, key_hint};
+use super::named::Label;
 use super::row::Row;
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::{self, CONTROL_RADIUS, Tokens};
@@ -64,24 +65,36 @@ pub(crate) fn keyed_section_name(ui: &mut Ui, name: &str, key: &str) -> Response
     row.told(Role::Heading, name)
 }
 
-/// The name of a section, and an action at its right end. Returns whether the action was clicked.
-pub(crate) fn section_with_action(ui: &mut Ui, name: &str, action: Option<&str>) -> bool {
-    section_with_labelled_action(ui, name, action.map(|action| (action, action)))
+/// The name of a section, and an action at its right end, whose stable name stands with the section's. Returns whether the action was
+/// clicked.
+pub(crate) fn section_with_action<'a>(ui: &mut Ui, name: impl Into<Label<'a>>, action: Option<&str>) -> bool {
+    section_with_labelled_action(ui, name.into(), action.map(|action| (action, action)))
 }
 
 /// The same with a longer label of the action, for screen readers.
-pub(crate) fn section_with_labelled_action(ui: &mut Ui, name: &str, action: Option<(&str, &str)>) -> bool {
-    explained_section(ui, name, "", action)
+pub(crate) fn section_with_labelled_action<'a>(
+    ui: &mut Ui,
+    name: impl Into<Label<'a>>,
+    action: Option<(&str, &str)>,
+) -> bool {
+    explained_section(ui, name.into(), "", action)
 }
 
 /// The same with a sentence about the section, or none.
-pub(crate) fn explained_section(ui: &mut Ui, name: &str, sentence: &str, action: Option<(&str, &str)>) -> bool {
+pub(crate) fn explained_section<'a>(
+    ui: &mut Ui,
+    name: impl Into<Label<'a>>,
+    sentence: &str,
+    action: Option<(&str, &str)>,
+) -> bool {
+    let label = name.into();
+    let name = label.words;
     let top = ui.cursor().min;
     let heading = section_name(ui, name);
     if !sentence.is_empty() {
         explained(heading, sentence);
     }
-    let Some((action, label)) = action else { return false };
+    let Some((action, words)) = action else { return false };
     let tokens = Tokens::of(ui);
     let galley = ui
         .painter()
@@ -99,6 +112,7 @@ pub(crate) fn explained_section(ui: &mut Ui, name: &str, sentence: &str, action:
     let at = place.center() - galley.size() * 0.5;
     ui.painter().galley(at, galley, tokens.accent);
     focus_ring(ui, ground, &response);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, label));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, words));
+    label.name(&response);
     response.clicked()
 }

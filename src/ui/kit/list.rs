@@ -6,7 +6,8 @@ use egui::accesskit::{self, Action};
 use egui::style::ScrollAnimation;
 use egui::{Id, Rect, Response, Role, Sense, Ui, UiBuilder, WidgetInfo, vec2};
 
-use super::control::{tell_node, walked};
+use super::control::tell_node;
+use super::keys::walked;
 
 /// Rows that a page key goes by.
 const PAGE: usize = 10;
@@ -125,7 +126,7 @@ pub(crate) fn tell_row(ui: &Ui, row: &Response, role: Role, label: &str, place: 
 }
 
 /// Whether a screen reader asks for an action.
-pub(crate) fn asks(ui: &Ui, id: Id, action: Action) -> bool {
+fn asks(ui: &Ui, id: Id, action: Action) -> bool {
     ui.input(|input| input.has_accesskit_action_request(id, action))
 }
 

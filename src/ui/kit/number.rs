@@ -10,7 +10,8 @@ use egui::{
     Sense, Stroke, StrokeKind, TextEdit, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use super::control::{MOUSE_CONTROL, arrow_steps, control_size, focus_ring, hint_of_name, tell_node};
+use super::control::{MOUSE_CONTROL, control_size, focus_ring, hint_of_name, tell_node};
+use super::keys::arrow_steps;
 use super::row::Row;
 use crate::ui::input::press_field;
 use crate::ui::kit::theme::{self, CONTROL_RADIUS, Tokens};

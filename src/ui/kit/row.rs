@@ -25,7 +25,7 @@ pub(crate) fn row_icon(ui: &Ui, place: Rect, row: &Response, icon: Icon, label: 
 }
 
 /// A row of a panel. Text goes in from both ends, in 13 points where no size is given. Call `told` last: it
-/// names the row for screen readers.
+/// names the row for screen readers, which need all of its words.
 pub(crate) struct Row {
     pub(crate) rect: Rect,
     pub(crate) response: Response,
@@ -49,7 +49,7 @@ impl Row {
     }
 
     /// A row that can be pressed, over the whole width. Its ground shows whether it is hovered or `selected`.
-    pub(crate) fn pressed(ui: &mut Ui, selected: bool) -> Self {
+    pub(crate) fn pressable(ui: &mut Ui, selected: bool) -> Self {
         let size = vec2(ui.available_width(), pressed_row_height(ui));
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());
         paint_row_ground(ui, rect, &response, selected, response.contains_pointer());
@@ -115,7 +115,7 @@ pub(crate) fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
 /// A row of a panel whose value opens a menu.
 pub(crate) fn choice_row(ui: &mut Ui, label: &str, value: &str, how: &str) -> Response {
     let tokens = Tokens::of(ui);
-    let mut row = Row::pressed(ui, false);
+    let mut row = Row::pressable(ui, false);
     row.left(label, tokens.muted);
     let chevron = Rect::from_center_size(pos2(row.right - 5.0, row.y), Vec2::splat(16.0));
     icons::paint(ui.painter(), chevron, Icon::ChevronDown, tokens.muted);

@@ -4,7 +4,9 @@ use std::ops::RangeInclusive;
 
 use egui::{CursorIcon, Rangef, Rect, Response, Sense, Stroke, Ui, pos2};
 
-use super::control::{MOUSE_CONTROL, SliderNode, control_size, focus_ring, slider_keys};
+use super::control::{MOUSE_CONTROL, control_size, focus_ring};
+use super::keys::{SliderNode, slider_keys};
+use super::named::Label;
 use super::row::Row;
 use crate::ui::kit::theme::{self, Tokens};
 
@@ -20,7 +22,7 @@ const KEY_STEPS: f32 = 50.0;
 /// from the range's start, and has no default for a double click to restore.
 #[derive(Clone, Debug)]
 pub(crate) struct Slider<'a> {
-    label: &'a str,
+    label: Label<'a>,
     value: f32,
     range: RangeInclusive<f32>,
     text: &'a str,
@@ -29,10 +31,10 @@ pub(crate) struct Slider<'a> {
 
 impl<'a> Slider<'a> {
     /// A slider at a value, which `text` writes out.
-    pub(crate) fn new(label: &'a str, value: f32, range: RangeInclusive<f32>, text: &'a str) -> Self {
+    pub(crate) fn new(label: impl Into<Label<'a>>, value: f32, range: RangeInclusive<f32>, text: &'a str) -> Self {
         let reset_to = *range.start();
         Self {
-            label,
+            label: label.into(),
             value,
             range,
             text,
@@ -49,7 +51,7 @@ impl<'a> Slider<'a> {
         let tokens = Tokens::of(ui);
         let height = control_size(ui).max(MOUSE_CONTROL);
         let mut row = Row::new(ui, height);
-        row.left(self.label, tokens.muted);
+        row.left(self.label.words, tokens.muted);
         row.right_in(theme::mono(12.0), self.text, tokens.text);
         let row = row.rect;
 
@@ -57,7 +59,11 @@ impl<'a> Slider<'a> {
             .with_min_x(row.min.x + LABEL_WIDTH)
             .with_max_x(row.max.x - NUMBER_WIDTH);
         let ends = target.x_range().shrink(KNOB_RADIUS);
-        let response = ui.interact(target, ui.next_auto_id().with(self.label), Sense::click_and_drag());
+        let response = ui.interact(
+            target,
+            ui.next_auto_id().with(self.label.words),
+            Sense::click_and_drag(),
+        );
         ui.skip_ahead_auto_ids(1);
         let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
         self.paint(ui, ends, row.center().y, &response);
@@ -69,13 +75,15 @@ impl<'a> Slider<'a> {
     fn asked(&self, ui: &Ui, ends: Rangef, response: &Response) -> Option<f32> {
         let (start, end) = (*self.range.start(), *self.range.end());
         let slider = SliderNode {
-            name: self.label,
+            name: self.label.words,
             value: f64::from(self.value),
             range: f64::from(start)..=f64::from(end),
             step: f64::from((end - start) / KEY_STEPS),
             text: self.text,
         };
-        if let Some(value) = slider_keys(ui, response, &slider) {
+        let keyed = slider_keys(ui, response, &slider);
+        self.label.name(response);
+        if let Some(value) = keyed {
             return Some(value as f32);
         }
         if response.double_clicked() {

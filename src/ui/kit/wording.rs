@@ -13,7 +13,7 @@ pub fn grouped(number: usize) -> String {
     text
 }
 
-/// A length with about three significant digits: `73.4`, `0.0123`, `13 748`.
+/// A length or a mean with about three significant digits: `73.4`, `0.0123`, `13 748`.
 pub fn measured(length: f32) -> String {
     match length.abs() {
         _ if !length.is_finite() => "–".to_owned(),

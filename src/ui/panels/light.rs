@@ -3,7 +3,7 @@
 use egui::{FontId, Pos2, Response, RichText, Role, Ui, vec2};
 
 use super::cost::SteadyCost;
-use crate::actions;
+use crate::actions::{self, Control};
 use crate::scene::{Background, Detail, Light, Pass, TimedPass};
 use crate::session::{
     FileCommand, LookCommand, Lowered, MAX_EXPOSURE_STOPS, PassChoice, PassState, QualityCommand, QualityMode, Session,
@@ -13,8 +13,8 @@ use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::Tokens;
 use crate::ui::kit::wording::{milliseconds, shortened};
 use crate::ui::kit::{
-    MenuLine, Row, Slider, color_picker, control_size, keyed_section_name, menu_item, noted_switch_row, push_button,
-    section_name, segmented, switch_row, tell_node, value_row,
+    MenuLine, Row, Slider, color_picker, control_size, keyed_section_name, menu_item, named, noted_switch_row,
+    push_button, section_name, segmented, switch_row, tell_node, value_row,
 };
 use crate::ui::window::panel::popover_gap;
 
@@ -58,7 +58,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, SteadyCost>) {
     ui.add_space(4.0);
     let split = look.split.is_some();
     let response = switch_row(ui, "Split: both side by side", "", split);
-    if response.clicked() {
+    if named(response, Control::new("split")).clicked() {
         let middle = (!split).then_some(0.5);
         cx.push(LookCommand::SetSplit(middle));
     }
@@ -85,7 +85,12 @@ fn exposure<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
     let stops = cx.session.look().exposure_stops;
     // A true minus sign, as wide as the plus.
     let text = format!("{}{:.1} EV", if stops < -0.04 { '−' } else { '+' }, stops.abs());
-    let slider = Slider::new("Exposure", stops, -MAX_EXPOSURE_STOPS..=MAX_EXPOSURE_STOPS, &text);
+    let slider = Slider::new(
+        ("Exposure", Control::new("exposure")),
+        stops,
+        -MAX_EXPOSURE_STOPS..=MAX_EXPOSURE_STOPS,
+        &text,
+    );
     if let Some(stops) = slider.reset_to(0.0).show(ui) {
         cx.push(LookCommand::SetExposure(stops));
     }
@@ -94,7 +99,13 @@ fn exposure<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
 fn environment_turn<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
     let degrees = cx.session.look().environment_turn_radians.to_degrees();
     let text = format!("{degrees:.0}°");
-    if let Some(degrees) = Slider::new("Environment", degrees, 0.0..=360.0, &text).show(ui) {
+    let slider = Slider::new(
+        ("Environment", Control::new("environment")),
+        degrees,
+        0.0..=360.0,
+        &text,
+    );
+    if let Some(degrees) = slider.show(ui) {
         // 360° would come back as 0°, and the knob would jump to the other end.
         cx.push(LookCommand::SetEnvironmentTurn(degrees.min(359.9).to_radians()));
     }
@@ -177,7 +188,7 @@ fn passes<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
         if too_slow {
             tell_node(&row, |node| node.set_description("Drawn only at rest"));
         }
-        if row.on_hover_text(hint).clicked() {
+        if named(row, Control::new(pass.name())).on_hover_text(hint).clicked() {
             cx.push(QualityCommand::SetPass(pass, choice));
         }
     }

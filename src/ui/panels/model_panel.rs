@@ -7,6 +7,7 @@ use super::crowd;
 use super::findings;
 use super::skeleton::state::has_joints;
 use super::textures;
+use crate::actions::Control;
 use crate::diagnostic::Severity;
 use crate::model::{Handedness, MapSlot, Submesh, UpAxis};
 use crate::scene::display_color;
@@ -16,8 +17,8 @@ use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::{self, MARGIN, Tokens};
 use crate::ui::kit::wording::{counted, grouped, measured};
 use crate::ui::kit::{
-    MenuLine, Row, RowList, choice_row, hint_beside, is_touch, menu_item, paint_chip, paint_swatch, row_icon, rule,
-    section_with_action, tell_open, tell_popup, tell_push, value_row,
+    MenuLine, Row, RowList, choice_row, hint_beside, is_touch, menu_item, named, paint_chip, paint_swatch, row_icon,
+    rule, section_with_action, tell_open, tell_popup, tell_push, value_row,
 };
 use crate::ui::state::UiState;
 
@@ -142,7 +143,7 @@ fn bounds_row(ui: &mut Ui, open: &OpenModel) {
 
 fn diagnostics_row(ui: &mut Ui, session: &Session, state: &mut UiState) {
     let tokens = Tokens::of(ui);
-    let mut row = Row::pressed(ui, false);
+    let mut row = Row::pressable(ui, false);
     row.left("Findings", tokens.text);
     let (count, color) = summary(session, &tokens);
     let right = row.rect.right_center();
@@ -235,11 +236,12 @@ impl<'a> SubmeshRow<'a> {
     /// Shows it. Returns whether the pointer is over it.
     fn show(&self, ui: &mut Ui, list: &mut RowList, commands: &mut Vec<Command>) -> bool {
         let tokens = Tokens::of(ui);
-        let mut row = Row::pressed(ui, self.selected);
+        let mut row = Row::pressable(ui, self.selected);
         let (rect, over) = (row.rect, row.response.contains_pointer() && !is_touch(ui));
         row.response
             .widget_info(|| WidgetInfo::labeled(Role::ListItem, true, self.label()));
         list.row(&row.response, self.selected);
+        row.response = named(row.response, Control::new("subset").at(self.index));
 
         let opacity = if self.visible { 1.0 } else { 0.35 };
         paint_swatch(ui, rect.left_center() + vec2(5.0, 0.0), self.color, opacity);
@@ -294,7 +296,8 @@ impl<'a> SubmeshRow<'a> {
             Rect::from_x_y_ranges(left..=left + width, rect.y_range())
         };
         let label = format!("Show {} alone (Alt click)", self.name);
-        if row_icon(ui, place(2.0), row, Icon::Solo, &label, self.alone).clicked() {
+        let solo = row_icon(ui, place(2.0), row, Icon::Solo, &label, self.alone);
+        if named(solo, Control::new("solo-subset").at(self.index)).clicked() {
             commands.push(SubmeshCommand::Solo(self.index).into());
         }
         let (eye, verb) = if self.visible {
@@ -304,7 +307,7 @@ impl<'a> SubmeshRow<'a> {
         };
         let hide = row_icon(ui, place(1.0), row, eye, &format!("{verb} {}", self.name), false);
         tell_push(&hide);
-        if hide.clicked() {
+        if named(hide, Control::new("hide-subset").at(self.index)).clicked() {
             let (submesh, visible) = (self.index, !self.visible);
             commands.push(SubmeshCommand::SetVisible { submesh, visible }.into());
         }

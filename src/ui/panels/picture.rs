@@ -80,7 +80,7 @@ fn contact_sheet(ui: &mut Ui, session: &Session, state: &mut UiState) {
         let label = "Save contact sheet";
         let save = TextButton::new(label, label);
         if ui.scope_builder(button(), |ui| save.show_wide(ui)).inner.clicked() {
-            state.save_sheet(ui);
+            state.save_contact_sheet(ui);
         }
         return;
     };
@@ -143,7 +143,7 @@ pub fn picture_name(session: &Session) -> String {
 }
 
 /// The name of a contact sheet, as in `soldier-Take1-sheet.png`.
-pub fn sheet_name(session: &Session) -> String {
+pub fn contact_sheet_name(session: &Session) -> String {
     let mut parts = model_name(session);
     parts.extend(session.clip().map(|clip| clip.name.clone()));
     parts.push("sheet".to_owned());

@@ -51,7 +51,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, open: &OpenModel, stat
 /// How many maps are there, and how many are not. A click opens and closes the list.
 fn maps_line(ui: &mut Ui, checklist: &Checklist, is_open: &mut bool) {
     let tokens = Tokens::of(ui);
-    let mut row = Row::pressed(ui, false);
+    let mut row = Row::pressable(ui, false);
     let found = format!("{} of {}", checklist.found(), checklist.named);
     let counts = [
         (checklist.missing.len(), "missing"),

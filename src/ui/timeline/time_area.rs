@@ -16,6 +16,11 @@ pub(super) const RULER_HEIGHT: f32 = 24.0;
 const LABEL_SPACING: f32 = 92.0;
 /// The least distance of ticks of single frames.
 const TICK_SPACING: f32 = 5.0;
+/// Width of the column of names, and where it is slim.
+const NAMES_WIDTH: f32 = 196.0;
+const SLIM_NAMES_WIDTH: f32 = 124.0;
+/// The least width of all of it in which that column is not slim.
+const LEAST_WITH_NAMES: f32 = 600.0;
 
 /// Where dope sheet and curves are: a ruler over times, right of a column of names.
 pub(super) struct TimeArea<'a> {
@@ -35,7 +40,11 @@ impl<'a> TimeArea<'a> {
     pub(super) fn new(ui: &Ui, cx: &Cx<'a, TimelineState>) -> Option<Self> {
         let (session, clip) = (cx.session, cx.session.clip()?);
         let whole = ui.available_rect_before_wrap();
-        let names = if whole.width() < 600.0 { 124.0 } else { 196.0 };
+        let names = if whole.width() < LEAST_WITH_NAMES {
+            SLIM_NAMES_WIDTH
+        } else {
+            NAMES_WIDTH
+        };
         let times = whole.with_min_x(whole.min.x + names);
         let span_secs = cx.state.seen.span_secs([clip.start_secs, clip.end_secs]);
         ui.painter().rect_filled(times, CONTROL_RADIUS, Tokens::of(ui).field);

@@ -180,9 +180,9 @@ fn controls(widgets: &WidgetRects, layer: LayerId) -> impl Iterator<Item = Id> {
     can_have_it.map(|widget| widget.id)
 }
 
-/// What lies open over or beside the view, each with its first control: popovers, dialogs, the page of a sheet.
+/// What lies open over or beside the view, each with its first control: popovers, dialogs, the page of the drawer.
 fn open_now(ctx: &Context) -> Vec<(Id, Id)> {
-    let beside = ["diagnostics", "page"].map(panel::id_of);
+    let beside = [panel::FINDINGS, panel::PAGE].map(panel::id_of);
     let mut open: Vec<(Id, Id)> = ctx.viewport(|viewport| {
         let widgets = &viewport.this_pass.widgets;
         let layers = widgets.layer_ids();
@@ -199,14 +199,14 @@ fn open_now(ctx: &Context) -> Vec<(Id, Id)> {
     open
 }
 
-/// Notes that a page of the sheet is open, with its first control.
+/// Notes that a page of the drawer is open, with its first control.
 pub(in crate::ui) fn note_page(ui: &Ui, key: Id, first: Id) {
     let pass = ui.ctx().cumulative_pass_nr();
     ui.data_mut(|data| data.insert_temp(page_id(), (pass, key, first)));
 }
 
 fn page_id() -> Id {
-    Id::unique("page of the sheet")
+    Id::unique("page of the drawer")
 }
 
 fn is_shown(ctx: &Context, id: Id) -> bool {

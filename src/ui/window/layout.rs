@@ -17,9 +17,9 @@ use crate::ui::kit::TextButton;
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::{MARGIN, Tokens};
 use crate::ui::kit::wording::grouped;
-use crate::ui::panels::skeleton::state::{SidePage, is_inspected};
+use crate::ui::panels::skeleton::state::SidePage;
 use crate::ui::panels::skeleton::{self, LegendShape};
-use crate::ui::panels::{error_card, findings, help, inspector, model_panel};
+use crate::ui::panels::{error_card, findings, help, model_panel};
 use crate::ui::state::{DrawerPage, UiState};
 use crate::ui::{kit, timeline};
 
@@ -41,10 +41,11 @@ const LEAST_WITH_FRAME: f32 = 84.0;
 /// The least width of the selection's name, and the room that it leaves to the button that frames.
 const LEAST_SELECTION: f32 = 88.0;
 const BESIDE_SELECTION: f32 = 110.0;
-/// The least height in which a legend leaves something to see: of the panel above a card, of the view beside a card, of the model
-/// above a strip.
+/// The least height of the panel that has a legend as a card below it.
 const LEAST_WITH_CARD: f32 = 220.0;
+/// The least height of the view that has a legend as a card beside it.
 const LEAST_BESIDE_CARD: f32 = 80.0;
+/// The least height of the model that has a legend as a strip below it.
 const LEAST_WITH_STRIP: f32 = 180.0;
 
 /// Shows all panels. Returns what they leave free for the model, and what of that no panel covers.
@@ -70,7 +71,7 @@ fn wide(ui: &Ui, cx: &mut Cx<'_, UiState>, mut free: Free) -> (Free, Free) {
             toolbar::show(ui, cx);
         });
     let beside = room.with_max_x(toolbar.min.x - MARGIN).with_max_y(toolbar.max.y);
-    Panel::new("title", "Title", Align2::LEFT_TOP)
+    Panel::new(panel::TITLE, "Title", Align2::LEFT_TOP)
         .margin(Margin::symmetric(12, 3))
         .show(ui, beside, |ui| {
             ui.take_available_height();
@@ -110,24 +111,17 @@ fn wide(ui: &Ui, cx: &mut Cx<'_, UiState>, mut free: Free) -> (Free, Free) {
     show_on_top(ui, cx, &free);
 
     let mut beside = free;
-    let inspects_joint = is_inspected(cx.session);
-    if inspects_joint || cx.session.submeshes().selected().is_some() {
+    if pages::has_selection(cx.session) {
         let inspector = Panel::new("inspector", "Inspector", Align2::RIGHT_TOP)
             .width(INSPECTOR_WIDTH)
             .show(ui, free.room(), |ui| {
-                scrolled("inspector", ui.available_height()).show(ui, |ui| {
-                    if inspects_joint {
-                        skeleton::show_inspector(ui, &mut cx.part(|state| &mut state.skeleton));
-                    } else {
-                        inspector::show(ui, cx);
-                    }
-                });
+                scrolled("inspector", ui.available_height()).show(ui, |ui| pages::show_selection(ui, cx));
             });
         beside.cut_right(inspector);
     }
     if cx.state.diagnostics_open {
         let room = beside.room();
-        let list = Panel::new("diagnostics", "Findings", Align2::LEFT_TOP)
+        let list = Panel::new(panel::FINDINGS, "Findings", Align2::LEFT_TOP)
             .width(DIAGNOSTICS_WIDTH.min(room.width()))
             .show(ui, room, |ui| findings::show(ui, cx));
         beside.cut_left(list);
@@ -146,7 +140,7 @@ fn wide(ui: &Ui, cx: &mut Cx<'_, UiState>, mut free: Free) -> (Free, Free) {
 fn narrow(ui: &Ui, cx: &mut Cx<'_, UiState>, mut free: Free, low: bool) -> (Free, Free) {
     let room = free.room();
     let mut opens = Vec::new();
-    let bar = Panel::new("title", "Title", Align2::LEFT_TOP)
+    let bar = Panel::new(panel::TITLE, "Title", Align2::LEFT_TOP)
         .margin(Margin::same(4))
         .width(room.width())
         .show(ui, room, |ui| {
@@ -169,7 +163,7 @@ fn narrow(ui: &Ui, cx: &mut Cx<'_, UiState>, mut free: Free, low: bool) -> (Free
         if let Some(page) = cx.state.drawer.filter(|_| low) {
             let room = free.room();
             let label = pages::page_title(page, cx.state);
-            let page = Panel::new("page", label, Align2::RIGHT_TOP)
+            let page = Panel::new(panel::PAGE, label, Align2::RIGHT_TOP)
                 .width(pages::page_width(page, ui.max_rect()))
                 .show(ui, room, |ui| pages::show_page(ui, page, cx));
             free.cut_right(page);
@@ -239,7 +233,7 @@ fn drawer(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free, low: bool) -> Rect {
     };
     // How much higher the drawer will be when it comes to rest.
     let mut rises = 0.0;
-    let rect = Panel::new("sheet", "Sheet", Align2::LEFT_BOTTOM)
+    let rect = Panel::new(panel::DRAWER, "Sheet", Align2::LEFT_BOTTOM)
         .drawer()
         .margin(margin)
         .width(window.width())
@@ -336,7 +330,7 @@ fn frame_button(ui: &Ui, cx: &mut Cx<'_, UiState>, free: &Free) {
     if !cx.state.offers_frame || room.size().min_elem() < LEAST_WITH_FRAME {
         return;
     }
-    Panel::new("frame", "Frame", Align2::RIGHT_BOTTOM)
+    Panel::new("offer-frame", "Frame", Align2::RIGHT_BOTTOM)
         .margin(Margin::same(3))
         .show(ui, room, |ui| {
             let action = &actions::FRAME_MODEL;
@@ -358,20 +352,20 @@ fn shortcuts(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) -> Opt
     let name = joints.selected().map(|joint| session.joint_label(joint));
     let name = name.or_else(|| Some(format!("Vertex {}", grouped(joints.selected_vertex()?.vertex as usize))));
     let name = name.or_else(|| Some(session.submesh_name(submesh?).to_owned()));
-    let is_told = session.open_model().is_some() && session.diagnostics().next().is_some();
-    if name.is_none() && !is_told {
+    let has_findings = session.open_model().is_some() && session.diagnostics().next().is_some();
+    if name.is_none() && !has_findings {
         return None;
     }
     if state.messages.is_shown() {
         // The model stays where it is.
         return ui.memory(|memory| memory.area_rect(panel::id_of("shortcuts")));
     }
-    let chips = Panel::new("shortcuts", "Findings and selection", Align2::LEFT_BOTTOM)
+    let shown = Panel::new("shortcuts", "Findings and selection", Align2::LEFT_BOTTOM)
         .margin(Margin::same(3))
         .show(ui, room, |ui| {
             ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = 4.0;
-                if is_told {
+                if has_findings {
                     let (count, color) = model_panel::summary(session, &Tokens::of(ui));
                     if toolbar::findings_chip(ui, false, &count, color) {
                         state.diagnostics_open = true;
@@ -388,7 +382,7 @@ fn shortcuts(ui: &Ui, session: &Session, state: &mut UiState, room: Rect) -> Opt
                 }
             });
         });
-    Some(chips)
+    Some(shown)
 }
 
 /// Why a file was not opened: in the middle of the window, or so far to the right that the panel on the left can be read. It scrolls

@@ -28,7 +28,7 @@ pub struct Messages {
 struct Message {
     words: String,
     offer: Option<Offer>,
-    /// The step that is last when it is shown first. Another one is not taken back.
+    /// The last step of undo when the message appeared. Undo is offered only while it still is the last.
     step: Option<String>,
     /// When it goes, in egui's time. None until it was shown once.
     ends_secs: Option<f64>,
@@ -116,7 +116,7 @@ pub(in crate::ui) fn show(ui: &Ui, messages: &mut Messages, last_step: Option<&s
     let ends_secs = *message.ends_secs.get_or_insert(now_secs + SHOWN_SECS);
     if now_secs >= ends_secs || room.width() < LEAST_WIDTH {
         messages.shown = None;
-        // What it stood in the place of comes back.
+        // The chips that it replaced come back.
         ui.ctx().request_repaint();
         return None;
     }

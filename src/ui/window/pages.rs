@@ -4,12 +4,13 @@ use egui::{Id, Rect, RichText, Ui, vec2};
 
 use super::panel::scrolled;
 use super::{focus, toolbar};
+use crate::actions::Control;
 use crate::session::Session;
 use crate::ui::cx::Cx;
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::Tokens;
 use crate::ui::panels::skeleton::state::{SidePage, has_joints, is_inspected};
-use crate::ui::panels::{export, findings, inspector, light, model_panel, overlays, picture, skeleton};
+use crate::ui::panels::{export, findings, light, model_panel, overlays, picture, skeleton, submesh_panel};
 use crate::ui::state::{DrawerPage, UiState};
 use crate::ui::{kit, timeline};
 
@@ -52,7 +53,7 @@ fn show_tabs(ui: &mut Ui, session: &Session, state: &mut UiState, in_drawer: boo
     } else {
         Some(state.skeleton.page)
     };
-    match kit::segmented(ui, "Panel", &tabs, Some(shown)) {
+    match kit::segmented(ui, ("Panel", Control::new("page")), &tabs, Some(shown)) {
         Some(Some(page)) => {
             state.skeleton.page = page;
             state.drawer = state.drawer.map(|_| DrawerPage::Model);
@@ -73,6 +74,20 @@ fn side_page(ui: &mut Ui, id: &'static str, cx: &mut Cx<'_, UiState>) {
         skeleton::show_tree(ui, &mut cx.part(|state| &mut state.skeleton));
     } else {
         scrolled(id, ui.available_height()).show(ui, |ui| model_panel::show(ui, cx));
+    }
+}
+
+/// Whether there is something to inspect: a bone, a vertex or a subset.
+pub(super) fn has_selection(session: &Session) -> bool {
+    is_inspected(session) || session.submeshes().selected().is_some()
+}
+
+/// The inspector of what is selected.
+pub(super) fn show_selection(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
+    if is_inspected(cx.session) {
+        skeleton::show_inspector(ui, &mut cx.part(|state| &mut state.skeleton));
+    } else {
+        submesh_panel::show(ui, cx);
     }
 }
 
@@ -131,7 +146,7 @@ pub(super) fn show_page(ui: &mut Ui, page: DrawerPage, cx: &mut Cx<'_, UiState>)
         cx.state.drawer = None;
     }
     if is_tab && side_tab(cx.state).is_some() {
-        side_page(ui, "sheet", cx);
+        side_page(ui, "drawer", cx);
         return;
     }
     if page == DrawerPage::Timeline {
@@ -143,15 +158,10 @@ pub(super) fn show_page(ui: &mut Ui, page: DrawerPage, cx: &mut Cx<'_, UiState>)
         return;
     }
     // Each page begins at its top, and so does what is inspected next.
-    let salt = ("sheet", page as u8, cx.state.shown_selection);
-    let area = scrolled("sheet", ui.available_height()).id_salt(salt);
+    let salt = ("drawer", page as u8, cx.state.shown_selection);
+    let area = scrolled("drawer", ui.available_height()).id_salt(salt);
     area.show(ui, |ui| match page {
-        DrawerPage::Selection if cx.session.submeshes().selected().is_some() => {
-            inspector::show(ui, cx);
-        }
-        DrawerPage::Selection if is_inspected(cx.session) => {
-            skeleton::show_inspector(ui, &mut cx.part(|state| &mut state.skeleton));
-        }
+        DrawerPage::Selection if has_selection(cx.session) => show_selection(ui, cx),
         DrawerPage::Selection => {
             let words = "Nothing is selected. Tap a part of the model, or choose a bone under Skeleton.";
             ui.label(RichText::new(words).color(Tokens::of(ui).muted));

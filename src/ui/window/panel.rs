@@ -9,6 +9,12 @@ use egui::{
 use crate::ui::kit::theme::{self, MARGIN, Tokens};
 use crate::ui::kit::{rule, tell_popup};
 
+/// Names of panels that more than the layout asks for.
+pub(in crate::ui) const TITLE: &str = "title";
+pub(in crate::ui) const FINDINGS: &str = "findings";
+pub(in crate::ui) const PAGE: &str = "page";
+pub(in crate::ui) const DRAWER: &str = "drawer";
+
 /// The part of the window that no panel covers. Panels are shown one after the other, and each cuts off what it took with a margin.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::ui) struct Free {
@@ -159,6 +165,8 @@ impl<'a> Panel<'a> {
             .default_size(room.size())
             .fade_in(false)
             .show(ui.ctx(), |ui| {
+                ui.ctx()
+                    .accesskit_node_builder(ui.unique_id(), |node| node.set_author_id(self.name));
                 // In a tiny window the panels before it may have left less than nothing.
                 let size = vec2(self.width.unwrap_or(room.width()), room.height());
                 ui.set_max_size(size.max(Vec2::ZERO));
@@ -248,7 +256,7 @@ pub(in crate::ui) fn popover_menu(
 
 /// The y where the room below the bars begins.
 fn below_bars(ui: &Ui) -> f32 {
-    let bar = shown_rect(ui, "title").unwrap_or(Rect::ZERO);
+    let bar = shown_rect(ui, TITLE).unwrap_or(Rect::ZERO);
     bar.max.y + MARGIN
 }
 
@@ -297,7 +305,7 @@ pub(in crate::ui) fn popover_above(ui: &Ui, opener: Opener<'_>, width: f32, cont
     let window = ui.ctx().content_rect().shrink(MARGIN);
     // On a phone the strip has two rows. A popover of the lower row is above both, unless the drawer leaves no room there.
     let above = |top: f32| top - MARGIN - 4.0;
-    let drawer = shown_rect(ui, "sheet").map(|drawer| above(drawer.min.y));
+    let drawer = shown_rect(ui, DRAWER).map(|drawer| above(drawer.min.y));
     let least = window.min.y + LEAST_ROOM;
     let transport = ui.ctx().read_response(id_of("transport"));
     let transport = transport

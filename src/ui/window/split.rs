@@ -2,10 +2,11 @@
 
 use egui::{Align2, Color32, CursorIcon, Rect, Response, Sense, Shape, Stroke, Ui, pos2, vec2};
 
+use crate::actions::Control;
 use crate::scene::Light;
 use crate::session::{Command, LookCommand, Session};
 use crate::ui::kit::theme::Tokens;
-use crate::ui::kit::{SliderNode, is_touch, paint_chip, slider_keys};
+use crate::ui::kit::{SliderNode, is_touch, named, paint_chip, slider_keys};
 
 /// Where the line can be, as fractions of the window's width.
 const REACH: std::ops::RangeInclusive<f32> = 0.02..=0.98;
@@ -48,6 +49,7 @@ pub(in crate::ui) fn show(ui: &Ui, session: &Session, window: Rect, free: Rect, 
         text: &text,
     };
     let keyed = slider_keys(ui, &grip, &slider);
+    let grip = named(grip, Control::new("split-handle"));
     let asked = if line.double_clicked() || grip.double_clicked() {
         Some(0.5)
     } else if let Some(keyed) = keyed {

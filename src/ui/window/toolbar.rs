@@ -8,7 +8,7 @@ use egui::{
 
 use super::arrangement::Arrangement;
 use super::panel::{popover, popover_menu, unscrolled_popover};
-use crate::actions::{self, Action};
+use crate::actions::{self, Action, Control};
 use crate::anim::SkinView;
 use crate::scene::{Theme, ViewMode, ViewPreset};
 use crate::session::{CameraCommand, Command, File, FileCommand, LookCommand, OpenModel, Session};
@@ -17,9 +17,9 @@ use crate::ui::kit::icons::{self, Icon};
 use crate::ui::kit::theme::{self, Tokens};
 use crate::ui::kit::wording::{bytes, shortened_front};
 use crate::ui::kit::{
-    ICON_SIZE, MenuLine, TextButton, action_button, chip, chip_size, control_size, hint_beside, hint_of_name,
-    icon_button, keyed_menu_item, menu_item, pressed_chip, push_action, push_button, section_name, tell_node,
-    tell_open, untold_icon_button, valued_choice, valued_menu_item,
+    ICON_SIZE, MenuLine, TextButton, action_button, bare_icon_button, chip, chip_size, control_size, hint_beside,
+    hint_of_name, icon_button, keyed_menu_item, menu_item, named, pressed_chip, push_action, push_button, section_name,
+    tell_node, tell_open, valued_choice, valued_menu_item,
 };
 use crate::ui::panels::cost::SteadyCost;
 use crate::ui::panels::model_panel::summary;
@@ -27,6 +27,7 @@ use crate::ui::panels::skeleton::state::{SkeletonState, has_joints};
 use crate::ui::panels::{export, light, overlays, picture};
 use crate::ui::state::{DrawerPage, Request, UiState};
 
+const LIGHT: Control = Control::new("light");
 /// Room between the words of the title.
 const TITLE_SPACING: f32 = 10.0;
 /// Width of the popover with light, background and passes.
@@ -62,7 +63,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
         for (action, icon, label) in history(cx.session) {
             let hint = action.hint_of(&label);
             ui.add_enabled_ui(action.ask(cx.session).is_some(), |ui| {
-                if push_button(ui, icon, &hint).clicked() {
+                if named(push_button(ui, icon, &hint), action.control).clicked() {
                     cx.act(action);
                 }
             });
@@ -75,7 +76,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
         action_button(ui, cx, &actions::TURNTABLE, Icon::Turntable);
         let save = &actions::SAVE_PICTURE;
         let hint = format!("Picture… ({} saves one at once)", save.key());
-        let camera = push_button(ui, Icon::Camera, &hint);
+        let camera = named(push_button(ui, Icon::Camera, &hint), Control::new("picture"));
         popover(ui, (&camera, "Picture"), 224.0, |ui| {
             section_name(ui, "Picture");
             picture::show(ui, cx.session, cx.state);
@@ -85,6 +86,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
         open_button(ui, cx.state);
         let help = icon_button(ui, Icon::Help, &actions::HELP.hint(), cx.state.help_open);
         tell_open(&help, cx.state.help_open);
+        let help = named(help, actions::HELP.control);
         if help.clicked() {
             cx.state.help_open = !cx.state.help_open;
         }
@@ -115,15 +117,16 @@ pub(in crate::ui) fn show_narrow(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     ui.spacing_mut().item_spacing.x = SPACING;
     let shown = cx.state.drawer == Some(DrawerPage::Light);
     let lighting = lighting(cx.session);
-    let button = untold_icon_button(ui, Icon::Sun, &lighting, shown);
+    let button = bare_icon_button(ui, Icon::Sun, &lighting, shown);
     let icon = button.rect.center();
+    let button = named(button, LIGHT);
     let button = light::mark_button(ui, cx.session, button, icon, "Light and background");
     tell_open(&button, shown);
     if button.clicked() {
         cx.state.drawer = (!shown).then_some(DrawerPage::Light);
     }
     open_button(ui, cx.state);
-    let dots = push_button(ui, Icon::Dots, "More");
+    let dots = named(push_button(ui, Icon::Dots, "More"), Control::new("more"));
     let is_low = Arrangement::here(ui) == Arrangement::Low;
     let width = if is_low { 420.0 } else { 230.0 };
     popover_menu(ui, &dots, RectAlign::BOTTOM_END, width, |ui| more_menu(ui, cx));
@@ -134,7 +137,7 @@ fn view_mode_menu<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
     let mode = actions::view_mode_label(cx.session);
     let label = format!("View mode: {mode}");
     let button = TextButton::new(mode, &label).list().show(ui);
-    let button = button.on_hover_text(actions::NEXT_VIEW_MODE.hint());
+    let button = named(button, Control::new("view-mode")).on_hover_text(actions::NEXT_VIEW_MODE.hint());
     popover_menu(ui, &button, RectAlign::BOTTOM_START, MENU_WIDTH, |ui| {
         if view_mode_items(ui, cx) {
             ui.close();
@@ -149,6 +152,7 @@ fn light_button(ui: &mut Ui, cx: &mut Cx<'_, SteadyCost>) {
         .list()
         .width(Rangef::point(LIGHT_BUTTON_WIDTH))
         .show(ui);
+    let button = named(button, LIGHT);
     let other = &actions::OTHER_LIGHT;
     let hint = format!("Light and background ({}: {})", other.key(), other.does);
     let icon = button.rect.left_center() + vec2(ui.spacing().button_padding.x + 0.5 * ICON_SIZE, 0.0);
@@ -166,22 +170,22 @@ fn lighting(session: &Session) -> String {
 fn overlays_button(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
     let on = overlays::any_beside_the_grid(cx.session);
     let button = icon_button(ui, Icon::Layers, "Lines over the model", on);
+    let button = named(button, Control::new("overlays"));
     popover(ui, (&button, "Lines over the model"), 236.0, |ui| {
         overlays::show(ui, cx);
     });
 }
 
 fn open_button(ui: &mut Ui, state: &mut UiState) {
-    let open = push_button(ui, Icon::Open, &actions::OPEN_FILES.hint());
-    // The page opens the dialog at once, which browsers let it only within the click.
-    tell_node(&open, |node| node.set_author_id("files"));
-    if open.clicked() {
+    let action = &actions::OPEN_FILES;
+    if named(push_button(ui, Icon::Open, &action.hint()), action.control).clicked() {
         state.requests.push(Request::PickFiles);
     }
 }
 
 fn export_button(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
-    let button = push_button(ui, Icon::Export, &actions::EXPORT.hint());
+    let action = &actions::EXPORT;
+    let button = named(push_button(ui, Icon::Export, &action.hint()), action.control);
     if std::mem::take(&mut cx.state.export.asked) {
         Popup::toggle_id(ui.ctx(), Popup::default_response_id(&button));
     }
@@ -203,13 +207,13 @@ fn other_theme(ui: &Ui) -> (&'static str, Theme) {
 
 fn theme_button(ui: &mut Ui, state: &mut UiState) {
     let (label, theme) = other_theme(ui);
-    if push_button(ui, Icon::Contrast, label).clicked() {
+    if named(push_button(ui, Icon::Contrast, label), Control::new("theme")).clicked() {
         state.theme = Some(theme);
     }
 }
 
 fn view_from_menu<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
-    let cube = push_button(ui, Icon::Cube, "View from…");
+    let cube = named(push_button(ui, Icon::Cube, "View from…"), Control::new("view-from"));
     popover_menu(ui, &cube, RectAlign::BOTTOM_END, MENU_WIDTH, |ui| {
         if view_from_items(ui, cx) {
             ui.close();
@@ -390,15 +394,16 @@ fn file_name(ui: &mut Ui, session: &Session, open: &OpenModel, most: f32, comman
         .width(Rangef::new(0.0, most))
         .show(ui)
         .on_hover_text(path);
+    let button = named(button, Control::new("models"));
     popover_menu(ui, &button, RectAlign::BOTTOM_START, FILES_WIDTH, |ui| {
-        for file in models {
-            file_line(ui, file, file.path == path, commands);
+        for (index, file) in models.into_iter().enumerate() {
+            file_line(ui, (index, file), file.path == path, commands);
         }
     });
 }
 
 /// A line of the menu of files: path, size, and a cross. Delete does what the cross does.
-fn file_line(ui: &mut Ui, file: &File, is_open: bool, commands: &mut Vec<Command>) {
+fn file_line(ui: &mut Ui, (index, file): (usize, &File), is_open: bool, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         let room = ui.available_width() - control_size(ui);
@@ -409,7 +414,8 @@ fn file_line(ui: &mut Ui, file: &File, is_open: bool, commands: &mut Vec<Command
             ui.style_mut().wrap_mode = Some(TextWrapMode::Truncate);
             valued_choice(ui, &path, &size, is_open)
         });
-        let line = hint_beside(line.inner, None, &file.path);
+        let line = named(line.inner, Control::new("model").at(index));
+        let line = hint_beside(line, None, &file.path);
         let note = format!("{size}, Delete closes it");
         tell_node(&line, |node| node.set_description(note));
         // It takes no focus, so that arrows go from line to line.
@@ -443,6 +449,7 @@ pub(in crate::ui) fn findings_chip(ui: &mut Ui, is_open: bool, count: &str, colo
     let response = pressed_chip(ui, count, color, is_open);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Show {count}")));
     tell_open(&response, is_open);
+    let response = named(response, actions::FINDINGS.control);
     let hint = actions::FINDINGS.hint_of("What was found in the file");
     response.on_hover_text(hint).clicked()
 }

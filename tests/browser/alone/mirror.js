@@ -8,7 +8,7 @@ import { pageOf } from "./dom.js";
 const RECORD = {
   name: "", description: null, value: null, placeholder: null, number: null, min: null, max: null, step: null, on: null, expanded: null, popup: null,
   invalid: false, disabled: false, modal: false, focusable: true, stop: true, clickable: true, folds: false, settable: false, level: null, place: null,
-  of: null, active: null, picks: null, bounds: [0, 0, 10, 10], children: [],
+  of: null, active: null, control: null, bounds: [0, 0, 10, 10], children: [],
 };
 const button = (id, more) => ({ ...RECORD, id, role: "button", name: id, ...more });
 const slider = (number, more) => ({ ...RECORD, id: "time", role: "slider", name: "Time", number, min: 0, max: 10, step: 1, value: `${number} s`, settable: true, ...more });
@@ -173,13 +173,14 @@ for (const shadow of [false, true]) {
 
 test("a dialog for files opens within the click, and the viewer is not asked for it too", () => {
   const picked = [];
-  const { at, down, actions } = mirrorWith([button("Open files…", { picks: "files" })], { pick: (what) => picked.push(what) });
+  const { at, down, actions } = mirrorWith([button("Open files…", { control: "open-files" })], { pick: (what) => picked.push(what) });
+  assert.equal(at("Open files…").getAttribute("data-control"), "open-files");
   at("Open files…").focus();
   actions();
   down("Enter");
   assert.deepEqual(picked, ["files"]);
   assert.ok(!actions().includes("click"));
-  const without = mirrorWith([button("Open files…", { picks: "files" })]);
+  const without = mirrorWith([button("Open files…", { control: "open-files" })]);
   without.at("Open files…").click();
   assert.deepEqual(without.actions(), ["click"], "a page that opens none asks the viewer");
 });

@@ -164,6 +164,89 @@ fn the_corners_of_a_box_are_kept_and_its_inside_is_not() {
     assert!(!points.contains(&Vec3::ZERO) && !points.contains(&Vec3::splat(0.3)));
 }
 
+/// How far points reach along a direction.
+fn reach(points: &[Vec3], along: Vec3) -> f32 {
+    points
+        .iter()
+        .map(|point| point.dot(along))
+        .fold(f32::NEG_INFINITY, f32::max)
+}
+
+#[test]
+fn what_is_left_out_of_the_extremes_is_a_hundredth_of_the_size() {
+    let arm = model_of(&arm()).0;
+    let soldier = soldier().map(|parsed| m3d::from_parsed(&parsed).expect("sound").0);
+    for model in [Some(arm), soldier].into_iter().flatten() {
+        let clip = CompiledClip::new(&model.clips[0]);
+        let points = extreme_points(&model, Some(&clip));
+        let (mut buffers, mut positions, mut all) = (PoseBuffers::default(), Vec::new(), Vec::new());
+        for i in 0_u8..12 {
+            let part = f32::from(i) / 11.0;
+            let time_secs = clip.start_secs() + part * (clip.end_secs() - clip.start_secs());
+            buffers.evaluate(&model.skeleton, &clip, time_secs);
+            skin_positions(&model.mesh, &buffers.palette, &mut positions);
+            all.extend_from_slice(&positions);
+        }
+        let size = Aabb::from_points(all.iter().copied()).size().length();
+        // Directions between those that are looked along.
+        for i in 0_u8..200 {
+            let (turn, y) = (f32::from(i) * 2.4, f32::from(i) / 100.0 - 0.995);
+            let flat = (1.0 - y * y).sqrt();
+            let along = Vec3::new(flat * turn.cos(), y, flat * turn.sin());
+            let missed = reach(&all, along) - reach(&points, along);
+            assert!(
+                (0.0..0.03 * size).contains(&(missed + 1e-6)),
+                "{missed} of {size} along {along}"
+            );
+        }
+    }
+}
+
+/// The box with every vertex skinned at every key.
+fn textbook_bounds(model: &Model, clip: &Clip) -> Aabb {
+    let mut times_secs: Vec<f32> = clip
+        .tracks
+        .iter()
+        .flat_map(|track| track.times_secs())
+        .copied()
+        .collect();
+    times_secs.sort_by(f32::total_cmp);
+    times_secs.dedup();
+    let compiled = CompiledClip::new(clip);
+    let (mut buffers, mut positions, mut bounds) = (PoseBuffers::default(), Vec::new(), Aabb::EMPTY);
+    for time_secs in times_secs {
+        buffers.evaluate(&model.skeleton, &compiled, time_secs);
+        skin_positions(&model.mesh, &buffers.palette, &mut positions);
+        bounds = positions
+            .iter()
+            .fold(bounds, |bounds, &position| bounds.include(position));
+    }
+    bounds
+}
+
+#[test]
+fn groups_that_are_left_out_change_no_bit_of_the_box() {
+    let mut document = arm();
+    // So many vertices that there are groups, some of them without weights.
+    for round in 0_u8..40 {
+        for mut vertex in arm().vertices {
+            let by = f32::from(round) / 40.0;
+            vertex.position = vertex.position.map(|number| number * by);
+            if round % 8 == 0 {
+                vertex.blend_weights = [0.0; 4];
+            }
+            document.vertices.push(vertex);
+        }
+    }
+    let arms = model_of(&document).0;
+    let soldier = soldier().map(|parsed| m3d::from_parsed(&parsed).expect("sound").0);
+    for model in [Some(arms), soldier].into_iter().flatten() {
+        let clip = &model.clips[0];
+        let bounds = animated_bounds(&model, &CompiledClip::new(clip));
+        assert_eq!(bounds, textbook_bounds(&model, clip));
+    }
+}
+
 #[test]
 fn nothing_has_no_extremes() {
     assert!(extreme_points(&Model::default(), None).is_empty());

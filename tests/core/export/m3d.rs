@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use bindpose::check::book::{self, Book};
+use bindpose::check::book::{self, Book, Known};
 use bindpose::edit::{Edits, apply};
 use bindpose::export::{Loss, m3d, m3d_losses, one_word};
 use bindpose::format::{Dialect, Document, LineMap, parse};
@@ -108,7 +108,7 @@ fn real_files_read_back_bit_for_bit_and_by_the_loaders() {
         assert!(format!("{:?}", read(&bytes)) == format!("{model:?}"), "{name}");
         for (book, of_book) in [(Book::D3d11, Dialect::D3d11), (Book::D3d12, Dialect::D3d12)] {
             let bytes = written(&model, of_book);
-            let reading = book::read(book, &bytes);
+            let reading = book::read(book, &bytes, &Known::default());
             assert_eq!((reading.stop, reading.mistake), (None, None), "{name} for {book:?}");
             let parsed = parse(&bytes).expect("it can be read");
             assert_eq!(
@@ -128,7 +128,7 @@ fn names_of_several_words_become_one_that_the_loaders_keep() {
     document.clips[0].name = "Take 1".into();
     let (model, _) = from_document(&document, &LineMap::default()).expect("it is sound");
     let bytes = written(&model, Dialect::D3d12);
-    let reading = book::read(Book::D3d12, &bytes).document;
+    let reading = book::read(Book::D3d12, &bytes, &Known::default()).document;
     assert_eq!(reading.clips[0].name, "Take_1");
     assert_eq!(reading.materials[0].name, "left_arm");
     assert_eq!(reading.materials[0].diffuse_map.as_deref(), Some("my_skin.dds"));

@@ -1,6 +1,6 @@
 //! What the fixtures' values become.
 
-use bindpose::diagnostic::Row;
+use bindpose::diagnostic::Entry;
 use bindpose::format::{Dialect, Document, Reflectance, Subset, Vertex, parse};
 use bindpose::import::import;
 
@@ -76,35 +76,35 @@ fn a_skinned_file_of_the_second_book() {
 fn every_row_has_its_line_and_every_line_its_row() {
     let source = import(&good("d3d12_skinned")).expect("a model").source;
     let places = source.places(&good("d3d12_skinned"));
-    let key = |key| Row::Key { clip: 0, bone: 1, key };
+    let key = |key| Entry::Key { clip: 0, bone: 1, key };
     for (row, line) in [
-        (Row::Vertex(1), 29),
-        (Row::Track { clip: 0, bone: 1 }, 62),
+        (Entry::Vertex(1), 29),
+        (Entry::Track { clip: 0, bone: 1 }, 62),
         (key(0), 64),
         (key(1), 65),
     ] {
-        assert_eq!((places.line(row), places.row_on(line)), (Some(line), Some(row)));
+        assert_eq!((places.line(row), places.entry_on(line)), (Some(line), Some(row)));
     }
-    assert_eq!(places.line(Row::Tangent(2)), Some(37));
+    assert_eq!(places.line(Entry::Tangent(2)), Some(37));
     assert_eq!(
-        places.row_on(37),
-        Some(Row::Vertex(2)),
+        places.entry_on(37),
+        Some(Entry::Vertex(2)),
         "the line is one of the vertex's"
     );
     let rows = [
-        Row::Material(0),
-        Row::Subset(0),
-        Row::Triangle(0),
-        Row::Offset(1),
-        Row::Bone(1),
-        Row::Clip(0),
+        Entry::Material(0),
+        Entry::Subset(0),
+        Entry::Triangle(0),
+        Entry::Offset(1),
+        Entry::Bone(1),
+        Entry::Clip(0),
     ];
     for row in rows {
         let line = places.line(row).expect("it stands there");
-        assert_eq!(places.row_on(line), Some(row));
+        assert_eq!(places.entry_on(line), Some(row));
     }
-    assert_eq!((places.line(Row::Vertex(3)), places.row_on(1)), (None, None));
-    assert_eq!(places.pointer(Row::Bone(0)), None, "a text has no pointers");
+    assert_eq!((places.line(Entry::Vertex(3)), places.entry_on(1)), (None, None));
+    assert_eq!(places.pointer(Entry::Bone(0)), None, "a text has no pointers");
 }
 
 #[test]

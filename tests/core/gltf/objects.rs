@@ -1,6 +1,6 @@
 //! Objects that are apart in a file come through to a `.glb`: nodes, meshes, names and `extras`.
 
-use bindpose::diagnostic::{Diagnostic, Row};
+use bindpose::diagnostic::{Diagnostic, Entry};
 use bindpose::export::{MapImages, glb, m3d_losses};
 use bindpose::format::Dialect;
 use bindpose::import::import;
@@ -193,15 +193,15 @@ fn every_part_has_its_pointer_and_every_pointer_its_part() {
     let bytes = four_objects().glb();
     let places = import(&bytes).expect("a model").source.places(&bytes);
     for (row, pointer) in [
-        (Row::Bone(2), "/nodes/2"),
-        (Row::Bone(3), "/nodes/5"),
-        (Row::Subset(1), "/meshes/0/primitives/1"),
-        (Row::Material(2), "/materials/2"),
+        (Entry::Bone(2), "/nodes/2"),
+        (Entry::Bone(3), "/nodes/5"),
+        (Entry::Subset(1), "/meshes/0/primitives/1"),
+        (Entry::Material(2), "/materials/2"),
     ] {
         assert_eq!(places.pointer(row).as_deref(), Some(pointer));
-        assert_eq!(places.row_at(pointer), Some(row));
+        assert_eq!(places.entry_at(pointer), Some(row));
     }
-    assert_eq!(places.row_at("/nodes/5/extras"), Some(Row::Bone(3)));
+    assert_eq!(places.entry_at("/nodes/5/extras"), Some(Entry::Bone(3)));
     for nothing in [
         "",
         "/nodes/3",
@@ -210,9 +210,9 @@ fn every_part_has_its_pointer_and_every_pointer_its_part() {
         "/meshes/0",
         "/materials/3",
     ] {
-        assert_eq!(places.row_at(nothing), None, "{nothing}");
+        assert_eq!(places.entry_at(nothing), None, "{nothing}");
     }
-    assert_eq!(places.line(Row::Bone(2)), None, "a binary file has no lines");
+    assert_eq!(places.line(Entry::Bone(2)), None, "a binary file has no lines");
 }
 
 #[test]

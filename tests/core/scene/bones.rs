@@ -5,7 +5,7 @@ use bindpose::import::m3d;
 use bindpose::model::{Front, Handedness, JointIndex, Model, UpAxis, world_from_model};
 use bindpose::scene::{
     Aabb, BoneColors, BoneStyle, Bones, Camera, MarkedJoints, OverlayGeometry, OverlayVertex, Projection, Screen,
-    Theme, draw_bones, label_places, pick_joint,
+    Theme, append_bones, label_places, pick_joint,
 };
 use glam::{Affine3A, Vec2, Vec3};
 
@@ -48,7 +48,7 @@ fn screen(bones: &Bones, projection: Projection) -> Screen {
 
 fn drawn(bones: &Bones, style: BoneStyle, marked: MarkedJoints) -> OverlayGeometry {
     let mut out = OverlayGeometry::default();
-    draw_bones(bones, style, marked, BoneColors::of(Theme::Dark), &mut out);
+    append_bones(bones, style, marked, BoneColors::of(Theme::Dark), &mut out);
     out
 }
 

@@ -761,7 +761,7 @@ fn the_selected_one_stands_in_a_ring() {
         let frame = session.frame();
         let (place, ring) = (
             frame.world_from_model.translation,
-            &frame.over_model.expect("it has a ring").triangles,
+            &frame.seen_through.expect("it has a ring").triangles,
         );
         let middle = ring.iter().map(|corner| Vec3::from(corner.position)).sum::<Vec3>() / ring.len() as f32;
         let away = (middle - Vec3::from(place)).with_y(0.0).length();
@@ -770,7 +770,7 @@ fn the_selected_one_stands_in_a_ring() {
         assert!(
             session
                 .frame_at_rest()
-                .over_model
+                .seen_through
                 .is_none_or(|shapes| shapes.triangles.is_empty())
         );
     }
@@ -778,7 +778,7 @@ fn the_selected_one_stands_in_a_ring() {
     assert!(
         session
             .frame()
-            .over_model
+            .seen_through
             .is_none_or(|shapes| shapes.triangles.is_empty())
     );
 }

@@ -710,7 +710,11 @@ fn without_pictures_the_demos_plain_maps_are_named() {
     assert_eq!(maps_in(&written.bytes), plain_maps);
     assert!(written.plan.changes.iter().any(|change| change.code == "maps-added"));
     assert_eq!(written.maps, [], "they lie beside the demo");
-    let reading = bindpose::check::book::read(bindpose::check::book::Book::D3d12, &written.bytes);
+    let reading = bindpose::check::book::read(
+        bindpose::check::book::Book::D3d12,
+        &written.bytes,
+        &bindpose::check::book::Known::default(),
+    );
     assert!(
         reading.document.vertices.iter().all(|vertex| vertex.tangent[3] < 0.0),
         "the sign that the demo takes all to have"

@@ -43,8 +43,8 @@ fn bones(rows: &[JointRow]) -> Vec<u32> {
 }
 
 /// What is drawn over the model.
-pub(super) fn over_model(session: &mut Session) -> OverlayGeometry {
-    session.frame().over_model.cloned().unwrap_or_default()
+pub(super) fn seen_through(session: &mut Session) -> OverlayGeometry {
+    session.frame().seen_through.cloned().unwrap_or_default()
 }
 
 /// A colour for each vertex; none while the skin is shown as it is.
@@ -353,7 +353,7 @@ fn the_bind_weight_goes_from_the_clip_to_the_bind_pose_and_back() {
 fn bones_follow_the_pose_the_handedness_and_what_is_shown() {
     let mut session = opened(moving("a.m3d"));
     session.apply(PlayCommand::Seek { time_secs: 0.0 });
-    assert_eq!(over_model(&mut session), OverlayGeometry::default(), "hidden");
+    assert_eq!(seen_through(&mut session), OverlayGeometry::default(), "hidden");
     session.apply(SetBonesVisible(true));
     let mut drawn = Vec::new();
     for command in [
@@ -369,7 +369,7 @@ fn bones_follow_the_pose_the_handedness_and_what_is_shown() {
         FileCommand::Add(vec![still("c.m3d")]).into(),
     ] {
         session.apply(command.clone());
-        let out = over_model(&mut session);
+        let out = seen_through(&mut session);
         assert!(!drawn.contains(&out), "{command:?} is seen");
         drawn.push(out);
     }
@@ -380,16 +380,16 @@ fn bones_follow_the_pose_the_handedness_and_what_is_shown() {
 fn hidden_bones_leave_the_selected_and_the_hovered_one_unless_the_skin_has_colours() {
     let mut session = opened(moving("a.m3d"));
     session.apply(SetBoneStyle(BoneStyle::Lines));
-    let count = |session: &mut Session| over_model(session).lines.len() / 2;
+    let count = |session: &mut Session| seen_through(session).lines.len() / 2;
     assert_eq!(count(&mut session), 0);
     let revision = session.picture_revision();
     session.apply(Select(Some(JointIndex(1))));
     assert!(count(&mut session) == 1 && session.picture_revision() > revision);
     session.apply(Hover(Some(JointIndex(0))));
-    let both = over_model(&mut session);
+    let both = seen_through(&mut session);
     assert_eq!(both.lines.len() / 2, 2);
     session.apply(SetBonesVisible(true));
-    assert_eq!(over_model(&mut session), both, "there are no others");
+    assert_eq!(seen_through(&mut session), both, "there are no others");
     session.apply(SetBonesVisible(false));
     session.apply(SetSkinView(Some(SkinView::Weight)));
     assert_eq!(count(&mut session), 0, "the colours are those of the bone");
@@ -509,7 +509,7 @@ fn skin_colours_are_those_of_the_view_and_their_key_changes_with_them() {
 fn trails_are_of_the_chosen_joints_through_the_clip_on_show() {
     let mut session = opened(moving("a.m3d"));
     // A trail of n points has n - 1 steps, each drawn as a line of two ends.
-    let steps = |session: &mut Session| over_model(session).lines.len() / 2;
+    let steps = |session: &mut Session| seen_through(session).lines.len() / 2;
     assert_eq!(steps(&mut session), 0);
     session.apply(ToggleTrail(JointIndex(1)));
     assert_eq!(steps(&mut session), 30);

@@ -326,7 +326,7 @@ fn ghosts_and_trails_are_of_what_is_on_show_a_blend_too() {
     let clip = session.open_model().expect("open").model.clips[0].clone();
     let (away_secs, now_secs) = (1.0 / clip.keys_per_sec, 0.5 * (clip.start_secs + clip.end_secs));
     session.apply(PlayCommand::Seek { time_secs: now_secs });
-    let trail = |session: &mut Session| session.frame().over_model.expect("lines").lines.clone();
+    let trail = |session: &mut Session| session.frame().seen_through.expect("lines").lines.clone();
     let alone = trail(&mut session);
     assert_eq!(
         alone.len(),

@@ -14,7 +14,7 @@ use bindpose::session::{
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 
-use super::joints::{over_model, skin_colors};
+use super::joints::{seen_through, skin_colors};
 use super::models::cube;
 use super::models::{self, broken, jointed, moving, still};
 use super::submeshes::parted;
@@ -401,7 +401,7 @@ fn check_joints(session: &mut Session, count: usize) -> Result<(), TestCaseError
         }
     );
 
-    let overlay = over_model(session);
+    let overlay = seen_through(session);
     let mut corners = overlay.lines.iter().chain(&overlay.triangles);
     if session.look().trails.is_empty() {
         let look = session.look();

@@ -31,7 +31,7 @@ fn snapshot(session: &mut Session) -> String {
         let ghosts: Vec<_> = frame.ghosts.palettes.iter().map(bits).collect();
         let over = format!(
             "{ghosts:?} {:?} {:?} {:?} {:?}",
-            frame.crowd, frame.ghosts.colors_srgb, frame.over_model, frame.vertex_colors
+            frame.crowd, frame.ghosts.colors_srgb, frame.seen_through, frame.vertex_colors
         );
         (bits(frame.palette), over)
     };
@@ -105,13 +105,13 @@ fn told_to_renderer(session: &mut Session) -> String {
         highlighted_submesh,
         vertex_colors,
         ghosts,
-        over_model,
+        seen_through,
         options,
     } = session.frame();
     let colors = vertex_colors.map(|colors| colors.colors_srgb);
     format!(
         "{camera:?} {world_from_model:?} {world_bounds:?} {palette:?} {crowd:?} {hidden_submeshes:?} {highlighted_submesh:?} {colors:?} \
-         {ghosts:?} {over_model:?} {options:?}"
+         {ghosts:?} {seen_through:?} {options:?}"
     )
 }
 

@@ -41,7 +41,7 @@ fn lengths_of_the_light_are_the_same_in_a_crowd() {
         highlighted_submesh: None,
         vertex_colors: None,
         ghosts: Ghosts::default(),
-        over_model: None,
+        seen_through: None,
         options: FrameOptions::default(),
     };
     for count in [0, 1, 7] {

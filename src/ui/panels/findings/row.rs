@@ -138,7 +138,7 @@ impl FindingRow<'_> {
         }
         explanation(ui, diagnostic.code, &mut cx.state.requests);
         if let Some(code) = codes::named(diagnostic.code) {
-            permanence(ui, code, cx.state);
+            show_keep_mended(ui, code, cx.state);
         }
         if diagnostic.code == codes::TRIANGLES_TURNED_AWAY.name {
             sides(ui, cx.session, cx.commands);
@@ -166,7 +166,7 @@ impl FindingRow<'_> {
                 .collect();
             let words = words.join(" · ");
             let is_chosen = chosen == Some(index);
-            let row = Row::pressed(ui, is_chosen);
+            let row = Row::pressable(ui, is_chosen);
             let (at, font) = (pos2(row.left + INDENT, row.y), FontId::proportional(12.0));
             paint_elided(ui.painter(), at, &words, font, tokens.accent, row.rect.width() - INDENT);
             let response = row.told(Role::ListItem, format!("Go to {words}"));
@@ -206,8 +206,8 @@ fn sides(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     }
 }
 
-/// How to keep what is mended, and the way to Export where that does it.
-fn permanence(ui: &mut Ui, code: &Code, state: &mut UiState) {
+/// Says how to write the mended file, with a button for Export where an export does it.
+fn show_keep_mended(ui: &mut Ui, code: &Code, state: &mut UiState) {
     let Some(words) = code.permanent() else { return };
     ui.add_space(6.0);
     let words = RichText::new(words.replace('`', "")).size(12.5);
@@ -245,7 +245,7 @@ fn about(ui: &mut Ui, words: Option<&str>, code: &'static str, requests: &mut Ve
     }
 }
 
-/// Tells programs that read the screen whether something is unfolded. Returns whether the person wants it to be otherwise.
+/// Tells programs that read the screen whether something is unfolded. Returns whether to fold or unfold it.
 pub(super) fn tell_fold(ui: &Ui, response: &Response, is_open: bool) -> bool {
     // A row of a list is drawn as the chosen one too.
     tell_node(response, |node| node.clear_selected());

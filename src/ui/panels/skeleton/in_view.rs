@@ -8,12 +8,13 @@ use egui::{
 };
 
 use super::state::SkeletonState;
+use crate::actions::Control;
 use crate::anim::SkinView;
 use crate::scene::{LegendStop, legend};
 use crate::session::Session;
 use crate::ui::kit::theme::{self, Tokens};
 use crate::ui::kit::wording::{shortened, trimmed};
-use crate::ui::kit::{TextButton, control_size, gradient_shape, paint_name};
+use crate::ui::kit::{TextButton, control_size, gradient_shape, named, paint_name};
 
 /// The most characters of a name over the view. The tree shows the whole name.
 const MOST_CHARS: usize = 24;
@@ -209,6 +210,7 @@ fn gradient(ui: &Ui, rect: Rect, stops: &[LegendStop]) {
     let response = ui.interact(rect, ui.scope_id().with("legend colours"), Sense::hover());
     let range = format!("{} to {}", trimmed(first.value), trimmed(last.value));
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Colours from {range}")));
+    named(response, Control::new("legend-colours"));
 }
 
 /// A swatch for each value: counts have nothing between them.

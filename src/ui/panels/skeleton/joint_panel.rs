@@ -202,7 +202,7 @@ fn links(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>, [label, one]: [&str; 2], j
 /// A joint's name as a link in a row of its own, after a label.
 fn link_row(ui: &mut Ui, label: &str, name: &str) -> Response {
     let tokens = Tokens::of(ui);
-    let mut row = Row::pressed(ui, false);
+    let mut row = Row::pressable(ui, false);
     row.left(label, tokens.muted);
     row.left = row.rect.min.x + LABEL_WIDTH + 5.0;
     row.name(name, tokens.accent);

@@ -89,7 +89,7 @@ impl SkeletonState {
     }
 
     /// Draws the bones while the tree is the page, unless the person hid them.
-    pub(in crate::ui) fn draw_bones(&mut self, session: &Session, commands: &mut Vec<Command>) {
+    pub(in crate::ui) fn show_bones_with_tree(&mut self, session: &Session, commands: &mut Vec<Command>) {
         let (visible, tree) = (session.look().bones_visible, self.page == SidePage::Skeleton);
         let bones = &mut self.bones;
         if bones.tree != tree {

@@ -8,6 +8,7 @@ use egui::{
 
 use super::naming::{show_field, show_proposals};
 use super::state::{SkeletonState, TreeState, Typed};
+use crate::actions::Control;
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand, JointRow, NameCommand, Session};
 use crate::ui::cx::Cx;
@@ -277,7 +278,10 @@ impl<'a> TreeRow<'a> {
             cx.state.tree.stop = Some(self.row.joint);
             focus_row(ui, response.id, response.rect);
         }
-        tell_node(response, |node| node.set_level(self.row.depth as usize));
+        tell_node(response, |node| {
+            node.set_level(self.row.depth as usize);
+            node.set_author_id(Control::new("bone").at(self.row.bone as usize).to_string());
+        });
         if self.row.has_children && tell_folds(ui, response.id, !self.row.folded) {
             self.fold(!self.row.folded, cx.commands);
         }

@@ -245,7 +245,7 @@ fn influence_row(
     (slot, influence): (usize, &ExplainedInfluence),
 ) -> bool {
     let tokens = Tokens::of(ui);
-    let mut row = Row::pressed(ui, false);
+    let mut row = Row::pressable(ui, false);
     let over = row.response.contains_pointer() && !is_touch(ui);
     if over {
         state.hovered = Some(influence.joint);

@@ -4,7 +4,7 @@ use egui::accesskit::{Action, Orientation};
 use egui::{CursorIcon, Rangef, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2};
 
 use crate::ui::kit::theme::Tokens;
-use crate::ui::kit::{arrow_steps, asks, is_touch, tell_node};
+use crate::ui::kit::{arrow_steps, is_touch, tell_node};
 
 /// The greatest width of the panel, in points and as a fraction of the window.
 const MOST: f32 = 520.0;
@@ -40,8 +40,7 @@ pub(in crate::ui) fn show_handle(ui: &Ui, panel: Rect, least: f32) -> Option<f32
         node.add_action(Action::Increment);
         node.add_action(Action::Decrement);
     });
-    let asked = |action| f32::from(u8::from(asks(ui, response.id, action)));
-    let steps = arrow_steps(ui, &response) + asked(Action::Increment) - asked(Action::Decrement);
+    let steps = arrow_steps(ui, &response);
     let wanted = match response.interact_pointer_pos().filter(|_| response.dragged()) {
         Some(pointer) => pointer.x - panel.min.x,
         None if steps != 0.0 => panel.width() + STEP * steps,

@@ -215,18 +215,14 @@ impl Snapshot {
     }
 }
 
-/// The panels in the order in which a person reads them, by their names. A failure comes first, what has no place between those on the
-/// left and those on the right.
+/// The panels in the order in which a person reads them. A failure comes first, what has no place between those on the left and those on
+/// the right.
 fn reading_rank(node: &MirrorNode) -> usize {
-    const LEFT: [&str; 7] = ["Title", "Toolbar", "Tools", "Model", "Skeleton", "Legend", "Findings"];
-    const RIGHT: [&str; 4] = ["Inspector", "Timeline", "Sheet", "Help"];
-    let place = |names: &[&str]| names.iter().position(|&name| name == node.name);
-    match (node.role, place(&LEFT), place(&RIGHT)) {
-        ("alertdialog", ..) => 0,
-        (_, Some(place), _) => 1 + place,
-        (_, _, Some(place)) => 2 + LEFT.len() + place,
-        _ => 1 + LEFT.len(),
-    }
+    const LEFT: [&str; 6] = ["error", "title", "toolbar", "model", "legend", "findings"];
+    const RIGHT: [&str; 4] = ["inspector", "timeline", "drawer", "help"];
+    let place = |names: &[&str]| names.iter().position(|&name| Some(name) == node.control.as_deref());
+    let right = place(&RIGHT).map(|place| LEFT.len() + 1 + place);
+    place(&LEFT).or(right).unwrap_or(LEFT.len())
 }
 
 struct Reader<'a> {
@@ -343,7 +339,7 @@ fn record(id: NodeId, node: &Node, role: &'static str, name: String, children: &
         place: node.position_in_set().or(node.row_index()).map(|place| place + 1),
         of: node.size_of_set().or(node.row_count()),
         active: node.active_descendant().map(|id| MirrorId(id.0)),
-        picks: words(node.author_id()),
+        control: words(node.author_id()),
         bounds,
         children: Vec::new(),
     }

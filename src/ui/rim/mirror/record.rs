@@ -74,8 +74,8 @@ pub struct MirrorNode {
     pub bounds: [f32; 4],
     /// The one inside of it that its keys act on, while it has the focus itself.
     pub active: Option<MirrorId>,
-    /// The dialog that it opens: `files` or `clips`. Browsers open one only while they handle the click.
-    pub picks: Option<String>,
+    /// Its stable name, as a [`Control`](crate::actions::Control) or a panel has it.
+    pub control: Option<String>,
     /// In reading order.
     pub children: Vec<MirrorId>,
 }

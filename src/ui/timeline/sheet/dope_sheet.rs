@@ -5,7 +5,7 @@ use egui::{
     UiBuilder, pos2, vec2,
 };
 
-use super::rows::{Row, Rows};
+use super::rows::{BoneRow, Rows};
 use crate::anim::JointActivity;
 use crate::model::JointIndex;
 use crate::session::JointCommand;
@@ -23,18 +23,18 @@ const REACH: f32 = 6.0;
 const TOUCH_REACH: f32 = 16.0;
 
 /// What all rows share.
-pub(in crate::ui::timeline) struct Sheet<'a> {
+pub(in crate::ui::timeline) struct DopeSheet<'a> {
     pub(in crate::ui::timeline) time: TimeArea<'a>,
     pub(in crate::ui::timeline) activity: &'a [JointActivity],
     pub(in crate::ui::timeline) row_height: f32,
-    /// Rows are sorted by motion. Without a tree nothing folds.
+    /// Rows are sorted by motion: a flat list, so nothing folds.
     pub(in crate::ui::timeline) by_motion: bool,
 }
 
 /// The dope sheet. Fills the rest of the sheet.
 pub(in crate::ui::timeline) fn show(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>) {
     let Some(time) = TimeArea::new(ui, cx) else { return };
-    let sheet = Sheet {
+    let sheet = DopeSheet {
         activity: time.open.activity(time.clip_index).unwrap_or_default(),
         time,
         row_height: pressed_row_height(ui),
@@ -43,15 +43,12 @@ pub(in crate::ui::timeline) fn show(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>)
     sheet.show(ui, cx);
 }
 
-impl Sheet<'_> {
+impl DopeSheet<'_> {
     fn show(&self, ui: &mut Ui, cx: &mut Cx<'_, TimelineState>) {
         let TimeArea {
             whole, times, ruler, ..
         } = self.time;
-        let count = counted(self.time.open.model.skeleton.joint_count(), "bone");
-        let (at, color) = (pos2(whole.min.x + 6.0, ruler.center().y), Tokens::of(ui).faint);
-        ui.painter()
-            .text(at, Align2::LEFT_CENTER, count, FontId::proportional(11.0), color);
+        self.show_heading(ui);
         if let Some(key_box) = &cx.state.key_box {
             self.time.paint_chosen(ui, key_box);
         }
@@ -66,6 +63,14 @@ impl Sheet<'_> {
         self.paint_range_ends(ui);
         self.time.paint_head(ui);
         ui.set_clip_rect(over);
+    }
+
+    /// The heading of the column of names: how many bones there are.
+    fn show_heading(&self, ui: &Ui) {
+        let count = counted(self.time.open.model.skeleton.joint_count(), "bone");
+        let at = pos2(self.time.whole.min.x + 6.0, self.time.ruler.center().y);
+        let (font, color) = (FontId::proportional(11.0), Tokens::of(ui).faint);
+        ui.painter().text(at, Align2::LEFT_CENTER, count, font, color);
     }
 
     fn show_rows(&self, ui: &mut Ui, body: Rect, cx: &mut Cx<'_, TimelineState>) {
@@ -97,7 +102,7 @@ impl Sheet<'_> {
             self.tell_grid(&response, count);
             let mut shape = MarkShape::new(ui);
             self.reveal(ui, rows.all(), top, cx.state);
-            self.read_keys(ui, &response, &mut rows, top, cx);
+            self.on_keyboard(ui, &response, &mut rows, top, cx);
             for (index, row) in seen.clone().zip(rows.seen(seen)) {
                 let size = vec2(self.time.whole.width(), self.row_height);
                 let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
@@ -109,7 +114,7 @@ impl Sheet<'_> {
                 self.show_cursor(&ui, &response, row.row, &name, &rows, cx.state);
             }
             shape.paint(&ui.painter().with_clip_rect(keys.intersect(ui.clip_rect())));
-            self.press_keys(ui, &response, &rows, top, cx);
+            self.on_pointer(ui, &response, &rows, top, cx);
             time_area::navigate(ui, &response, self.time.clip, &self.time.axis, cx.state, true);
             if by_finger(ui) && response.dragged() {
                 ui.scroll_with_delta(vec2(0.0, response.drag_delta().y));
@@ -142,9 +147,9 @@ impl Sheet<'_> {
     }
 }
 
-impl Sheet<'_> {
+impl DopeSheet<'_> {
     /// A click goes to a key; a drag draws a box.
-    fn press_keys(&self, ui: &Ui, response: &Response, rows: &Rows, top: f32, cx: &mut Cx<'_, TimelineState>) {
+    fn on_pointer(&self, ui: &Ui, response: &Response, rows: &Rows, top: f32, cx: &mut Cx<'_, TimelineState>) {
         let row_at = |at: Pos2| (at.y - top) / self.row_height;
         let corner = |at: Pos2| (self.time.axis.seen_time_at(at.x), row_at(at));
         let pointer = response.interact_pointer_pos();
@@ -192,7 +197,7 @@ impl Sheet<'_> {
     }
 
     /// The key of a row near an x: of the joint, or of a joint folded below it.
-    fn key_near(&self, ui: &Ui, rows: &Rows, row: &Row, x: f32) -> Option<f32> {
+    fn key_near(&self, ui: &Ui, rows: &Rows, row: &BoneRow, x: f32) -> Option<f32> {
         let reach = if is_touch(ui) { TOUCH_REACH } else { REACH };
         let folded = rows.folded_below(row).map_or(&[][..], |branch| &branch.times_secs);
         let nearest = [self.key_times(row.joint), folded].map(|times_secs| self.nearest_key(times_secs, x));

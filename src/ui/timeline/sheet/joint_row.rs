@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use egui::{FontId, Rangef, Rect, RectAlign, Response, Role, Sense, Tooltip, Ui, UiBuilder, WidgetInfo, vec2};
 
-use super::dope_sheet::Sheet;
-use super::rows::{FoldedBranch, Row, Rows, SeenRow};
+use super::dope_sheet::DopeSheet;
+use super::rows::{BoneRow, FoldedBranch, Rows, SeenRow};
 use crate::anim::JointActivity;
 use crate::model::JointIndex;
 use crate::session::{Command, JointCommand};
@@ -34,9 +34,9 @@ fn percent(fraction: f32) -> String {
     }
 }
 
-impl Sheet<'_> {
+impl DopeSheet<'_> {
     /// Scrolls to the row of a joint that was selected elsewhere.
-    pub(in crate::ui::timeline) fn reveal(&self, ui: &Ui, rows: &[Row], top: f32, state: &mut TimelineState) {
+    pub(in crate::ui::timeline) fn reveal(&self, ui: &Ui, rows: &[BoneRow], top: f32, state: &mut TimelineState) {
         let selected = self.time.session.joints().selected();
         if state.revealed == selected {
             return;
@@ -50,7 +50,7 @@ impl Sheet<'_> {
     }
 
     /// How far the sheet is scrolled with the row of the selected joint in its middle.
-    pub(in crate::ui::timeline) fn offset_of_selected(&self, rows: &[Row], height: f32) -> Option<f32> {
+    pub(in crate::ui::timeline) fn offset_of_selected(&self, rows: &[BoneRow], height: f32) -> Option<f32> {
         let selected = self.time.session.joints().selected()?;
         let index = rows.iter().position(|row| row.joint == selected)?;
         let most = (rows.len() as f32 * self.row_height - height).max(0.0);
@@ -76,7 +76,7 @@ impl Sheet<'_> {
     }
 
     /// How much the bone of a row moves in the clip, and what that has to do with its tint.
-    fn motion_words(&self, row: &Row, folded: Option<&FoldedBranch>) -> String {
+    fn motion_words(&self, row: &BoneRow, folded: Option<&FoldedBranch>) -> String {
         let name = self.time.session.joint_label(row.joint);
         let activity = self.activity_of(row.joint);
         let amounts = [
@@ -151,7 +151,7 @@ impl Sheet<'_> {
     fn name_cell(
         &self,
         ui: &mut Ui,
-        row: &Row,
+        row: &BoneRow,
         folded: Option<&FoldedBranch>,
         rect: Rect,
         cx: &mut Cx<'_, TimelineState>,
@@ -215,7 +215,7 @@ impl Sheet<'_> {
         response
     }
 
-    fn fold(&self, ui: &Ui, row: &Row, name: &str, place: Rect, commands: &mut Vec<Command>) {
+    fn fold(&self, ui: &Ui, row: &BoneRow, name: &str, place: Rect, commands: &mut Vec<Command>) {
         let tokens = Tokens::of(ui);
         let target = if is_touch(ui) {
             let right = place.max.x.max(self.time.whole.min.x + 44.0);

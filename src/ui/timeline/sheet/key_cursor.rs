@@ -5,8 +5,8 @@
 use egui::accesskit::Action;
 use egui::{Key, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
-use super::dope_sheet::Sheet;
-use super::rows::{Row, RowKeys, Rows};
+use super::dope_sheet::DopeSheet;
+use super::rows::{BoneRow, RowKeys, Rows};
 use crate::session::JointCommand;
 use crate::ui::cx::Cx;
 use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};
@@ -18,7 +18,7 @@ use crate::ui::timeline::time_area::{self, GRID_KEYS};
 /// Rows that the page keys go by.
 const PAGE: i32 = 8;
 
-impl Sheet<'_> {
+impl DopeSheet<'_> {
     /// Tells of the sheet as a grid of so many rows.
     pub(in crate::ui::timeline) fn tell_grid(&self, response: &Response, rows: usize) {
         response.widget_info(|| WidgetInfo::labeled(Role::Grid, true, "Keys of all bones"));
@@ -29,7 +29,7 @@ impl Sheet<'_> {
     }
 
     /// Moves the cell by keys while the sheet is focused.
-    pub(in crate::ui::timeline) fn read_keys(
+    pub(in crate::ui::timeline) fn on_keyboard(
         &self,
         ui: &Ui,
         response: &Response,
@@ -118,7 +118,7 @@ impl Sheet<'_> {
         cx.state.cursor = Some(cursor);
     }
 
-    fn keys_of<'a>(&'a self, rows: &'a Rows, row: &Row) -> RowKeys<'a> {
+    fn keys_of<'a>(&'a self, rows: &'a Rows, row: &BoneRow) -> RowKeys<'a> {
         let folded = rows.folded_below(row).map_or(&[][..], |branch| &branch.times_secs);
         RowKeys([self.key_times(row.joint), folded])
     }
@@ -154,7 +154,7 @@ impl Sheet<'_> {
         &self,
         ui: &Ui,
         grid: &Response,
-        row: &Row,
+        row: &BoneRow,
         name: &Response,
         rows: &Rows,
         state: &TimelineState,
@@ -183,7 +183,7 @@ impl Sheet<'_> {
         tell_node(grid, |node| node.set_active_descendant(cell.id.accesskit_id()));
     }
 
-    fn cell_words(&self, rows: &Rows, row: &Row, secs: f32) -> String {
+    fn cell_words(&self, rows: &Rows, row: &BoneRow, secs: f32) -> String {
         let name = self.time.session.joint_label(row.joint);
         let times = self.key_times(row.joint);
         let own = times.iter().position(|&key| key == secs);

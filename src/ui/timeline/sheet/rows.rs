@@ -10,7 +10,7 @@ use crate::session::{JointRow, OpenModel, Session};
 
 /// One row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::ui::timeline) struct Row {
+pub(in crate::ui::timeline) struct BoneRow {
     pub(in crate::ui::timeline) joint: JointIndex,
     /// Distance from the root. 0 without a tree.
     pub(in crate::ui::timeline) depth: u32,
@@ -22,7 +22,7 @@ pub(in crate::ui::timeline) struct Row {
 /// A row in view, and what is folded below it.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::ui::timeline) struct SeenRow<'a> {
-    pub(in crate::ui::timeline) row: &'a Row,
+    pub(in crate::ui::timeline) row: &'a BoneRow,
     pub(in crate::ui::timeline) folded: Option<&'a FoldedBranch>,
 }
 
@@ -34,7 +34,7 @@ pub(in crate::ui::timeline) struct Rows {
     sorted_of: Option<(u64, usize)>,
     sorted: Vec<JointIndex>,
     tree: Vec<JointRow>,
-    rows: Vec<Row>,
+    rows: Vec<BoneRow>,
     branches: FoldedBranches,
 }
 
@@ -49,7 +49,7 @@ impl Rows {
                 self.sorted_of = of;
                 sort_by_motion(open.activity(clip).unwrap_or_default(), &mut self.sorted);
             }
-            self.rows.extend(self.sorted.iter().map(|&joint| Row {
+            self.rows.extend(self.sorted.iter().map(|&joint| BoneRow {
                 joint,
                 depth: 0,
                 below: 0,
@@ -58,7 +58,7 @@ impl Rows {
         } else {
             session.joint_rows("", &mut self.tree);
             let tree = session.joints().tree();
-            self.rows.extend(self.tree.iter().map(|row| Row {
+            self.rows.extend(self.tree.iter().map(|row| BoneRow {
                 joint: row.joint,
                 depth: row.depth,
                 below: tree.branch(row.joint).len().saturating_sub(1),
@@ -67,7 +67,7 @@ impl Rows {
         }
     }
 
-    pub(in crate::ui::timeline) fn all(&self) -> &[Row] {
+    pub(in crate::ui::timeline) fn all(&self) -> &[BoneRow] {
         &self.rows
     }
 
@@ -93,7 +93,7 @@ impl Rows {
     }
 
     /// What is folded below a row in view.
-    pub(in crate::ui::timeline) fn folded_below(&self, row: &Row) -> Option<&FoldedBranch> {
+    pub(in crate::ui::timeline) fn folded_below(&self, row: &BoneRow) -> Option<&FoldedBranch> {
         self.branches.get(row.joint).filter(|_| row.folded)
     }
 

@@ -6,12 +6,12 @@ use egui::{
     CursorIcon, Key, Rangef, Rect, Response, Role, Sense, Shape, Stroke, Tooltip, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use crate::actions;
+use crate::actions::{self, Control};
 use crate::model::Clip;
 use crate::session::{PlayCommand, Session};
 use crate::ui::cx::Cx;
 use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};
-use crate::ui::kit::{SliderNode, focus_ring, focused_keys, is_touch};
+use crate::ui::kit::{SliderNode, focus_ring, focused_keys, is_touch, named};
 use crate::ui::timeline::axis::TimeAxis;
 use crate::ui::timeline::loop_gap::LoopGapReading;
 use crate::ui::timeline::marks::{MarkShape, mark_radius};
@@ -52,6 +52,7 @@ pub(in crate::ui::timeline) fn show(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>,
     }
     time_area::paint_head(ui, cx.session, &axis, rect.y_range());
     time_area::time_slider(ui, cx, clip, "Time", &response);
+    named(response, Control::new("time"));
 
     for end in [End::In, End::Out] {
         grip(ui, cx, clip, end, &axis, rect);
@@ -75,9 +76,9 @@ fn grip(ui: &Ui, cx: &mut Cx<'_, TimelineState>, clip: &Clip, end: End, axis: &T
     if clip.last_frame() == 0 {
         return;
     }
-    let (secs, sign, name) = match end {
-        End::In => (in_secs, 1.0, "Range in"),
-        End::Out => (out_secs, -1.0, "Range out"),
+    let (secs, sign, name, here) = match end {
+        End::In => (in_secs, 1.0, "Range in", &actions::RANGE_IN),
+        End::Out => (out_secs, -1.0, "Range out", &actions::RANGE_OUT),
     };
     let x = axis.x_of(secs);
     let head = axis.x_of(cx.session.playback().time_secs());
@@ -122,11 +123,7 @@ fn grip(ui: &Ui, cx: &mut Cx<'_, TimelineState>, clip: &Clip, end: End, axis: &T
         cx.push(PlayCommand::ClearRange);
     }
     paint_bracket(ui, cx.session, &response, pos2(x, rect.center().y), sign, rect.height());
-    let here = if end == End::In {
-        &actions::RANGE_IN
-    } else {
-        &actions::RANGE_OUT
-    };
+    let response = named(response, here.control);
     let (here, all) = (here.key(), actions::CLEAR_RANGE.key());
     if response.dragged() || response.has_focus() {
         // Below the pointer egui shows no tooltip while a button is held.

@@ -3,15 +3,15 @@
 use egui::{Align2, FontId, Popup, Rangef, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::controls::tell_choice;
-use crate::actions;
+use crate::actions::{self, Control};
 use crate::session::{ClipSummary, Command, DEFAULT_CROSSFADE_SECS, OpenModel, PlayCommand};
 use crate::ui::cx::Cx;
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::Tokens;
 use crate::ui::kit::wording::{counted, trimmed};
 use crate::ui::kit::{
-    Slider, TextButton, choices, control_size, focus_ring, is_touch, paint_elided, paint_list_ground, paint_name,
-    row_icon, section_name, section_with_action, tell_node, tell_push,
+    Slider, TextButton, choices, control_size, focus_ring, is_touch, named, paint_elided, paint_list_ground,
+    paint_name, row_icon, section_name, section_with_action, tell_push,
 };
 use crate::ui::state::{Request, UiState};
 use crate::ui::window::panel::{popover_above, popover_gap, scrolled};
@@ -28,6 +28,7 @@ pub(in crate::ui::timeline) fn button(ui: &mut Ui, cx: &mut Cx<'_, UiState>, wid
     let name = cx.session.clip().map_or("", |clip| clip.name.as_str());
     let response = TextButton::new(name, "Clip").list().width(width).show(ui);
     tell_choice(&response, "Clip", name);
+    let response = named(response, Control::new("clips"));
     let response = response.on_hover_text(format!("{name}\nNext clip: {}", actions::NEXT_CLIP.key()));
     popover_above(ui, (&response, "Clip"), WIDTH, |ui| {
         ui.spacing_mut().item_spacing.y = 2.0;
@@ -35,8 +36,7 @@ pub(in crate::ui::timeline) fn button(ui: &mut Ui, cx: &mut Cx<'_, UiState>, wid
         let shown = choices(ui, "Clip", |ui| list(ui, cx, open));
         ui.add_space(4.0);
         let add = TextButton::new("Add clips…", "Add clips…").icon(Icon::Plus).show(ui);
-        tell_node(&add, |node| node.set_author_id("clips"));
-        if add.clicked() {
+        if named(add, Control::new("add-clips")).clicked() {
             cx.state.requests.push(Request::PickClips);
         }
         if open.model.clips.len() > 1 {
@@ -97,7 +97,7 @@ fn row(ui: &mut Ui, cx: &mut Cx<'_, UiState>, index: usize, clip: &ClipSummary<'
         let place = Rect::from_min_max(pos2(rect.max.x - icon_width, rect.min.y), rect.max);
         blend_icon(ui, cx, index, clip.name, place, &response);
     }
-    response.clicked()
+    named(response, Control::new("clip").at(index)).clicked()
 }
 
 /// The icon that blends a clip into the open one, or ends the blend.
@@ -110,7 +110,7 @@ fn blend_icon(ui: &Ui, cx: &mut Cx<'_, UiState>, index: usize, name: &str, place
     };
     let icon = row_icon(ui, place, row, Icon::Blend, &label, on);
     tell_push(&icon);
-    if icon.clicked() {
+    if named(icon, Control::new("blend-clip").at(index)).clicked() {
         cx.commands.push(if on {
             PlayCommand::ClearBlend.into()
         } else {
@@ -125,7 +125,13 @@ fn blend_icon(ui: &Ui, cx: &mut Cx<'_, UiState>, index: usize, name: &str, place
 fn mixing(ui: &mut Ui, cx: &mut Cx<'_, UiState>, open: &OpenModel) {
     let secs = cx.session.crossfade_secs();
     let text = format!("{secs:.2} s");
-    let fade = Slider::new("Crossfade", secs, 0.0..=LONGEST_CROSSFADE, &text).reset_to(DEFAULT_CROSSFADE_SECS);
+    let fade = Slider::new(
+        ("Crossfade", Control::new("crossfade")),
+        secs,
+        0.0..=LONGEST_CROSSFADE,
+        &text,
+    )
+    .reset_to(DEFAULT_CROSSFADE_SECS);
     if let Some(secs) = fade.show(ui) {
         cx.push(PlayCommand::SetCrossfade(secs));
     }
@@ -135,11 +141,11 @@ fn mixing(ui: &mut Ui, cx: &mut Cx<'_, UiState>, open: &OpenModel) {
         clip.map_or("", |clip| clip.name.as_str())
     });
     popover_gap(ui);
-    if section_with_action(ui, "Blend", Some("End")) {
+    if section_with_action(ui, ("Blend", Control::new("end-blend")), Some("End")) {
         cx.push(PlayCommand::ClearBlend);
     }
     let text = format!("{:.0} %", blend.weight * 100.0);
-    let weight = Slider::new("Weight", blend.weight, 0.0..=1.0, &text).reset_to(0.5);
+    let weight = Slider::new(("Weight", Control::new("blend-weight")), blend.weight, 0.0..=1.0, &text).reset_to(0.5);
     if let Some(weight) = weight.show(ui) {
         cx.push(PlayCommand::SetBlend {
             clip: blend.clip,

@@ -10,7 +10,9 @@ use crate::ui::cx::Cx;
 use crate::ui::kit::icons::{self, Icon};
 use crate::ui::kit::theme::{self, Tokens};
 use crate::ui::kit::wording::trimmed;
-use crate::ui::kit::{TypedValue, action_button, control_size, hint_of_name, push_action, push_button, tell_node};
+use crate::ui::kit::{
+    TypedValue, action_button, control_size, hint_of_name, named, push_action, push_button, tell_node,
+};
 
 /// The round button that plays and pauses.
 pub(in crate::ui::timeline) fn play_button<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, diameter: f32) {
@@ -30,7 +32,7 @@ pub(in crate::ui::timeline) fn play_button<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, d
         actions::PLAY.hint()
     };
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
-    if hint_of_name(response, &label).clicked() {
+    if hint_of_name(named(response, actions::PLAY.control), &label).clicked() {
         cx.act(&actions::PLAY);
     }
 }
@@ -61,7 +63,7 @@ pub(in crate::ui::timeline) fn step_button<S>(ui: &mut Ui, cx: &mut Cx<'_, S>, s
         return;
     }
     let label = format!("{} ({}, with Shift ten)", action.label, action.key());
-    let response = push_button(ui, icon, &label);
+    let response = named(push_button(ui, icon, &label), action.control);
     // A long touch stands for Shift.
     let long = response.long_touched();
     if response.clicked() || long {

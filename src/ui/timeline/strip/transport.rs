@@ -4,13 +4,13 @@ use egui::{Align2, FontId, Rangef, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::controls::{ReadoutWidths, Step};
 use super::{bar, clips, controls, options};
-use crate::actions;
+use crate::actions::{self, Control};
 use crate::anim::{Direction, LoopMode};
 use crate::model::Clip;
 use crate::ui::cx::Cx;
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};
-use crate::ui::kit::{action_button, control_size, focus_ring, icon_button, push_button, tell_open};
+use crate::ui::kit::{action_button, control_size, focus_ring, icon_button, named, push_button, tell_open};
 use crate::ui::state::{DrawerPage, UiState};
 use crate::ui::timeline::sheet;
 use crate::ui::timeline::state::TimelineState;
@@ -202,7 +202,7 @@ fn speed_button(ui: &mut Ui, cx: &mut Cx<'_, TimelineState>, width: f32, with_st
         actions::FASTER.key(),
         actions::NORMAL_SPEED.key(),
     );
-    let response = response.on_hover_text(hint);
+    let response = named(response, Control::new("speed")).on_hover_text(hint);
     popover_above(ui, (&response, "Speed, range and loop gap"), options::WIDTH, |ui| {
         options::show(ui, cx, with_steps);
     });
@@ -215,7 +215,10 @@ fn sheet_button(ui: &mut Ui, open: bool) -> bool {
     } else {
         "Dope sheet and curves"
     };
-    let button = icon_button(ui, Icon::DopeSheet, label, open);
+    let button = named(
+        icon_button(ui, Icon::DopeSheet, label, open),
+        Control::new("dope-sheet"),
+    );
     tell_open(&button, open);
     button.clicked()
 }
@@ -227,7 +230,7 @@ fn loop_button<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
         LoopMode::PingPong => (Icon::PingPong, "Plays there and back"),
     };
     let action = &actions::NEXT_LOOP_MODE;
-    let response = push_button(ui, icon, &action.hint_of(label));
+    let response = named(push_button(ui, icon, &action.hint_of(label)), action.control);
     let spoken = format!("At the end: {}", label.to_lowercase());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &spoken));
     if response.clicked() {

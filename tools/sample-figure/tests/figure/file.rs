@@ -108,6 +108,7 @@ fn the_demo_of_the_book_shows_it_as_it_is() {
         document: Some(&SAMPLE),
         handedness: Some(Handedness::Right),
         missing_maps: Some(&[]),
+        ..Known::default()
     };
     let verdict = book::verdict(Book::D3d12, text.as_bytes(), &known);
     assert!(verdict.reads() && !verdict.ends, "{verdict:?}");

@@ -6,6 +6,7 @@ use egui::{Role, Ui, Vec2, vec2};
 
 use super::model_panel::shown_color;
 use super::textures::{holds, picture_row};
+use crate::actions::Control;
 use crate::model::{AlphaMode, MapSlot, Material, Mesh, Reflectance, Submesh};
 use crate::scene::{linear_from_srgb8, srgb8_from_linear};
 use crate::session::{MAX_SPEC_POWER, MaterialCommand, OpenModel, Session, SubmeshCommand};
@@ -13,12 +14,13 @@ use crate::ui::cx::Cx;
 use crate::ui::kit::theme::{MARGIN, ROW_HEIGHT, Tokens};
 use crate::ui::kit::wording::{capital, grouped};
 use crate::ui::kit::{
-    Row, Slider, color_button, control_size, hint_beside, is_touch, number_field, rule, section_name,
+    Label, Row, Slider, color_button, control_size, hint_beside, is_touch, number_field, rule, section_name,
     section_with_action, segmented, selected_heading, switch_row, value_row,
 };
 use crate::ui::state::UiState;
 
 const LABEL_WIDTH: f32 = 90.0;
+const ROUGHNESS: (&str, Control) = ("Roughness", Control::new("roughness"));
 /// Room between fields.
 const SPACING: f32 = 5.0;
 
@@ -49,7 +51,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     value_row(ui, "Vertices", &grouped(vertices));
     rule(ui, MARGIN);
     let action = session.is_edited(material).then_some("Reset");
-    if section_with_action(ui, "Material", action) {
+    if section_with_action(ui, ("Material", Control::new("reset-material")), action) {
         cx.push(MaterialCommand::Reset(material));
     }
     if let Some(edited) = material_fields(ui, values) {
@@ -113,12 +115,12 @@ fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
         Reflectance::Fresnel { fresnel0, roughness } => {
             color_row(ui, "Diffuse", &mut edited.diffuse, ENCODED);
             color_row(ui, "Fresnel R0", fresnel0, LINEAR);
-            part_row(ui, "Roughness", roughness);
+            part_row(ui, ROUGHNESS, roughness);
         }
         Reflectance::MetallicRoughness { metallic, roughness } => {
             color_row(ui, "Diffuse", &mut edited.diffuse, LINEAR);
             part_row(ui, "Metallic", metallic);
-            part_row(ui, "Roughness", roughness);
+            part_row(ui, ROUGHNESS, roughness);
             return of_gltf(ui, material, edited);
         }
         Reflectance::Phong {
@@ -179,8 +181,8 @@ fn of_gltf(ui: &mut Ui, material: &Material, mut edited: Material) -> Option<Mat
 }
 
 /// A number 0…1.
-fn part_row(ui: &mut Ui, label: &str, part: &mut f32) {
-    let text = format!("{part:.2}");
+fn part_row<'a>(ui: &mut Ui, label: impl Into<Label<'a>>, part: &mut f32) {
+    let (label, text): (Label<'_>, _) = (label.into(), format!("{part:.2}"));
     if let Some(chosen) = Slider::new(label, *part, 0.0..=1.0, &text).show(ui) {
         *part = chosen;
     }

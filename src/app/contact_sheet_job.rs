@@ -1,18 +1,18 @@
 //! A contact sheet that is drawn one picture at a time, so that the window goes on meanwhile.
 
-use crate::contact_sheet::{ContactSheet, SheetError};
+use crate::contact_sheet::{ContactSheet, ContactSheetError};
 use crate::image::EncodeError;
 use crate::render::{PictureError, PictureTarget};
 use crate::scene::{Background, Frames, RenderFrame, Shot};
 use crate::session::{LookCommand, Series, Session};
-use crate::ui::SheetRequest;
+use crate::ui::ContactSheetRequest;
 
 /// Why a contact sheet is not drawn to its end.
 #[derive(Debug, thiserror::Error)]
-pub enum SheetFailure {
+pub enum ContactSheetFailure {
     /// It cannot be made in this size.
     #[error(transparent)]
-    Sheet(#[from] SheetError),
+    Layout(#[from] ContactSheetError),
     /// The GPU draws no such picture.
     #[error(transparent)]
     Picture(#[from] PictureError),
@@ -25,19 +25,19 @@ pub enum SheetFailure {
 }
 
 /// A contact sheet that is being drawn.
-pub struct SheetJob {
+pub struct ContactSheetJob {
     series: Series,
     sheet: ContactSheet,
     target: PictureTarget,
     placed: usize,
 }
 
-impl SheetJob {
+impl ContactSheetJob {
     /// A sheet of what a session shows now: of the clip or the range that plays, or all round.
     ///
     /// # Errors
     /// When there is no room for so many pictures.
-    pub fn new(session: &Session, wanted: &SheetRequest) -> Result<Self, SheetFailure> {
+    pub fn new(session: &Session, wanted: &ContactSheetRequest) -> Result<Self, ContactSheetFailure> {
         let mut session = session.clone();
         if wanted.transparent {
             session.apply(LookCommand::SetBackground(Background::None));
@@ -84,7 +84,7 @@ impl SheetJob {
     ///
     /// # Errors
     /// When it cannot be encoded.
-    pub fn into_png(self) -> Result<Vec<u8>, SheetFailure> {
+    pub fn into_png(self) -> Result<Vec<u8>, ContactSheetFailure> {
         Ok(self.sheet.into_png()?)
     }
 }

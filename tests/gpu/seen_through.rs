@@ -42,14 +42,14 @@ on_both_backends! {
         let mut scene = Scene::of(card(FRONT));
         let behind = Vec3::new(0.0, 1.0, 0.4);
         for nearer_first in [false, true] {
-            scene.over_model.clear();
+            scene.seen_through.clear();
             let mut squares = [(behind, GREEN), (behind - Vec3::Z * 0.2, WHITE)];
             if nearer_first {
                 squares.reverse();
             }
             for (center, color) in squares {
                 let half = if color == WHITE { 0.2 } else { 0.4 };
-                square(&mut scene.over_model, center, half, color);
+                square(&mut scene.seen_through, center, half, color);
             }
             let picture = gpu.draw(&scene, SIZE[0], SIZE[1]);
             let at = |x: f32| picture.at(scene.pixel_of(behind + Vec3::X * x, SIZE));
@@ -57,9 +57,9 @@ on_both_backends! {
             assert!(difference(at(0.32), GREEN) <= 2, "{:?}", at(0.32));
             assert!(difference(at(0.6), GREEN) > 60, "beside it is the card");
         }
-        scene.over_model.clear();
+        scene.seen_through.clear();
         let line = gpu.draw(&scene, SIZE[0], SIZE[1]);
-        scene.over_model.line(Vec3::new(-0.8, 1.0, 0.5), Vec3::new(0.8, 1.0, 0.5), WHITE);
+        scene.seen_through.line(Vec3::new(-0.8, 1.0, 0.5), Vec3::new(0.8, 1.0, 0.5), WHITE);
         let with_line = gpu.draw(&scene, SIZE[0], SIZE[1]);
         let [x, y] = scene.pixel_of(Vec3::new(0.4, 1.0, 0.5), SIZE);
         let change = (y - 1..=y + 1).map(|y| difference(line.at([x, y]), with_line.at([x, y]))).max();
