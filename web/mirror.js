@@ -1,15 +1,13 @@
 // The viewer's controls as elements of the page, for screen readers and for Tab: a canvas has only pixels.
-// They lie where the controls are drawn, unseen and out of the pointer's way; the viewer draws the ring round the one that has the focus.
+// They lie where the controls are drawn, unseen and out of the pointer's way; the viewer draws the focus ring.
 
-/** Roles that are pressed, and are a `<button>` here. */
-const PRESSED = new Set([
-  "button", "checkbox", "switch", "radio", "tab", "option", "link", "menuitem", "menuitemcheckbox", "menuitemradio",
-]);
 /** What says by which attribute that it is on or chosen; others say it by `aria-selected`. */
 const ON = {
   button: "aria-pressed", checkbox: "aria-checked", switch: "aria-checked", radio: "aria-checked",
   menuitemcheckbox: "aria-checked", menuitemradio: "aria-checked",
 };
+/** Roles that are pressed, and are a `<button>` here. */
+const PRESSED = new Set([...Object.keys(ON), "tab", "option", "link", "menuitem"]);
 /** What else is on is chosen, where ARIA knows such a state. */
 const CHOSEN = new Set(["option", "tab", "treeitem", "row", "gridcell", "columnheader", "rowheader"]);
 /** Roles that may be folded. */
@@ -31,11 +29,11 @@ const KEYS_OUT_OF_FIELD = new Set(["Enter", "Escape", "ArrowUp", "ArrowDown"]);
 const LABEL_EVERY_MS = 1000;
 /** How long the viewer has to say where the focus is when its element is gone. */
 const HEIR_AFTER_MS = 400;
-/** A value of the slider that has the focus is read out when it has stood still for so long, unless the person moved it. */
+/** A focused slider's value is read out when it has stood still for so long, unless the person moved it. */
 const RESTS_MS = 600;
 /** What the viewer tells this long after the person moved a slider is what came of it. */
 const ANSWERS_MS = 1000;
-/** So many times the viewer may tell of something else before it has the focus that it was asked for. */
+/** So often the viewer may tell of something else before it moves the focus as asked. */
 const MOST_ANSWERS = 4;
 
 /** Ids of elements hold for the whole page. */
