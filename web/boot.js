@@ -70,7 +70,7 @@ bindpose.reset = async () => {
 };
 
 const refuse = (words) => showNotice("Some files could not be read", words);
-/** Tells of a failed opening, but not of one that ended because the person opened something else meanwhile. */
+/** Tells of a failed opening, but not of one that gave way to another. */
 const refuseError = (error) => error.name === "AbortError" || refuse(wordsOf(error));
 
 /**
@@ -312,7 +312,7 @@ function watchDisplay() {
   return () => {
     cancelAnimationFrame(request);
     intervals.sort((a, b) => a - b);
-    // While the program arrives, the page is busy now and then: what the display can do shows in the quick ones.
+    // While the program arrives, the page is busy now and then: the quick ones show what the display can do.
     return intervals.length >= 8 ? intervals[intervals.length >> 2] / 1000 : undefined;
   };
 }
@@ -354,7 +354,7 @@ function choicesNow() {
   return { theme, light, split, quality };
 }
 
-/** Keeps for the next visit what the person has chosen in this one, which model was theirs, and how many of its bones have names. */
+/** Keeps for the next visit what the person chose, which model was theirs, and how many of its bones have names. */
 function keepVisit() {
   if (hasFailed()) return;
   const chosen = Object.entries(choicesNow()).filter(([name, value]) => value !== choices[name]);
@@ -388,7 +388,7 @@ function onPanic(message) {
   showPanic(message);
 }
 
-/** Opens what is open once more, as it is on disk or on the server now; while an error is shown, what it is about. */
+/** Opens what is open, or what the error shown is about, once more, as it is on disk or on the server now. */
 async function readSourcesAgain() {
   const state = bindpose.state();
   const refused = state.error && sources.refused();
