@@ -68,6 +68,8 @@ test("on a phone that is turned on its side the model makes way for what is open
   await turnPhone(page, 844, 390);
   const { camera: low } = await until(page, ({ camera }) => camera.distance !== upright.distance);
   assert.ok(near(apart(low, upright), 0, 0.2 * upright.distance), "it is framed anew");
+  // The mirror tells of the new layout after the camera has it; before, the control is still where the upright phone had it.
+  await page.waitForFunction(() => document.querySelector("[data-control=dope-sheet]")?.getBoundingClientRect().bottom <= innerHeight);
   await page.touchscreen.tap(...(await place(page, "dope-sheet")));
   const { camera: beside } = await until(page, ({ camera }) => apart(camera, low) > 0.2 * low.distance);
   await atRest(page);
