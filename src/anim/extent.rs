@@ -1,233 +1,287 @@
 //! The space that a clip needs: a box around all that it reaches, and the few points by which it is framed.
 
-use std::ops::Range;
-
-use glam::{Affine3A, Vec3, Vec3A};
+use glam::{Vec3, Vec4};
 
 use super::buffers::PoseBuffers;
 use super::compile::CompiledClip;
 use super::pose::Palette;
-use super::skin::{skin_position, skin_positions};
-use crate::model::{Aabb, Influences, Mesh, Model};
+use super::skin::skin_position;
+use super::vertex_groups::VertexGroups;
+use crate::model::{Aabb, Mesh, Model};
 
-/// The most vertices that are skinned for one box: tens of milliseconds of work.
+/// The most vertices that are skinned for one box or one set of points: tens of milliseconds of work.
 const VERTEX_BUDGET: usize = 8_000_000;
 
 /// Lines along which the farthest points are kept, both ways. With 32 the hull of a round thing is short by about 3 %.
 const AXES: usize = 32;
 /// Times of a clip that are looked at, evenly spread.
 const TIMES: usize = 12;
-/// Vertices looked at per time; of a larger mesh every n-th.
-const MOST_VERTICES: usize = 20_000;
 
-/// Vertices of a group: so many that its box costs less than they do, so few that its box is small.
-const GROUP: usize = 32;
-/// By how much of its numbers' size the box of a group may be off: rounding, and weights that sum to nearly 1.
-const GROUP_ERROR: f32 = 1e-5;
+/// The space that a clip needs, in model space.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Extent {
+    /// Box of the skinned vertices. A static model keeps its bind bounds.
+    ///
+    /// Exact at the key times: a vertex is left out only where the box of its group shows that it lies inside. Between two keys a turning
+    /// part may reach a little further, by less than `r (1 − cos(θ / 2))` for a point at distance `r` that turns by `θ` between them. Two
+    /// limits bound the work: above 1 000 key times the span is sampled evenly, and above 8 million vertices in all only the boxes of
+    /// large groups are moved, so that the result is too large rather than too small.
+    pub bounds: Aabb,
+    /// The vertices that lie farthest in many directions, at times spread over the clip. Their hull is nearly that of all the model
+    /// reaches, and they are at most `2 · 32` a time. Above 8 million vertices in all, of each group every n-th is looked at.
+    pub points: Vec<Vec3>,
+}
 
-/// Box of the skinned vertices over a clip, in model space. A static model keeps its bind bounds.
-///
-/// Exact at the key times: a vertex is left out only where the box of its group shows that it lies inside. Between two keys a turning part
-/// may reach a little further, by less than `r (1 − cos(θ / 2))` for a point at distance `r` that turns by `θ` between them. Two limits
-/// bound the work: above 1 000 key times the span is sampled evenly, and above 8 million vertices in all only the boxes of large groups are
-/// moved, so that the result is too large rather than too small.
-pub fn animated_bounds(model: &Model, clip: &CompiledClip) -> Aabb {
-    let mesh = &model.mesh;
-    if mesh.influences.is_empty() {
-        return model.bind_bounds();
+impl Extent {
+    /// That of a clip, or of rest without one. `groups` are those of the model's mesh.
+    pub fn of(model: &Model, groups: &VertexGroups, clip: Option<&CompiledClip>) -> Self {
+        let mut job = ExtentJob::new(model, clip);
+        while job.step(model, groups, clip) {}
+        job.extent
     }
-    let times_secs = clip.probe_times_secs();
-    let exact = mesh.vertex_count().saturating_mul(times_secs.len()) <= VERTEX_BUDGET;
-    let groups = VertexGroups::new(mesh, if exact { GROUP } else { usize::MAX });
-    let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
-    let mut bounds = Aabb::EMPTY;
-    for time_secs in times_secs {
-        buffers.evaluate(&model.skeleton, clip, time_secs);
-        for group in &groups.groups {
-            let moved = group.moved(&buffers.palette);
-            if !exact {
-                bounds = bounds.union(moved);
-            } else if !group.is_within(&moved, &bounds) {
-                for &vertex in &groups.vertices[group.vertices.clone()] {
-                    bounds = bounds.include(skinned(mesh, &buffers.palette, vertex));
-                }
-            }
+}
+
+/// Works out an [`Extent`], one time of the clip after the other. It is given the same model, groups and clip at each step.
+#[derive(Clone, Debug)]
+pub struct ExtentJob {
+    /// Times for the box that are left, the last first.
+    bounds_times_secs: Vec<f32>,
+    /// Box by boxes of joints: see [`Extent::bounds`].
+    by_joint: Option<VertexGroups>,
+    /// Times for the points that are left, the last first.
+    points_times_secs: Vec<f32>,
+    /// Vertices of a group are looked at in such steps.
+    stride: usize,
+    extremes: Extremes,
+    buffers: PoseBuffers,
+    extent: Extent,
+}
+
+impl ExtentJob {
+    /// A job at its beginning.
+    pub fn new(model: &Model, clip: Option<&CompiledClip>) -> Self {
+        let mesh = &model.mesh;
+        let vertex_count = mesh.vertex_count();
+        // A static model stands still.
+        let clip = clip.filter(|_| !mesh.influences.is_empty());
+        let (mut bounds_times_secs, mut points_times_secs) = (Vec::new(), vec![0.0]);
+        if let Some(clip) = clip {
+            bounds_times_secs = clip.probe_times_secs();
+            bounds_times_secs.reverse();
+            let length_secs = clip.end_secs() - clip.start_secs();
+            let times = if length_secs > 0.0 { TIMES } else { 1 };
+            let time_secs = |i| clip.start_secs() + i as f32 / (TIMES - 1) as f32 * length_secs;
+            points_times_secs = (0..times).rev().map(time_secs).collect();
+        }
+        let is_too_much = vertex_count.saturating_mul(bounds_times_secs.len()) > VERTEX_BUDGET;
+        Self {
+            by_joint: is_too_much.then(|| VertexGroups::by_joint(mesh)),
+            stride: (vertex_count * points_times_secs.len()).div_ceil(VERTEX_BUDGET).max(1),
+            bounds_times_secs,
+            points_times_secs,
+            extremes: Extremes::new(),
+            buffers: PoseBuffers::for_skeleton(&model.skeleton),
+            extent: Extent::default(),
         }
     }
-    bounds
-}
 
-fn skinned(mesh: &Mesh, palette: &Palette, vertex: u32) -> Vec3 {
-    let vertex = vertex as usize;
-    skin_position(palette, &mesh.influences[vertex], mesh.positions[vertex])
-}
-
-/// The vertices of a mesh, a few together that the same joint moves most. Those without weights, which stay in bind space, are together.
-struct VertexGroups {
-    /// Their numbers, group by group.
-    vertices: Vec<u32>,
-    groups: Vec<VertexGroup>,
-}
-
-struct VertexGroup {
-    /// Where its vertices are.
-    vertices: Range<usize>,
-    /// All joints that move one of them.
-    joints: Vec<u32>,
-    bind_bounds: Aabb,
-    /// By how much the sum of a vertex' weights differs from 1 at most.
-    weight_error: f32,
-}
-
-impl VertexGroups {
-    /// Groups of at most so many vertices.
-    fn new(mesh: &Mesh, most: usize) -> Self {
-        let leading: Vec<[u32; 2]> = mesh.influences.iter().map(leading_joints).collect();
-        let joints_of = |vertex: u32| leading[vertex as usize];
-        let mut vertices: Vec<u32> = (0..leading.len() as u32).collect();
-        // In the order of the file, where neighbours are mostly neighbours in space; and few keys are sorted fast.
-        vertices.sort_by_key(|&vertex| joints_of(vertex));
-        let mut groups = Vec::new();
-        let mut start = 0;
-        for of_joint in vertices.chunk_by(|&a, &b| joints_of(a)[0] == joints_of(b)[0]) {
-            for few in of_joint.chunks(most) {
-                let end = start + few.len();
-                groups.push(VertexGroup::new(mesh, &vertices, start..end));
-                start = end;
-            }
-        }
-        Self { vertices, groups }
-    }
-}
-
-/// The joints with the greatest and the second greatest weight, of which there may be none.
-fn leading_joints(Influences { joints, weights }: &Influences) -> [u32; 2] {
-    let mut leading = [(0.0, u32::MAX); 2];
-    for (&joint, &weight) in joints.iter().zip(weights) {
-        if weight > leading[0].0 {
-            leading = [(weight, joint), leading[0]];
-        } else if weight > leading[1].0 {
-            leading[1] = (weight, joint);
-        }
-    }
-    leading.map(|(_, joint)| joint)
-}
-
-impl VertexGroup {
-    fn new(mesh: &Mesh, vertices: &[u32], range: Range<usize>) -> Self {
-        let mut group = Self {
-            vertices: range.clone(),
-            joints: Vec::new(),
-            bind_bounds: Aabb::EMPTY,
-            weight_error: 0.0,
+    /// Looks at one time more. False when all is done.
+    pub fn step(&mut self, model: &Model, groups: &VertexGroups, clip: Option<&CompiledClip>) -> bool {
+        let mesh = &model.mesh;
+        let clip = clip.filter(|_| !mesh.influences.is_empty());
+        // The points come first: the box then grows by their vertices at each time before it is asked which groups lie inside.
+        let points_time_secs = self.points_times_secs.pop();
+        let Some(time_secs) = points_time_secs.or_else(|| self.bounds_times_secs.pop()) else {
+            return false;
         };
-        for &vertex in &vertices[range] {
-            let Influences { joints, weights } = mesh.influences[vertex as usize];
-            group.bind_bounds = group.bind_bounds.include(mesh.positions[vertex as usize]);
-            if weights != [0.0; 4] {
-                group.weight_error = group.weight_error.max((weights.iter().sum::<f32>() - 1.0).abs());
-            }
-            let moving = joints.into_iter().zip(weights).filter(|&(_, weight)| weight != 0.0);
-            group.joints.extend(moving.map(|(joint, _)| joint));
+        if let Some(clip) = clip {
+            self.buffers.evaluate(&model.skeleton, clip, time_secs);
         }
-        group.joints.sort_unstable();
-        group.joints.dedup();
-        group
+        if points_time_secs.is_none() {
+            self.grow_bounds(mesh, groups);
+            return true;
+        }
+        // Vertices of a model in its bind pose are not moved.
+        let is_bound = clip.is_none() && (mesh.influences.is_empty() || model.skeleton.rests_in_bind_pose());
+        let pose = Pose {
+            mesh,
+            palette: (!is_bound).then_some(&self.buffers.palette),
+        };
+        self.extremes.look(&pose, groups, self.stride);
+        self.extremes.append(&pose, &mut self.extent.points);
+        if clip.is_none() {
+            self.extent.bounds = pose.bounds();
+        }
+        true
     }
 
-    /// Box around the boxes to which its joints bring it. A skinned vertex is a mean of where its joints take it, so it lies in there.
-    fn moved(&self, palette: &Palette) -> Aabb {
-        if self.joints.is_empty() {
-            return self.bind_bounds;
+    /// What was worked out.
+    pub fn into_extent(self) -> Extent {
+        self.extent
+    }
+
+    fn grow_bounds(&mut self, mesh: &Mesh, groups: &VertexGroups) {
+        let (palette, bounds) = (&self.buffers.palette, &mut self.extent.bounds);
+        if let Some(groups) = &self.by_joint {
+            *bounds = groups
+                .iter()
+                .fold(*bounds, |bounds, (_, moved)| bounds.union(moved.in_pose(palette)));
+            return;
         }
-        let (center, half) = (self.bind_bounds.center(), self.bind_bounds.size() * 0.5);
-        self.joints.iter().fold(Aabb::EMPTY, |bounds, &joint| {
-            let model_from_bind = palette.0.get(joint as usize).unwrap_or(&Affine3A::IDENTITY);
-            let center = model_from_bind.transform_point3(center);
-            let half = Vec3::from(model_from_bind.matrix3.abs() * Vec3A::from(half));
-            bounds.union(Aabb {
-                min: center - half,
-                max: center + half,
-            })
+        let pose = Pose {
+            mesh,
+            palette: Some(palette),
+        };
+        let farthest = self.extremes.last.iter();
+        *bounds = farthest.fold(*bounds, |bounds, &vertex| bounds.include(pose.place(vertex)));
+        for (vertices, moved) in groups.iter() {
+            let moved = moved.in_pose(palette);
+            if !(moved.min.cmpge(bounds.min).all() && moved.max.cmple(bounds.max).all()) {
+                *bounds = vertices
+                    .iter()
+                    .fold(*bounds, |bounds, &vertex| bounds.include(pose.place(vertex)));
+            }
+        }
+    }
+}
+
+/// A mesh as a palette moves it, or as it is in the file.
+struct Pose<'a> {
+    mesh: &'a Mesh,
+    palette: Option<&'a Palette>,
+}
+
+impl Pose<'_> {
+    /// Where a vertex is, model space.
+    fn place(&self, vertex: u32) -> Vec3 {
+        let vertex = vertex as usize;
+        let position = self.mesh.positions[vertex];
+        self.palette.map_or(position, |palette| {
+            skin_position(palette, &self.mesh.influences[vertex], position)
         })
     }
 
-    /// Whether all of its vertices lie in a box, by where they are moved.
-    fn is_within(&self, moved: &Aabb, bounds: &Aabb) -> bool {
-        let size = moved.min.abs().max(moved.max.abs()).max_element();
-        let error = GROUP_ERROR * size;
-        self.weight_error <= GROUP_ERROR
-            && (moved.min - error).cmpge(bounds.min).all()
-            && (moved.max + error).cmple(bounds.max).all()
+    fn bounds(&self) -> Aabb {
+        Aabb::from_points((0..self.mesh.vertex_count() as u32).map(|vertex| self.place(vertex)))
     }
 }
 
-/// Box of the vertices of a model without a clip, in model space.
-pub fn bounds_at_rest(model: &Model) -> Aabb {
-    if model.skeleton.rests_in_bind_pose() {
-        return model.bind_bounds();
-    }
-    let buffers = PoseBuffers::for_skeleton(&model.skeleton);
-    let mut positions = Vec::new();
-    skin_positions(&model.mesh, &buffers.palette, &mut positions);
-    Aabb::from_points(positions)
+/// Four directions side by side, and which vertices lie farthest along them and against them.
+#[derive(Clone, Copy, Debug)]
+struct ExtremeLanes {
+    x: Vec4,
+    y: Vec4,
+    z: Vec4,
+    greatest: Vec4,
+    least: Vec4,
+    /// Vertices there: along, against.
+    vertices: [[u32; 2]; 4],
 }
 
-/// Points of the mesh, in model space, that lie farthest in many directions over a clip, or at rest without one.
-/// Their hull is nearly that of all the model reaches, and they are at most `2 · 32` a time.
-pub fn extreme_points(model: &Model, clip: Option<&CompiledClip>) -> Vec<Vec3> {
-    let mesh = &model.mesh;
-    let stride = mesh.vertex_count().div_ceil(MOST_VERTICES).max(1);
-    let axes = axes();
-    let mut points = Vec::new();
-    let mut positions = Vec::new();
-    let mut buffers = PoseBuffers::for_skeleton(&model.skeleton);
-    let Some(clip) = clip.filter(|_| !mesh.influences.is_empty()) else {
-        let at_rest = if model.skeleton.rests_in_bind_pose() {
-            &mesh.positions
-        } else {
-            skin_positions(mesh, &buffers.palette, &mut positions);
-            &positions
-        };
-        keep_extremes(&axes, at_rest.iter().step_by(stride), &mut points);
-        return points;
-    };
-    let duration_secs = clip.end_secs() - clip.start_secs();
-    for i in 0..TIMES {
-        let part = i as f32 / (TIMES - 1) as f32;
-        buffers.evaluate(&model.skeleton, clip, clip.start_secs() + part * duration_secs);
-        skin_positions(mesh, &buffers.palette, &mut positions);
-        keep_extremes(&axes, positions.iter().step_by(stride), &mut points);
-        if duration_secs <= 0.0 {
-            break;
+/// The vertices that lie farthest along directions spread evenly over a sphere; of those that lie equally far the first of the mesh.
+#[derive(Clone, Debug)]
+struct Extremes {
+    lanes: [ExtremeLanes; AXES / 4],
+    /// The vertices of the last look: at the next time they lie far out too, so that most groups can be passed over from the start.
+    last: Vec<u32>,
+}
+
+impl Extremes {
+    fn new() -> Self {
+        let lanes = std::array::from_fn(|group| {
+            let axes: [Vec3; 4] = std::array::from_fn(|lane| axis(4 * group + lane));
+            ExtremeLanes {
+                x: Vec4::from_array(axes.map(|axis| axis.x)),
+                y: Vec4::from_array(axes.map(|axis| axis.y)),
+                z: Vec4::from_array(axes.map(|axis| axis.z)),
+                greatest: Vec4::NEG_INFINITY,
+                least: Vec4::INFINITY,
+                vertices: [[u32::MAX; 2]; 4],
+            }
+        });
+        Self {
+            lanes,
+            last: Vec::new(),
         }
     }
-    points
+
+    /// Finds those of a pose. Of each group every n-th vertex counts.
+    fn look(&mut self, pose: &Pose<'_>, groups: &VertexGroups, stride: usize) {
+        for lanes in &mut self.lanes {
+            (lanes.greatest, lanes.least) = (Vec4::NEG_INFINITY, Vec4::INFINITY);
+            lanes.vertices = [[u32::MAX; 2]; 4];
+        }
+        for vertex in std::mem::take(&mut self.last) {
+            self.take(vertex, pose.place(vertex));
+        }
+        let bound = Palette::default();
+        for (vertices, moved) in groups.iter() {
+            if self.may_reach_out(&moved.in_pose(pose.palette.unwrap_or(&bound))) {
+                for &vertex in vertices.iter().step_by(stride) {
+                    self.take(vertex, pose.place(vertex));
+                }
+            }
+        }
+        let met = self.lanes.iter().flat_map(|lanes| lanes.vertices).flatten();
+        self.last.extend(met.filter(|&vertex| vertex != u32::MAX));
+        self.last.sort_unstable();
+        self.last.dedup();
+    }
+
+    /// Whether something in a box may lie as far along a direction as what is known.
+    fn may_reach_out(&self, within: &Aabb) -> bool {
+        let (center, half) = ((within.min + within.max) * 0.5, (within.max - within.min) * 0.5);
+        !self.lanes.iter().all(|lanes| {
+            let middle = lanes.along(center);
+            let reach = lanes.x.abs() * half.x + lanes.y.abs() * half.y + lanes.z.abs() * half.z;
+            // Not so where one of them is no number.
+            ((middle + reach).cmplt(lanes.greatest) & (middle - reach).cmpgt(lanes.least)).all()
+        })
+    }
+
+    fn take(&mut self, vertex: u32, position: Vec3) {
+        for lanes in &mut self.lanes {
+            let along = lanes.along(position);
+            if (along.cmpge(lanes.greatest) | along.cmple(lanes.least)).any() {
+                lanes.take(vertex, along);
+            }
+        }
+    }
+
+    /// Adds where they are, direction by direction.
+    fn append(&self, pose: &Pose<'_>, points: &mut Vec<Vec3>) {
+        let vertices = self.lanes.iter().flat_map(|lanes| lanes.vertices).flatten();
+        points.extend(
+            vertices
+                .filter(|&vertex| vertex != u32::MAX)
+                .map(|vertex| pose.place(vertex)),
+        );
+    }
 }
 
-/// Directions spread evenly over half a sphere (a Fibonacci lattice).
-fn axes() -> [Vec3; AXES] {
+impl ExtremeLanes {
+    fn along(&self, position: Vec3) -> Vec4 {
+        self.x * position.x + self.y * position.y + self.z * position.z
+    }
+
+    fn take(&mut self, vertex: u32, along: Vec4) {
+        for (lane, [far, near]) in self.vertices.iter_mut().enumerate() {
+            let along = along[lane];
+            if along > self.greatest[lane] || (along == self.greatest[lane] && vertex < *far) {
+                (self.greatest[lane], *far) = (along, vertex);
+            }
+            if along < self.least[lane] || (along == self.least[lane] && vertex < *near) {
+                (self.least[lane], *near) = (along, vertex);
+            }
+        }
+    }
+}
+
+/// One of [`AXES`] directions spread evenly over half a sphere (a Fibonacci lattice).
+fn axis(index: usize) -> Vec3 {
     let golden_angle = std::f32::consts::PI * (3.0 - 5.0_f32.sqrt());
-    std::array::from_fn(|i| {
-        let y = 1.0 - (i as f32 + 0.5) / AXES as f32;
-        let (sin, cos) = (golden_angle * i as f32).sin_cos();
-        let radius = (1.0 - y * y).sqrt();
-        Vec3::new(radius * cos, y, radius * sin)
-    })
-}
-
-fn keep_extremes<'a>(axes: &[Vec3], points: impl Iterator<Item = &'a Vec3>, kept: &mut Vec<Vec3>) {
-    let mut extremes: Vec<[(f32, Option<Vec3>); 2]> = vec![[(f32::NEG_INFINITY, None); 2]; axes.len()];
-    for &point in points {
-        for (axis, [far, near]) in axes.iter().zip(&mut extremes) {
-            let along = axis.dot(point);
-            if along > far.0 {
-                *far = (along, Some(point));
-            }
-            if -along > near.0 {
-                *near = (-along, Some(point));
-            }
-        }
-    }
-    kept.extend(extremes.iter().flatten().filter_map(|(_, point)| *point));
+    let y = 1.0 - (index as f32 + 0.5) / AXES as f32;
+    let (sin, cos) = (golden_angle * index as f32).sin_cos();
+    let radius = (1.0 - y * y).sqrt();
+    Vec3::new(radius * cos, y, radius * sin)
 }

@@ -22,6 +22,7 @@ mod skin_view;
 mod span;
 mod straight;
 mod trails;
+mod vertex_groups;
 
 pub use crate::model::LocalJoint;
 pub(crate) use activity::JointChange;
@@ -31,7 +32,7 @@ pub use buffers::PoseBuffers;
 pub use compile::CompiledClip;
 pub use crowd::{ClipPose, CrowdPalettes};
 pub use curve::{Curve, CurvePoint, CurveSpace};
-pub use extent::{animated_bounds, bounds_at_rest, extreme_points};
+pub use extent::{Extent, ExtentJob};
 pub use inspect::{
     ExplainedInfluence, JointReadout, KeyRow, RowMatrix, TransformParts, VertexExplanation, explain_vertex, key_rows,
     key_table,
@@ -47,3 +48,4 @@ pub use skin::{SkinnedVertices, skin, skin_positions};
 pub use skin_view::{SkinView, Stretch, dominant_joint, dominant_joints, influence_counts, joint_weights};
 pub use straight::{MOST_ERROR as STRAIGHT_ERROR, straight};
 pub use trails::{GHOST_STEP_FRAMES, GhostPlan, MOST_GHOSTS, Trails, ghost_times, palettes_at};
+pub use vertex_groups::VertexGroups;

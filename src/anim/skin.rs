@@ -1,9 +1,12 @@
 //! Vertices moved by a palette: the twin of the vertex shader, step by step.
 
-use glam::{Affine3A, Mat3A, Vec3, Vec3A, Vec4};
+use glam::{Affine3A, Mat3A, Mat4, Vec3, Vec3A, Vec4};
 
 use super::pose::Palette;
 use crate::model::{Influences, Mesh};
+
+/// Vertices whose directions are moved side by side.
+const LANES: usize = 4;
 
 /// Moved vertices, in the mesh's order, in model space.
 #[derive(Clone, Debug, Default)]
@@ -25,44 +28,60 @@ pub struct SkinnedVertices {
 /// A vertex without weights, and every vertex of a static mesh, stays in bind space. Matrices that the palette lacks are
 /// identities. A matrix that flattens space leaves the direction as it was. Allocates only when `out` is too small.
 pub fn skin(mesh: &Mesh, palette: &Palette, out: &mut SkinnedVertices) {
-    out.positions.clear();
-    out.normals.clear();
-    out.tangents.clear();
     if mesh.influences.is_empty() || palette.0.is_empty() {
-        out.positions.extend_from_slice(&mesh.positions);
-        out.normals.extend_from_slice(&mesh.normals);
-        out.tangents.extend_from_slice(&mesh.tangents);
+        mesh.positions.clone_into(&mut out.positions);
+        mesh.normals.clone_into(&mut out.normals);
+        mesh.tangents.clone_into(&mut out.tangents);
         return;
     }
-    let vertices = mesh
-        .influences
-        .iter()
-        .zip(&mesh.positions)
-        .zip(&mesh.normals)
-        .enumerate();
-    for (vertex, ((influences, &position), &normal)) in vertices {
-        let model_from_bind = blended(palette, influences);
-        let linear = model_from_bind.matrix3;
-        out.positions.push(model_from_bind.transform_point3(position));
-        let cofactor = Cofactor::of(&linear);
-        out.normals.push(cofactor.normal(normal));
-        if let Some(&tangent) = mesh.tangents.get(vertex) {
-            let direction = Vec3A::from_vec4(tangent);
-            let moved = direction_or(linear * direction, direction);
-            out.tangents.push(Vec3::from(moved).extend(tangent.w * cofactor.side));
+    let count = mesh.influences.len().min(mesh.positions.len()).min(mesh.normals.len());
+    let tangent_count = mesh.tangents.len().min(count);
+    // What is there is written over, so it is not cleared.
+    out.positions.resize(count, Vec3::ZERO);
+    out.normals.resize(count, Vec3::ZERO);
+    out.tangents.resize(tangent_count, Vec4::ZERO);
+    let mut linear = [Mat3A::IDENTITY; LANES];
+    for first in (0..count).step_by(LANES) {
+        let vertices = first..count.min(first + LANES);
+        let bind = mesh.influences[vertices.clone()]
+            .iter()
+            .zip(&mesh.positions[vertices.clone()]);
+        let moved = out.positions[vertices].iter_mut().zip(&mut linear);
+        for ((influences, &position), (moved, linear)) in bind.zip(moved) {
+            let model_from_bind = blended(palette, influences);
+            *moved = model_from_bind.transform_point3(position);
+            *linear = model_from_bind.matrix3;
+        }
+        let linear = LinearLanes::new(&linear);
+        let cofactor = linear.cofactor();
+        let side = linear.side(&cofactor);
+        let [x, y, z, _] = lanes(four(&mesh.normals, first).map(|normal| normal.extend(0.0)));
+        let normal = cofactor.times([x, y, z]).map(|moved| moved * side);
+        let [x, y, z] = direction_or(normal, [x, y, z]);
+        put(
+            lanes([x, y, z, Vec4::ZERO]).map(Vec4::truncate),
+            first,
+            &mut out.normals,
+        );
+        if first < tangent_count {
+            let [x, y, z, w] = lanes(four(&mesh.tangents, first));
+            let [x, y, z] = direction_or(linear.times([x, y, z]), [x, y, z]);
+            put(lanes([x, y, z, w * side]), first, &mut out.tangents);
         }
     }
 }
 
 /// The positions of [`skin`] alone.
 pub fn skin_positions(mesh: &Mesh, palette: &Palette, positions: &mut Vec<Vec3>) {
-    positions.clear();
     if mesh.influences.is_empty() || palette.0.is_empty() {
-        positions.extend_from_slice(&mesh.positions);
+        mesh.positions.clone_into(positions);
         return;
     }
+    positions.resize(mesh.influences.len().min(mesh.positions.len()), Vec3::ZERO);
     let vertices = mesh.influences.iter().zip(&mesh.positions);
-    positions.extend(vertices.map(|(influences, &position)| skin_position(palette, influences, position)));
+    for (moved, (influences, &position)) in positions.iter_mut().zip(vertices) {
+        *moved = skin_position(palette, influences, position);
+    }
 }
 
 /// The position of one vertex, as [`skin`] has it.
@@ -71,52 +90,138 @@ pub(crate) fn skin_position(palette: &Palette, influences: &Influences, position
     blended(palette, influences).transform_point3(position)
 }
 
-/// m = Σ weight · matrix; the identity for a vertex without weights.
+/// m = Σ weight · matrix; the identity for a vertex without weights. Most vertices have fewer than four joints, so what has
+/// no weight is not multiplied.
 #[inline]
 fn blended(palette: &Palette, influences: &Influences) -> Affine3A {
     let Influences { joints, weights } = influences;
-    if *weights == [0.0; 4] {
+    let weighed = |slot: usize| {
+        let Affine3A { matrix3, translation } = palette.0.get(joints[slot] as usize).unwrap_or(&Affine3A::IDENTITY);
+        Affine3A {
+            matrix3: *matrix3 * weights[slot],
+            translation: *translation * weights[slot],
+        }
+    };
+    let add = |sum: Affine3A, slot: usize| {
+        let Affine3A { matrix3, translation } = weighed(slot);
+        Affine3A {
+            matrix3: sum.matrix3 + matrix3,
+            translation: sum.translation + translation,
+        }
+    };
+    let used = Vec4::from_array(*weights).cmpne(Vec4::ZERO).bitmask();
+    if used == 0 {
         return Affine3A::IDENTITY;
     }
-    let mut sum = Affine3A {
-        matrix3: Mat3A::ZERO,
-        translation: Vec3A::ZERO,
-    };
-    for (&joint, &weight) in joints.iter().zip(weights) {
-        let model_from_bind = palette.0.get(joint as usize).unwrap_or(&Affine3A::IDENTITY);
-        sum.matrix3 += model_from_bind.matrix3 * weight;
-        sum.translation += model_from_bind.translation * weight;
+    let one = weighed(0);
+    if used == 0b1 {
+        return one;
     }
-    sum
+    let two = add(one, 1);
+    if used == 0b11 {
+        return two;
+    }
+    add(add(two, 2), 3)
 }
 
-/// The cofactor matrix is the inverse transpose times the determinant: it is right for normals under any scale and needs
-/// no division. Where the matrix mirrors, the determinant's sign would turn the normal inside out.
-struct Cofactor {
-    matrix: Mat3A,
+/// The linear parts of four matrices side by side: their columns as x, y and z, each of these for the four vertices, so that
+/// one instruction works on four vertices.
+struct LinearLanes {
+    columns: [[Vec4; 3]; 3],
+}
+
+impl LinearLanes {
+    #[inline]
+    fn new(matrices: &[Mat3A; LANES]) -> Self {
+        let column = |of: fn(&Mat3A) -> Vec3A| {
+            let [x, y, z, _] = lanes([0, 1, 2, 3].map(|lane| of(&matrices[lane]).extend(0.0)));
+            [x, y, z]
+        };
+        Self {
+            columns: [column(|m| m.x_axis), column(|m| m.y_axis), column(|m| m.z_axis)],
+        }
+    }
+
+    /// The cofactor matrices: inverse transpose times the determinant. They are right for normals under any scale and need no
+    /// division. Where a matrix mirrors, the determinant's sign would turn the normal inside out.
+    #[inline]
+    fn cofactor(&self) -> Self {
+        let [x_axis, y_axis, z_axis] = self.columns;
+        Self {
+            columns: [cross(y_axis, z_axis), cross(z_axis, x_axis), cross(x_axis, y_axis)],
+        }
+    }
+
     /// −1 where the matrix mirrors, else 1.
-    side: f32,
-}
-
-impl Cofactor {
     #[inline]
-    fn of(linear: &Mat3A) -> Self {
-        let Mat3A { x_axis, y_axis, z_axis } = *linear;
-        let matrix = Mat3A::from_cols(y_axis.cross(z_axis), z_axis.cross(x_axis), x_axis.cross(y_axis));
-        let mirrored = x_axis.dot(matrix.x_axis) < 0.0;
-        let side = if mirrored { -1.0 } else { 1.0 };
-        Self { matrix, side }
+    fn side(&self, cofactor: &Self) -> Vec4 {
+        let mirrored = dot(self.columns[0], cofactor.columns[0]).cmplt(Vec4::ZERO);
+        Vec4::select(mirrored, Vec4::NEG_ONE, Vec4::ONE)
     }
 
     #[inline]
-    fn normal(&self, normal: Vec3) -> Vec3 {
-        let normal = Vec3A::from(normal);
-        direction_or(self.matrix * normal * self.side, normal).into()
+    fn times(&self, vectors: [Vec4; 3]) -> [Vec4; 3] {
+        let [x_axis, y_axis, z_axis] = self.columns;
+        [0, 1, 2].map(|row| dot([x_axis[row], y_axis[row], z_axis[row]], vectors))
     }
 }
 
-/// The vector at unit length, or another where it has no length.
 #[inline]
-fn direction_or(vector: Vec3A, otherwise: Vec3A) -> Vec3A {
-    vector.normalize_or(otherwise)
+fn cross([ax, ay, az]: [Vec4; 3], [bx, by, bz]: [Vec4; 3]) -> [Vec4; 3] {
+    [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
+}
+
+#[inline]
+fn dot([ax, ay, az]: [Vec4; 3], [bx, by, bz]: [Vec4; 3]) -> Vec4 {
+    ax * bx + ay * by + az * bz
+}
+
+/// The vectors at unit length, or others where they have no length.
+#[inline]
+fn direction_or(vectors: [Vec4; 3], otherwise: [Vec4; 3]) -> [Vec4; 3] {
+    let per_length = dot(vectors, vectors).sqrt().recip();
+    let has_length = per_length.cmpgt(Vec4::ZERO) & per_length.cmplt(Vec4::INFINITY);
+    let [x, y, z] = vectors.map(|vector| vector * per_length);
+    if has_length.all() {
+        return [x, y, z];
+    }
+    let [x_or, y_or, z_or] = otherwise;
+    [
+        Vec4::select(has_length, x, x_or),
+        Vec4::select(has_length, y, y_or),
+        Vec4::select(has_length, z, z_or),
+    ]
+}
+
+/// From four vectors to their x, y, z and w side by side, and back.
+#[inline]
+fn lanes([a, b, c, d]: [Vec4; LANES]) -> [Vec4; 4] {
+    let Mat4 {
+        x_axis,
+        y_axis,
+        z_axis,
+        w_axis,
+    } = Mat4::from_cols(a, b, c, d).transpose();
+    [x_axis, y_axis, z_axis, w_axis]
+}
+
+/// Four values from the first on; zeros behind the last.
+#[inline]
+fn four<T: Copy + Default>(values: &[T], first: usize) -> [T; LANES] {
+    let rest = &values[first..];
+    rest.first_chunk().copied().unwrap_or_else(|| {
+        let mut four = [T::default(); LANES];
+        four[..rest.len()].copy_from_slice(rest);
+        four
+    })
+}
+
+/// Puts four values where the first belongs; what would be behind the last is left out.
+#[inline]
+fn put<T: Copy>(four: [T; LANES], first: usize, values: &mut [T]) {
+    let rest = &mut values[first..];
+    match rest.first_chunk_mut() {
+        Some(place) => *place = four,
+        None => rest.copy_from_slice(&four[..rest.len()]),
+    }
 }

@@ -11,7 +11,6 @@ use super::failure::Failure;
 use super::input;
 use super::text::{Plain, column_width, counted, grouped};
 use super::textures::{Folders, MapState, NamedMap, Textures, by_name, named_maps};
-use crate::anim::animated_bounds;
 use crate::diagnostic::{Diagnostic, Severity, codes};
 use crate::model::{Aabb, Handedness, Model, UpAxis};
 use crate::session::summary::{self, Bounds, Finding};
@@ -163,8 +162,8 @@ fn bounds_of_all_clips(open: &OpenModel) -> Option<Aabb> {
     if open.diagnostics.iter().any(overflows) {
         return None;
     }
-    let of_clips = open.compiled.iter().map(|clip| animated_bounds(&open.model, clip));
-    Some(of_clips.reduce(Aabb::union).unwrap_or(open.extent(None).0))
+    let of_clips = (0..open.compiled.len()).map(|clip| open.extent(Some(clip)).bounds);
+    Some(of_clips.reduce(Aabb::union).unwrap_or_else(|| open.extent(None).bounds))
 }
 
 fn write_text(out: &mut dyn Write, info: &Info<'_>, open: &OpenModel, maps: &[NamedMap<'_>]) -> io::Result<()> {

@@ -1,9 +1,11 @@
 //! Makes smaller levels where a file has none.
 
+use glam::Vec4;
+
 use super::format::{Channels, ImageFormat};
 use super::half;
 use super::picture::{Image, full_level_count, level_size};
-use super::srgb::{linear_from_srgb, srgb_from_linear};
+use super::srgb::{Srgb, WHOLE};
 
 /// The kind of values in a map, which decides how they are averaged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -22,7 +24,7 @@ impl MapKind {
 }
 
 /// A value that is averaged: colour times weight and weight, or direction or colour and alpha.
-type Texel = [f32; 4];
+type Texel = Vec4;
 
 /// Weight of a transparent texel relative to an opaque one: too little to tint an edge, but enough that an area without
 /// any alpha keeps its colour.
@@ -74,11 +76,12 @@ impl Image {
         })?;
         let mut data = Vec::new();
         for face in 0..self.face_count() {
-            let (bytes, mut texels) = coding.level_and_half(self, face, level);
+            let start = data.len();
+            let mut texels = coding.append_level(&mut data, self, face, level);
             if halvings == 0 {
-                data.extend(bytes);
                 continue;
             }
+            data.truncate(start);
             for halved in 1..halvings {
                 let (width, height) = size_after(halved);
                 texels = halve(width, height, &texels, |&texel| texel);
@@ -139,8 +142,7 @@ impl Coding {
 
     /// Writes a face of at least two levels: the largest as it is, then all smaller ones.
     fn append_chain(self, data: &mut Vec<u8>, image: &Image, face: u32, level_count: u32) {
-        let (bytes, mut texels) = self.level_and_half(image, face, 0);
-        data.extend(bytes);
+        let mut texels = self.append_level(data, image, face, 0);
         for level in 1..level_count {
             self.append(data, &texels);
             // From the values before rounding, so that errors do not add up.
@@ -149,82 +151,95 @@ impl Coding {
         }
     }
 
-    /// A level of the picture as bytes of this coding's format, and the values of the next smaller level.
-    fn level_and_half(self, image: &Image, face: u32, level: u32) -> (Vec<u8>, Vec<Texel>) {
+    /// Writes a level of the picture in this coding's format, and gives the values of the next smaller level.
+    fn append_level(self, data: &mut Vec<u8>, image: &Image, face: u32, level: u32) -> Vec<Texel> {
         let (width, height) = image.level_size(level);
-        let bytes = || image.to_rgba8(face, level).unwrap_or_default();
-        let size = [width, height];
+        if let Self::Half = self {
+            let values = image.to_rgba32f(face, level).unwrap_or_default();
+            data.extend(values.iter().flat_map(|&value| half::from_f32(value).to_le_bytes()));
+            return halve(width, height, values.as_chunks::<4>().0, |&texel| Vec4::from(texel));
+        }
+        let start = data.len();
+        image.append_rgba8(data, face, level);
+        let texels = data[start..].as_chunks::<4>().0;
+        let unit = |&[r, g, b, a]: &[u8; 4]| Vec4::new(r.into(), g.into(), b.into(), a.into());
         match self {
-            Self::Srgb => halve_bytes(size, bytes(), read_colour),
-            Self::Direction { two_channels } => halve_bytes(size, bytes(), |texel| read_direction(texel, two_channels)),
-            Self::Linear => halve_bytes(size, bytes(), |texel| texel.map(|value| f32::from(value) / 255.0)),
-            Self::Half => {
-                let values = image.to_rgba32f(face, level).unwrap_or_default();
-                let half = halve(width, height, values.as_chunks::<4>().0, |&texel| texel);
-                let bytes = values.iter().flat_map(|&value| half::from_f32(value).to_le_bytes());
-                (bytes.collect(), half)
+            Self::Srgb => {
+                let (srgb, weights) = (Srgb::tables(), weights());
+                halve(width, height, texels, |&[r, g, b, a]| {
+                    Vec4::new(srgb.linear(r), srgb.linear(g), srgb.linear(b), 1.0) * weights[usize::from(a)]
+                })
             }
+            Self::Direction { two_channels } => halve(width, height, texels, |texel| {
+                let direction = unit(texel) / Vec4::new(127.5, 127.5, 127.5, 255.0) - Vec4::new(1.0, 1.0, 1.0, 0.0);
+                if two_channels { with_z(direction) } else { direction }
+            }),
+            _ => halve(width, height, texels, |texel| unit(texel) / 255.0),
         }
     }
 
     fn append(self, data: &mut Vec<u8>, texels: &[Texel]) {
-        let unit = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
         match self {
-            Self::Srgb => append_bytes(data, texels, |[r, g, b, weight]| {
-                let byte = |value: f32| srgb_from_linear(value / weight);
-                let alpha = unit((weight - CLEAR_WEIGHT) / (1.0 - CLEAR_WEIGHT));
-                [byte(r), byte(g), byte(b), alpha]
+            Self::Srgb => {
+                let srgb = Srgb::tables();
+                append_bytes(data, texels, |texel| {
+                    let weight = texel.w;
+                    let [r, g, b] = srgb.bytes(texel / weight);
+                    let alpha = (weight - CLEAR_WEIGHT) / (1.0 - CLEAR_WEIGHT);
+                    [r, g, b, bytes(Vec4::splat(alpha))[3]]
+                });
+            }
+            Self::Direction { two_channels } => append_bytes(data, texels, |texel| {
+                let encoded = normalized(texel) * Vec4::new(0.5, 0.5, 0.5, 1.0) + Vec4::new(0.5, 0.5, 0.5, 0.0);
+                let [x, y, z, alpha] = bytes(encoded);
+                [x, y, if two_channels { 0 } else { z }, alpha]
             }),
-            Self::Direction { two_channels } => append_bytes(data, texels, |[x, y, z, alpha]| {
-                let [x, y, z] = normalized([x, y, z]).map(|value| unit(value * 0.5 + 0.5));
-                [x, y, if two_channels { 0 } else { z }, unit(alpha)]
-            }),
-            Self::Linear => append_bytes(data, texels, |texel| texel.map(unit)),
+            Self::Linear => append_bytes(data, texels, bytes),
             Self::Half => {
-                let values = texels.as_flattened().iter();
-                data.extend(values.flat_map(|&value| half::from_f32(value).to_le_bytes()));
+                let values = texels.iter().flat_map(|texel| texel.to_array());
+                data.extend(values.flat_map(|value| half::from_f32(value).to_le_bytes()));
             }
         }
     }
 }
 
-/// Bytes of a level, and the values of the next smaller one.
-fn halve_bytes([width, height]: [u32; 2], bytes: Vec<u8>, read: impl Fn([u8; 4]) -> Texel) -> (Vec<u8>, Vec<Texel>) {
-    let half = halve(width, height, bytes.as_chunks::<4>().0, |&texel| read(texel));
-    (bytes, half)
+/// The weight of a colour with each alpha.
+fn weights() -> [f32; 256] {
+    std::array::from_fn(|alpha| CLEAR_WEIGHT + alpha as f32 / 255.0 * (1.0 - CLEAR_WEIGHT))
 }
 
-fn read_colour([r, g, b, a]: [u8; 4]) -> Texel {
-    let weight = CLEAR_WEIGHT + f32::from(a) / 255.0 * (1.0 - CLEAR_WEIGHT);
-    let light = |value| linear_from_srgb(value) * weight;
-    // No `map` of an array here and below: it is not inlined.
-    [light(r), light(g), light(b), weight]
+/// The direction whose x and y are known.
+fn with_z(direction: Texel) -> Texel {
+    let [x, y, _, alpha] = direction.to_array();
+    Vec4::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt(), alpha)
 }
 
-fn read_direction([r, g, b, a]: [u8; 4], two_channels: bool) -> Texel {
-    let [x, y, z] = [r, g, b].map(|value| f32::from(value) / 127.5 - 1.0);
-    let z = if two_channels {
-        (1.0 - x * x - y * y).max(0.0).sqrt()
-    } else {
-        z
-    };
-    [x, y, z, f32::from(a) / 255.0]
-}
-
-/// The direction normalised; straight out of the surface where opposite directions cancelled out.
-fn normalized(direction: [f32; 3]) -> [f32; 3] {
-    let length = direction.iter().map(|value| value * value).sum::<f32>().sqrt();
+/// The direction normalised; straight out of the surface where opposite directions cancelled out. Alpha stays.
+fn normalized(texel: Texel) -> Texel {
+    let [x, y, z, alpha] = texel.to_array();
+    let length = (x * x + y * y + z * z).sqrt();
     if length > 1e-3 {
-        direction.map(|value| value / length)
+        (texel / length).truncate().extend(alpha)
     } else {
-        [0.0, 0.0, 1.0]
+        Vec4::new(0.0, 0.0, 1.0, alpha)
     }
 }
 
+/// The nearest bytes of numbers that are 0 … 1 and clamped to it; a half goes up.
+fn bytes(numbers: Vec4) -> [u8; 4] {
+    let scaled = numbers.max(Vec4::ZERO).min(Vec4::ONE) * 255.0;
+    // `f32::round` is a call for each number. This rounds a half to the even neighbour, which is mended.
+    let nearest = scaled + WHOLE;
+    let is_half_below = (scaled - (nearest - WHOLE)).cmpge(Vec4::splat(0.5));
+    let nearest = nearest + Vec4::select(is_half_below, Vec4::ONE, Vec4::ZERO);
+    nearest.to_array().map(|number| number.to_bits() as u8)
+}
+
 fn append_bytes(data: &mut Vec<u8>, texels: &[Texel], write: impl Fn(Texel) -> [u8; 4]) {
-    data.reserve(4 * texels.len());
-    for &texel in texels {
-        data.extend_from_slice(&write(texel));
+    let start = data.len();
+    data.resize(start + 4 * texels.len(), 0);
+    for (bytes, &texel) in data[start..].as_chunks_mut().0.iter_mut().zip(texels) {
+        *bytes = write(texel);
     }
 }
 
@@ -238,15 +253,9 @@ fn halve<T>(width: u32, height: u32, texels: &[T], read: impl Fn(&T) -> Texel) -
         for rows in texels.chunks_exact(2 * width as usize) {
             let (upper, lower) = rows.split_at(width as usize);
             let squares = upper.as_chunks::<2>().0.iter().zip(lower.as_chunks::<2>().0);
-            smaller.extend(squares.map(|(upper, lower)| {
-                let mut mean = [0.0; 4];
-                for texel in upper.iter().chain(lower) {
-                    for (sum, value) in mean.iter_mut().zip(read(texel)) {
-                        *sum += 0.25 * value;
-                    }
-                }
-                mean
-            }));
+            // The sum with 0 makes 0 of −0.
+            let mean = |[a, b]: &[T; 2], [c, d]: &[T; 2]| (read(a) + read(b) + read(c) + read(d)) * 0.25 + 0.0;
+            smaller.extend(squares.map(|(upper, lower)| mean(upper, lower)));
         }
         return smaller;
     }
@@ -254,13 +263,11 @@ fn halve<T>(width: u32, height: u32, texels: &[T], read: impl Fn(&T) -> Texel) -
         let rows = covered(height, row);
         for column in 0..smaller_width {
             let columns = covered(width, column);
-            let mut mean = [0.0; 4];
+            let mut mean = Vec4::ZERO;
             for &(y, row_weight) in rows.taps() {
                 for &(x, column_weight) in columns.taps() {
-                    let values = read(&texels[y as usize * width as usize + x as usize]);
-                    for (sum, value) in mean.iter_mut().zip(values) {
-                        *sum += row_weight * column_weight * value;
-                    }
+                    let value = read(&texels[y as usize * width as usize + x as usize]);
+                    mean += value * (row_weight * column_weight);
                 }
             }
             smaller.push(mean);

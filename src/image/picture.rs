@@ -141,12 +141,25 @@ impl Image {
     /// to 1 come as 0 to 255, and alpha is 255 where the picture [has none](Self::has_alpha). Linear half floats are cut
     /// at 1 and encoded as sRGB.
     pub fn to_rgba8(&self, face: u32, level: u32) -> Option<Vec<u8>> {
-        let (width, height) = self.level_size(level);
-        let mut texels = blocks::to_rgba8(self.format, width, height, self.level(face, level)?);
-        if !self.has_alpha() {
-            texels.iter_mut().skip(3).step_by(4).for_each(|alpha| *alpha = 255);
-        }
+        let mut texels = Vec::new();
+        self.append_rgba8(&mut texels, face, level)?;
         Some(texels)
+    }
+
+    /// The same at the end of a buffer. `None`, and nothing is added, where there is no such face or level.
+    pub(super) fn append_rgba8(&self, texels: &mut Vec<u8>, face: u32, level: u32) -> Option<()> {
+        let ((width, height), stored) = (self.level_size(level), self.level(face, level)?);
+        let start = texels.len();
+        if self.format == ImageFormat::Rgba8 {
+            texels.extend_from_slice(stored);
+        } else {
+            texels.extend(blocks::to_rgba8(self.format, width, height, stored));
+        }
+        if !self.has_alpha() {
+            let (texels, _) = texels[start..].as_chunks_mut();
+            texels.iter_mut().for_each(|[.., alpha]: &mut [u8; 4]| *alpha = 255);
+        }
+        Some(())
     }
 
     /// One level decoded: RGBA as floats, rows from the top without padding. `None` where there is no such face or level.

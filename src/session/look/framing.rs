@@ -41,7 +41,11 @@ impl Session {
 
     /// Adds the points by which a clip is framed, world space.
     fn add_reach(&self, clip: Option<usize>, world_from_model: Affine3A, points: &mut Vec<Vec3>) {
-        let of_clip = self.content.open.as_ref().map_or(&[][..], |open| open.extent(clip).1);
+        let of_clip = self
+            .content
+            .open
+            .as_ref()
+            .map_or(&[][..], |open| &open.extent(clip).points);
         points.extend(of_clip.iter().map(|&point| world_from_model.transform_point3(point)));
     }
 

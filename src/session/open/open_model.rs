@@ -4,10 +4,8 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::{Arc, OnceLock};
 
-use glam::Vec3;
-
 use super::files::{File, FileSet};
-use crate::anim::{self, CompiledClip, JointActivity, LoopGap};
+use crate::anim::{self, CompiledClip, Extent, JointActivity, LoopGap, VertexGroups};
 use crate::check;
 use crate::diagnostic::{Diagnostic, Position, Severity, Subject, codes};
 use crate::edit::Change;
@@ -39,6 +37,7 @@ pub struct OpenModel {
     /// The model's clips, compiled for sampling, in their order.
     pub compiled: Vec<CompiledClip>,
     /// The space that it needs without a clip.
+    vertex_groups: OnceLock<VertexGroups>,
     at_rest: OnceLock<Extent>,
     /// One for each clip of the model.
     pub(in crate::session) clip_facts: Vec<ClipFacts>,
@@ -86,15 +85,6 @@ pub(in crate::session) struct ClipFacts {
     activity: OnceLock<Vec<JointActivity>>,
 }
 
-/// The space that a clip needs, in the file's space.
-#[derive(Clone, Debug)]
-struct Extent {
-    /// Box of all that is reached.
-    bounds: Aabb,
-    /// Points by which it is framed; see [`anim::extreme_points`].
-    points: Vec<Vec3>,
-}
-
 impl ClipFacts {
     /// A clip of the model's file, of which nothing else was asked yet.
     pub(in crate::session) fn of_file(file_name: &str) -> Self {
@@ -114,15 +104,6 @@ impl ClipFacts {
             joined: true,
             ..Self::of_file(file_name)
         }
-    }
-
-    /// Box and extreme points of all that the clip reaches.
-    pub(in crate::session) fn extent(&self, model: &Model, clip: &CompiledClip) -> (Aabb, &[Vec3]) {
-        let extent = self.extent.get_or_init(|| Extent {
-            bounds: anim::animated_bounds(model, clip),
-            points: anim::extreme_points(model, Some(clip)),
-        });
-        (extent.bounds, &extent.points)
     }
 }
 
@@ -173,6 +154,7 @@ impl OpenModel {
             compiled,
             submesh_names: submesh_names(&model),
             bind_bounds: model.bind_bounds(),
+            vertex_groups: OnceLock::new(),
             at_rest: OnceLock::new(),
             clip_facts: vec![ClipFacts::of_file(file.base_name()); model.clips.len()],
             joined: Vec::new(),
@@ -180,19 +162,17 @@ impl OpenModel {
         }
     }
 
-    /// The space that a clip needs; that of rest without a clip.
-    pub fn extent(&self, clip: Option<usize>) -> (Aabb, &[Vec3]) {
+    /// The space that a clip needs; that of rest without a clip. In the file's space.
+    pub fn extent(&self, clip: Option<usize>) -> &Extent {
         let index = clip.unwrap_or(usize::MAX);
-        match (self.compiled.get(index), self.clip_facts.get(index)) {
-            (Some(clip), Some(facts)) => facts.extent(&self.model, clip),
-            _ => {
-                let at_rest = self.at_rest.get_or_init(|| Extent {
-                    bounds: anim::bounds_at_rest(&self.model),
-                    points: anim::extreme_points(&self.model, None),
-                });
-                (at_rest.bounds, &at_rest.points)
-            }
-        }
+        let clip = self.compiled.get(index).zip(self.clip_facts.get(index));
+        let kept = clip.map_or(&self.at_rest, |(_, facts)| &facts.extent);
+        kept.get_or_init(|| Extent::of(&self.model, self.vertex_groups(), clip.map(|(clip, _)| clip)))
+    }
+
+    /// The groups of the mesh's vertices.
+    pub(in crate::session) fn vertex_groups(&self) -> &VertexGroups {
+        self.vertex_groups.get_or_init(|| VertexGroups::new(&self.model.mesh))
     }
 
     /// What was mended while the file was read, as changes: it is written as mended. Findings of the checks are none. Where only some clips

@@ -152,11 +152,11 @@ impl Actor {
 
     /// Box of all that the clips in the pose reach, in the file's space; with the bind pose in it while the pose is brought there.
     pub(in crate::session) fn reach(&self, open: &OpenModel) -> Aabb {
-        let of_clip = open.extent(self.player.clip).0;
+        let of_clip = open.extent(self.player.clip).bounds;
         let of_clips = self
             .mixer
             .clips()
-            .fold(of_clip, |reach, clip| reach.union(open.extent(Some(clip)).0));
+            .fold(of_clip, |reach, clip| reach.union(open.extent(Some(clip)).bounds));
         if self.bind_weight > 0.0 {
             of_clips.union(open.bind_bounds)
         } else {

@@ -159,7 +159,7 @@ impl Instances {
             return;
         }
         let clips = 0..open.model.clips.len();
-        self.of_clips = clips.fold(Aabb::EMPTY, |reach, clip| reach.union(open.extent(Some(clip)).0));
+        self.of_clips = clips.fold(Aabb::EMPTY, |reach, clip| reach.union(open.extent(Some(clip)).bounds));
         self.of_all = self.of_clips.union(open.bind_bounds);
         if self.of_clips.is_empty() {
             self.of_clips = self.of_all;

@@ -2,13 +2,21 @@
 
 use std::time::Instant;
 
-use bindpose::anim::{CompiledClip, PoseBuffers, animated_bounds, extreme_points, skin_positions};
+use bindpose::anim::{CompiledClip, Extent, PoseBuffers, VertexGroups, skin_positions};
 use bindpose::import::m3d;
 use bindpose::model::{Aabb, Clip, Mesh, Model};
 use glam::Vec3;
 
 use crate::documents::{arm, model_of, quad, soldier};
 use crate::textbook;
+
+fn extent(model: &Model, clip: Option<&CompiledClip>) -> Extent {
+    Extent::of(model, &VertexGroups::new(&model.mesh), clip)
+}
+
+fn animated_bounds(model: &Model, clip: &CompiledClip) -> Aabb {
+    extent(model, Some(clip)).bounds
+}
 
 #[test]
 fn a_static_model_and_a_resting_clip_keep_the_bind_bounds() {
@@ -153,13 +161,11 @@ fn the_corners_of_a_box_are_kept_and_its_inside_is_not() {
         positions: positions.clone(),
         ..Mesh::default()
     };
-    let points = extreme_points(
-        &Model {
-            mesh,
-            ..Model::default()
-        },
-        None,
-    );
+    let model = Model {
+        mesh,
+        ..Model::default()
+    };
+    let points = extent(&model, None).points;
     assert!(positions[2..].iter().all(|corner| points.contains(corner)));
     assert!(!points.contains(&Vec3::ZERO) && !points.contains(&Vec3::splat(0.3)));
 }
@@ -178,7 +184,7 @@ fn what_is_left_out_of_the_extremes_is_a_hundredth_of_the_size() {
     let soldier = soldier().map(|parsed| m3d::from_parsed(&parsed).expect("sound").0);
     for model in [Some(arm), soldier].into_iter().flatten() {
         let clip = CompiledClip::new(&model.clips[0]);
-        let points = extreme_points(&model, Some(&clip));
+        let points = extent(&model, Some(&clip)).points;
         let (mut buffers, mut positions, mut all) = (PoseBuffers::default(), Vec::new(), Vec::new());
         for i in 0_u8..12 {
             let part = f32::from(i) / 11.0;
@@ -224,10 +230,40 @@ fn textbook_bounds(model: &Model, clip: &Clip) -> Aabb {
     bounds
 }
 
+/// The points with every vertex skinned at every time, and each looked at along each line.
+fn textbook_points(model: &Model, clip: &CompiledClip) -> Vec<Vec3> {
+    let golden_angle = std::f32::consts::PI * (3.0 - 5.0_f32.sqrt());
+    let axes: Vec<Vec3> = (0_u8..32)
+        .map(|i| {
+            let y = 1.0 - (f32::from(i) + 0.5) / 32.0;
+            let (sin, cos) = (golden_angle * f32::from(i)).sin_cos();
+            let radius = (1.0 - y * y).sqrt();
+            Vec3::new(radius * cos, y, radius * sin)
+        })
+        .collect();
+    let (mut buffers, mut positions, mut points) = (PoseBuffers::default(), Vec::new(), Vec::new());
+    for i in 0_u8..12 {
+        let time_secs = clip.start_secs() + f32::from(i) / 11.0 * (clip.end_secs() - clip.start_secs());
+        buffers.evaluate(&model.skeleton, clip, time_secs);
+        skin_positions(&model.mesh, &buffers.palette, &mut positions);
+        for axis in &axes {
+            let farthest = |sign: f32| {
+                let further = |best: Vec3, next: &Vec3| {
+                    let is_further = sign * axis.dot(*next) > sign * axis.dot(best);
+                    if is_further { *next } else { best }
+                };
+                positions.iter().fold(positions[0], further)
+            };
+            points.extend([farthest(1.0), farthest(-1.0)]);
+        }
+    }
+    points
+}
+
 #[test]
-fn groups_that_are_left_out_change_no_bit_of_the_box() {
+fn groups_that_are_left_out_change_no_bit_of_the_box_and_the_points() {
     let mut document = arm();
-    // So many vertices that there are groups, some of them without weights.
+    // So many vertices that there are groups, some of them without weights, some with weights that sum to another number than 1.
     for round in 0_u8..40 {
         for mut vertex in arm().vertices {
             let by = f32::from(round) / 40.0;
@@ -239,15 +275,21 @@ fn groups_that_are_left_out_change_no_bit_of_the_box() {
         }
     }
     let arms = model_of(&document).0;
+    let mut uneven = arms.clone();
+    for (influences, of) in uneven.mesh.influences.iter_mut().zip(0_u16..) {
+        influences.weights[0] *= [1.0, 1.02, 0.97, -0.5][usize::from(of % 4)];
+    }
     let soldier = soldier().map(|parsed| m3d::from_parsed(&parsed).expect("sound").0);
-    for model in [Some(arms), soldier].into_iter().flatten() {
+    for model in [Some(arms), Some(uneven), soldier].into_iter().flatten() {
         let clip = &model.clips[0];
-        let bounds = animated_bounds(&model, &CompiledClip::new(clip));
+        let compiled = CompiledClip::new(clip);
+        let Extent { bounds, points } = extent(&model, Some(&compiled));
         assert_eq!(bounds, textbook_bounds(&model, clip));
+        assert_eq!(points, textbook_points(&model, &compiled));
     }
 }
 
 #[test]
 fn nothing_has_no_extremes() {
-    assert!(extreme_points(&Model::default(), None).is_empty());
+    assert!(extent(&Model::default(), None).points.is_empty());
 }

@@ -108,7 +108,7 @@ fn without_a_clip_joints_are_at_rest_and_have_the_files_names() {
     // The head is turned by half a turn, and 3 above.
     let posed = palette[1].transform_point3(glam::Vec3::new(1.0, 2.0, 0.0));
     assert!(posed.abs_diff_eq(glam::Vec3::new(-1.0, 1.0, 0.0), 1e-5), "{posed}");
-    let (bounds, _) = session.open_model().expect("it is open").extent(None);
+    let bounds = session.open_model().expect("it is open").extent(None).bounds;
     assert!(bounds.max.y < 3.1 && bounds.min.y > 0.9, "{bounds:?}");
 }
 
