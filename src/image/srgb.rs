@@ -11,8 +11,8 @@ pub(crate) fn linear_from_srgb(value: u8) -> f32 {
 
 /// The nearest 8-bit sRGB value of linear light; values outside 0 … 1 are clamped, NaN becomes 0.
 pub(crate) fn srgb_from_linear(linear: f32) -> u8 {
-    // In this order `max` takes the other number for NaN.
-    let linear = linear.max(0.0).min(1.0);
+    // `max` gives the other number for NaN, where `clamp` would give NaN.
+    let linear = linear.max(0.0).clamp(0.0, 1.0);
     Srgb::tables().byte(linear, (linear * LAST_PART + WHOLE).to_bits())
 }
 

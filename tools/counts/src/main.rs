@@ -22,8 +22,10 @@ use glam::Vec3;
 /// What a count may be above its limit: libraries of another machine copy memory in other ways.
 const TOLERANCE: f64 = 1.02;
 
-/// Works, and what is counted in each.
-const WORKS: [(&str, fn(&[u8]) -> u64); 11] = [
+/// A work by its name: it takes a file and gives the number that shows that it was done right.
+type Work = (&'static str, fn(&[u8]) -> u64);
+
+const WORKS: [Work; 11] = [
     ("parse", parse),
     ("build", build),
     ("import", import),
