@@ -225,3 +225,124 @@ fn all_faces_of_a_cube_are_reduced_and_floats_stay_floats() {
     assert_eq!(reduced.format(), ImageFormat::Rgba16Float);
     assert_eq!(reduced.to_rgba32f(0, 0), Some(vec![2.0, 1.0, 32.0, 1.0]));
 }
+
+/// The next smaller level as it is written down: each texel is the mean of what it covers, channel by channel.
+fn textbook_half([width, height]: [usize; 2], texels: &[[f32; 4]]) -> Vec<[f32; 4]> {
+    // Texels of a side with their weights in one of the smaller side.
+    let covered = |side: usize, index: usize| {
+        let (first, half) = (2 * index, side / 2);
+        let part = |part: usize| part as f32 / side as f32;
+        match side {
+            1 => vec![(0, 1.0)],
+            _ if side % 2 == 1 => vec![
+                (first, part(half - index)),
+                (first + 1, part(half)),
+                (first + 2, part(index + 1)),
+            ],
+            _ => vec![(first, 0.5), (first + 1, 0.5)],
+        }
+    };
+    let mut smaller = Vec::new();
+    for row in 0..(height / 2).max(1) {
+        for column in 0..(width / 2).max(1) {
+            let mut mean = [0.0_f32; 4];
+            for (y, row_weight) in covered(height, row) {
+                for (x, column_weight) in covered(width, column) {
+                    for (sum, value) in mean.iter_mut().zip(texels[y * width + x]) {
+                        *sum += row_weight * column_weight * value;
+                    }
+                }
+            }
+            smaller.push(mean);
+        }
+    }
+    smaller
+}
+
+fn textbook_read(kind: MapKind, [r, g, b, a]: [u8; 4]) -> [f32; 4] {
+    match kind {
+        MapKind::Diffuse => {
+            let weight = 1.0 / 1024.0 + f32::from(a) / 255.0 * (1.0 - 1.0 / 1024.0);
+            let [r, g, b] = [r, g, b].map(|value| textbook_light(f32::from(value) / 255.0) * weight);
+            [r, g, b, weight]
+        }
+        MapKind::Normal => {
+            let [x, y, z] = [r, g, b].map(|value| f32::from(value) / 127.5 - 1.0);
+            [x, y, z, f32::from(a) / 255.0]
+        }
+        MapKind::Data => [r, g, b, a].map(|value| f32::from(value) / 255.0),
+    }
+}
+
+fn textbook_written(kind: MapKind, [x, y, z, w]: [f32; 4]) -> [u8; 4] {
+    let unit = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
+    match kind {
+        MapKind::Diffuse => {
+            // As many bytes as have a middle between them and the next that is not above the light.
+            let middle = |byte| textbook_light((f32::from(byte) + 0.5) / 255.0);
+            let middles: Vec<f32> = (0_u8..255).map(middle).collect();
+            let byte = |light: f32| middles.iter().filter(|&&middle| middle <= light).count() as u8;
+            let alpha = unit((w - 1.0 / 1024.0) / (1.0 - 1.0 / 1024.0));
+            [byte(x / w), byte(y / w), byte(z / w), alpha]
+        }
+        MapKind::Normal => {
+            let length = [x, y, z].iter().map(|value| value * value).sum::<f32>().sqrt();
+            let direction = if length > 1e-3 {
+                [x, y, z].map(|value| value / length)
+            } else {
+                [0.0, 0.0, 1.0]
+            };
+            let [x, y, z] = direction.map(|value| unit(value * 0.5 + 0.5));
+            [x, y, z, unit(w)]
+        }
+        MapKind::Data => [x, y, z, w].map(unit),
+    }
+}
+
+/// Linear light of an encoded value, 0 … 1 (IEC 61966-2-1).
+fn textbook_light(value: f32) -> f32 {
+    if value <= 0.040_45 {
+        value / 12.92
+    } else {
+        ((value + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+#[test]
+fn every_byte_of_the_levels_is_that_of_the_textbook() {
+    let mut state = 0x2545_f491_u32;
+    let mut noise = move || {
+        state ^= state << 13;
+        state ^= state >> 17;
+        state ^= state << 5;
+        state.to_le_bytes()
+    };
+    for [width, height] in [[32_u32, 16], [17, 9], [1, 7], [8, 1], [6, 5], [2, 2]] {
+        for kind in MapKind::ALL {
+            for clear in [false, true] {
+                let texels: Vec<[u8; 4]> = (0..width * height)
+                    .map(|index| {
+                        let [r, g, b, a] = noise();
+                        // Also texels without any alpha, and opposite directions that cancel out.
+                        match index % 5 {
+                            0 if clear => [r, g, b, 0],
+                            1 if clear => [0, 0, 0, a],
+                            2 if clear => [255, 255, 255, 255],
+                            _ => [r, g, b, a],
+                        }
+                    })
+                    .collect();
+                let made = image(width, height, &texels).with_mips(kind);
+                let mut size = [width as usize, height as usize];
+                let mut values: Vec<[f32; 4]> = texels.iter().map(|&texel| textbook_read(kind, texel)).collect();
+                for level in 1..made.level_count() {
+                    values = textbook_half(size, &values);
+                    size = size.map(|side| (side / 2).max(1));
+                    let expected: Vec<[u8; 4]> = values.iter().map(|&value| textbook_written(kind, value)).collect();
+                    let case = format!("{width} x {height}, {kind:?}, level {level}");
+                    assert_eq!(level_texels(&made, 0, level), expected, "{case}");
+                }
+            }
+        }
+    }
+}
