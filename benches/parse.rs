@@ -19,7 +19,8 @@ use bindpose::format::{
 };
 use bindpose::import;
 use bindpose::model::JointNames;
-use bindpose::session::{File, FileSet, LoadJob, load};
+use bindpose::session::{File, FileSet, load, load_job};
+use bindpose::slices::Slices;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 fn parsing(criterion: &mut Criterion) {
@@ -62,7 +63,7 @@ fn parsing(criterion: &mut Criterion) {
     report_ratio(
         "loading with the books' verdicts / without",
         || drop(black_box(load(&file))),
-        || drop(black_box(LoadJob::new(Arc::clone(&files), file.clone()).run())),
+        || drop(black_box(load_job(Arc::clone(&files), file.clone(), &Slices::ENDLESS).run())),
     );
     let model = import().model;
     report_ratio(

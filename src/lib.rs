@@ -65,6 +65,7 @@ pub mod script;
 pub mod session;
 #[allow(missing_docs, reason = "used by this package alone, where a name says it")]
 pub mod shaders;
+pub mod slices;
 #[cfg(feature = "viewer")]
 #[allow(missing_docs, reason = "used by this package alone, where a name says it")]
 pub mod ui;

@@ -1,7 +1,7 @@
 // A viewer for programs, as `globalThis.bindpose` is one. It is there before its viewer is: what is asked of it waits.
 
 import { onlyJoins } from "./files.js";
-import { readBytes } from "./sources.js";
+import { recordOf } from "./sources.js";
 
 /** What `state()` says before there is a viewer to ask. */
 const EMPTY = { backend: null, model: null, models: [], clip: null, timeSecs: 0, playing: false, undo: null, redo: null, framesRendered: 0, notices: [], book: null, error: null };
@@ -64,7 +64,7 @@ export function createApi() {
     }
     const { signal } = current;
     const opened = opening.then(async () => {
-      const records = await Promise.all(copied.map(readBytes));
+      const records = copied.map(recordOf);
       const running = await unlessStopped(ready);
       signal.throwIfAborted();
       const before = running.state();

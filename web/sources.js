@@ -3,8 +3,11 @@
 /** Whether it is a `Blob` or a `File`, also one of another window. */
 const isBlob = (item) => typeof item?.arrayBuffer === "function";
 
-/** Bytes with their relative path, from a `File`, a `{name, file}` of drop.js or a `{name, bytes}`. */
-export async function readBytes(item) {
+/**
+ * A file with its relative path, from a `File`, a `{name, file}` of drop.js or a `{name, bytes}`: `{name, bytes}` with bytes as `Uint8Array`, or as
+ * `Blob`, which the viewer reads piece by piece.
+ */
+export function recordOf(item) {
   const name = item?.webkitRelativePath || item?.name;
   if (typeof name !== "string") throw new TypeError("a file to open is a File or {name, bytes}");
   // A `File` may have a method called `bytes`.
@@ -12,18 +15,14 @@ export async function readBytes(item) {
   if (ArrayBuffer.isView(bytes)) return { name, bytes: new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength) };
   if (bytes instanceof ArrayBuffer) return { name, bytes: new Uint8Array(bytes) };
   if (!isBlob(bytes)) throw new TypeError(`${name} needs its bytes as Uint8Array, ArrayBuffer or Blob`);
-  try {
-    return { name, bytes: new Uint8Array(await bytes.arrayBuffer()) };
-  } catch (error) {
-    throw new Error(`${name} could not be read: ${error.message}`, { cause: error });
-  }
+  return { name, bytes };
 }
 
 /** The file at an address, with the last part of its path as name unless it is given another one. */
 export async function fetchFile(address, name = decodeURIComponent(new URL(address, location.href).pathname.split("/").pop())) {
   const response = await fetch(address);
   if (!response.ok) throw new Error(`The server answered ${response.status} for ${address}`);
-  return { name, bytes: new Uint8Array(await response.arrayBuffer()) };
+  return { name, bytes: await response.blob() };
 }
 
 /** `before` without the files whose names come again in `files`, and then those. */

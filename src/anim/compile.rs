@@ -5,6 +5,7 @@ use glam::DQuat;
 use super::lanes::{ArcLanes, JointLanes, angle_between};
 use super::straight::straight;
 use crate::model::{Clip, JointIndex, Track};
+use crate::slices::{Slices, Stage, at_once};
 
 /// Probe times of a clip at most.
 const MOST_PROBE_TIMES: usize = 1_000;
@@ -42,17 +43,31 @@ pub(super) struct KeyLanes {
 impl CompiledClip {
     /// Compiles a clip.
     pub fn new(clip: &Clip) -> Self {
-        Self {
-            start_secs: clip.start_secs,
-            end_secs: clip.end_secs,
-            joint_count: clip.tracks.len(),
-            groups: clip.tracks.chunks(JointLanes::COUNT).map(TrackGroup::new).collect(),
-        }
+        Self::all(std::slice::from_ref(clip)).pop().unwrap_or_default()
     }
 
     /// Compiles some clips, in their order.
     pub fn all(clips: &[Clip]) -> Vec<Self> {
-        clips.iter().map(Self::new).collect()
+        at_once(Self::all_in(clips, &Slices::ENDLESS))
+    }
+
+    /// [`CompiledClip::all`] in slices.
+    pub async fn all_in(clips: &[Clip], slices: &Slices) -> Vec<Self> {
+        let mut all = Vec::with_capacity(clips.len());
+        for (done, clip) in clips.iter().enumerate() {
+            let mut groups = Vec::with_capacity(clip.tracks.len().div_ceil(JointLanes::COUNT));
+            for tracks in clip.tracks.chunks(JointLanes::COUNT) {
+                slices.pause_at(Stage::Compiling, done, clips.len()).await;
+                groups.push(TrackGroup::new(tracks));
+            }
+            all.push(Self {
+                start_secs: clip.start_secs,
+                end_secs: clip.end_secs,
+                joint_count: clip.tracks.len(),
+                groups,
+            });
+        }
+        all
     }
 
     /// The clip's start: the least key time.

@@ -8,6 +8,7 @@ use super::pose::Palette;
 use super::skin::skin_position;
 use super::vertex_groups::VertexGroups;
 use crate::model::{Aabb, Mesh, Model};
+use crate::slices::{Slices, Stage, at_once};
 
 /// The most vertices that are skinned for one box or one set of points: tens of milliseconds of work.
 const VERTEX_BUDGET: usize = 8_000_000;
@@ -35,9 +36,19 @@ pub struct Extent {
 impl Extent {
     /// That of a clip, or of rest without one. `groups` are those of the model's mesh.
     pub fn of(model: &Model, groups: &VertexGroups, clip: Option<&CompiledClip>) -> Self {
+        at_once(Self::of_in(model, groups, clip, &Slices::ENDLESS))
+    }
+
+    /// [`Extent::of`] in slices.
+    pub async fn of_in(model: &Model, groups: &VertexGroups, clip: Option<&CompiledClip>, slices: &Slices) -> Self {
         let mut job = ExtentJob::new(model, clip);
-        while job.step(model, groups, clip) {}
-        job.extent
+        let all = job.times_left();
+        loop {
+            slices.pause_at(Stage::Measuring, all - job.times_left(), all).await;
+            if !job.step(model, groups, clip) {
+                return job.extent;
+            }
+        }
     }
 }
 
@@ -83,6 +94,10 @@ impl ExtentJob {
             buffers: PoseBuffers::for_skeleton(&model.skeleton),
             extent: Extent::default(),
         }
+    }
+
+    fn times_left(&self) -> usize {
+        self.bounds_times_secs.len() + self.points_times_secs.len()
     }
 
     /// Looks at one time more. False when all is done.

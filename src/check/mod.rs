@@ -19,22 +19,45 @@ use crate::anim::CompiledClip;
 use crate::diagnostic::collect::Diagnostics;
 use crate::diagnostic::{Diagnostic, Places};
 use crate::model::Model;
+use crate::slices::{Slices, Stage, at_once};
 
 /// Checks a model that is sound: its mesh, its maps' coordinates, its bones, and all clips in motion. `compiled` are the model's clips,
 /// in its order. `places` tells where they stand in the file. The cost is that of sorting the triangles, and linear in vertices,
 /// bones and keys, whatever the file holds.
 pub fn model(model: &Model, compiled: &[CompiledClip], places: &dyn Places) -> Vec<Diagnostic> {
+    at_once(model_in(model, compiled, places, &Slices::ENDLESS))
+}
+
+/// [`model`] in slices.
+pub async fn model_in(
+    model: &Model,
+    compiled: &[CompiledClip],
+    places: &dyn Places,
+    slices: &Slices,
+) -> Vec<Diagnostic> {
+    let at = |done| slices.pause_at(Stage::Checking, done, 11);
     let mut diagnostics = Diagnostics::default();
+    at(0).await;
     mesh::note_useless(&model.mesh, places, &mut diagnostics);
+    at(1).await;
     mesh::note_repeated(&model.mesh, places, &mut diagnostics);
+    at(2).await;
     mesh::note_turned_away(model, places, &mut diagnostics);
+    at(3).await;
     texture::note_equal_coords(model, places, &mut diagnostics);
+    at(4).await;
     texture::note_tangent_signs(model, places, &mut diagnostics);
+    at(5).await;
     rig::note_idle_bones(model, places, &mut diagnostics);
+    at(6).await;
     rig::note_shears(model, compiled, places, &mut diagnostics);
+    at(7).await;
     keys::note_still_tracks(model, places, &mut diagnostics);
+    at(8).await;
     keys::note_loop_gaps(model, places, &mut diagnostics);
+    at(9).await;
     exploded::note_exploded(model, compiled, places, &mut diagnostics);
+    at(10).await;
     overflow::note_overflows(model, compiled, places, &mut diagnostics);
     diagnostics.into_vec()
 }

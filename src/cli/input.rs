@@ -27,7 +27,7 @@ pub(super) fn read_all(path: &Path) -> Result<Vec<File>, Failure> {
 }
 
 /// The bytes of a file that a model names by a relative path. Only regular files are opened: opening a pipe would wait for a writer.
-pub(super) fn beside(model: &Path, name: &str) -> Option<Arc<[u8]>> {
+pub(super) fn beside(model: &Path, name: &str) -> Option<bytes::Bytes> {
     let path = model.parent()?.join(name);
     path.is_file().then(|| paths::read_file(&path).ok())?.map(Into::into)
 }

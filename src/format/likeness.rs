@@ -142,6 +142,12 @@ pub(super) fn recognise(bytes: &[u8]) -> Option<Stranger> {
     }
 }
 
+/// Whether a file begins as one of another format does, so that [`parse`](super::parse) refuses it whatever follows. A look at its first
+/// kilobyte, blanks before it aside.
+pub fn begins_like_another(bytes: &[u8]) -> bool {
+    recognise(bytes).is_some()
+}
+
 /// Bytes in which a model has begun if it ever does: room for a page of blank lines or comment above its header.
 const BEGINNING_LEN: usize = 4096;
 

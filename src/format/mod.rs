@@ -53,12 +53,13 @@ pub(crate) use cursor::Cursor;
 pub use document::*;
 pub use excerpt::{Excerpt, LineIndex, excerpt, is_printable};
 pub use label::Section;
-pub use likeness::begins_like_model;
+pub use likeness::{begins_like_another, begins_like_model};
 pub use quick::QuickVertices;
 pub use write::write;
 
 use self::reader::Reader;
 use crate::diagnostic::{Diagnostic, Entry, Fault, Places, Position, codes};
+use crate::slices::{Slices, Stage, at_once};
 use kind::DiagnosticKind;
 use likeness::Stranger;
 
@@ -92,9 +93,17 @@ impl Places for Parsed {
 ///
 /// Never panics, reads the bytes once from front to back, and makes room for no more than the bytes can hold.
 pub fn parse(bytes: &[u8]) -> Result<Parsed, Fault> {
-    let text_len = bytes.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
+    at_once(parse_in(bytes, &Slices::ENDLESS))
+}
+
+/// [`parse`] in slices.
+///
+/// # Errors
+/// As [`parse`].
+pub async fn parse_in(bytes: &[u8], slices: &Slices) -> Result<Parsed, Fault> {
+    let text_len = text_len(bytes, slices).await;
     let (text, zeros) = bytes.split_at(text_len);
-    let mut reader = Reader::new(text);
+    let mut reader = Reader::new(text, slices);
     let at_start = |fault: Diagnostic| Fault::from(fault.at(Position { line: 1, column: 1 }, 0));
     if reader.cursor.peek_token().is_none() {
         return Err(at_start(if zeros.is_empty() {
@@ -107,11 +116,11 @@ pub fn parse(bytes: &[u8]) -> Result<Parsed, Fault> {
     if let Some(stranger) = likeness::recognise(text) {
         return Err(at_start(stranger.diagnostic()));
     }
-    let counts = sections::header(&mut reader)?;
-    let (materials, material_lines) = sections::materials(&mut reader, counts.materials)?;
-    let (subsets, subset_lines) = sections::subsets(&mut reader, counts.subsets)?;
-    let vertices = sections::vertices(&mut reader, counts.vertices, counts.bones)?;
-    let (triangles, triangle_lines) = sections::triangles(&mut reader, counts.triangles, counts.vertices)?;
+    let counts = sections::header(&mut reader).await?;
+    let (materials, material_lines) = sections::materials(&mut reader, counts.materials).await?;
+    let (subsets, subset_lines) = sections::subsets(&mut reader, counts.subsets).await?;
+    let vertices = sections::vertices(&mut reader, counts.vertices, counts.bones).await?;
+    let (triangles, triangle_lines) = sections::triangles(&mut reader, counts.triangles, counts.vertices).await?;
     let mut document = Document {
         materials,
         subsets,
@@ -131,14 +140,14 @@ pub fn parse(bytes: &[u8]) -> Result<Parsed, Fault> {
     let mut skinned = counts.bones > 0;
     if reader.begin_optional(Section::BoneOffsets, counts.bones, skinned)? {
         skinned = true;
-        (document.bone_offsets, lines.bone_offsets) = sections::offsets(&mut reader, counts.bones)?;
+        (document.bone_offsets, lines.bone_offsets) = sections::offsets(&mut reader, counts.bones).await?;
     }
     if reader.begin_optional(Section::BoneHierarchy, counts.bones, skinned)? {
         skinned = true;
-        (document.bone_parents, lines.bone_parents) = sections::hierarchy(&mut reader, counts.bones)?;
+        (document.bone_parents, lines.bone_parents) = sections::hierarchy(&mut reader, counts.bones).await?;
     }
     if reader.begin_optional(Section::AnimationClips, counts.clips, skinned)? {
-        (document.clips, lines.clips) = sections::clips(&mut reader, counts.clips, counts.bones)?;
+        (document.clips, lines.clips) = sections::clips(&mut reader, counts.clips, counts.bones).await?;
     }
     if let Some(token) = reader.cursor.peek_token() {
         reader.note(token, DiagnosticKind::TextSurplus);
@@ -153,6 +162,20 @@ pub fn parse(bytes: &[u8]) -> Result<Parsed, Fault> {
         diagnostics: reader.kinds.into_diagnostics(),
         quick_vertices: vertices.quick,
     })
+}
+
+/// How many bytes there are before those of value 0 at the end.
+async fn text_len(bytes: &[u8], slices: &Slices) -> usize {
+    let mut end = bytes.len();
+    for piece in bytes.rchunks(1 << 20) {
+        slices.pause_at(Stage::Reading, 0, bytes.len()).await;
+        let last = piece.iter().rposition(|&byte| byte != 0);
+        end -= piece.len() - last.map_or(0, |last| last + 1);
+        if last.is_some() {
+            break;
+        }
+    }
+    end
 }
 
 /// Bytes of value 0 behind the text: padding, or an error where they are most of the file.

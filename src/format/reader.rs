@@ -8,6 +8,10 @@ use super::kind::{DiagnosticKind, KindCounts};
 use super::label::{Section, is_bare_ruler, is_ruler, same, same_as_any};
 use super::number::{self, Reading};
 use crate::diagnostic::{Diagnostic, Fault, Position, codes};
+use crate::slices::{Pause, Slices, Stage};
+
+/// So many rows are read between two places at which reading can stop: a tenth of a millisecond or two.
+const ROWS_A_PIECE: usize = 128;
 
 /// What the reader is at, and what it noticed on the way.
 #[derive(Clone, Debug)]
@@ -20,6 +24,7 @@ pub(super) struct Reader<'a> {
     pub(super) dashes: bool,
     /// The header's counts that were read, with the spellings of their labels.
     pub(super) counts: Vec<(&'static [&'static str], Token<'a>)>,
+    slices: Slices,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,14 +38,29 @@ pub(super) enum Beginning {
 }
 
 impl<'a> Reader<'a> {
-    pub(super) fn new(bytes: &'a [u8]) -> Self {
+    pub(super) fn new(bytes: &'a [u8], slices: &Slices) -> Self {
         Self {
             cursor: Cursor::new(bytes),
             kinds: KindCounts::default(),
             section: Section::Header,
             dashes: false,
             counts: Vec::new(),
+            slices: slices.clone(),
         }
+    }
+
+    /// Stops for a while if the slice is over. Called between some rows and others.
+    /// [`pause`](Self::pause) at every so many rows. `row` counts them.
+    #[inline(always)]
+    pub(super) async fn pause_every(&self, row: usize) {
+        if row.is_multiple_of(ROWS_A_PIECE) {
+            self.pause().await;
+        }
+    }
+
+    fn pause(&self) -> Pause {
+        let cursor = &self.cursor;
+        self.slices.pause_at(Stage::Reading, cursor.at, cursor.bytes.len())
     }
 
     pub(super) fn error_at(token: Token<'_>, fault: Diagnostic) -> Fault {
@@ -335,9 +355,10 @@ impl<'a> Reader<'a> {
     }
 
     /// Passes lines up to the next ruler or the end, and says how many of them `counts`.
-    pub(super) fn count_lines(&mut self, counts: impl Fn(&[u8]) -> bool) -> usize {
+    pub(super) async fn count_lines(&mut self, counts: impl Fn(&[u8]) -> bool) -> usize {
         let mut counted = 0;
-        loop {
+        for line in 0usize.. {
+            self.pause_every(line).await;
             self.cursor.skip_space();
             if self.cursor.peek().is_none() || is_ruler(self.cursor.rest()) {
                 return counted;
@@ -346,6 +367,7 @@ impl<'a> Reader<'a> {
             let first = line.text.split(u8::is_ascii_whitespace).next().unwrap_or_default();
             counted += usize::from(counts(first));
         }
+        counted
     }
 
     /// Passes the rest of this line as unknown.

@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 use std::fmt;
 use std::ops::Deref;
-use std::sync::Arc;
 
 use super::json::{Index, Root};
 use super::uri::{Uri, UriError};
@@ -11,7 +10,7 @@ use super::{Container, Fault, fault};
 use crate::diagnostic::codes;
 
 /// Gives the bytes of a file at a path relative to the one that is read.
-pub type FindFile<'a> = &'a dyn Fn(&str) -> Option<Arc<[u8]>>;
+pub type FindFile<'a> = &'a dyn Fn(&str) -> Option<bytes::Bytes>;
 
 /// The buffers of a document. What is wrong with one is told when its bytes are asked for.
 #[derive(Debug)]
@@ -25,7 +24,7 @@ pub struct Buffers<'a> {
 enum Bytes<'a> {
     Chunk(&'a [u8]),
     Decoded(Vec<u8>),
-    File(Arc<[u8]>),
+    File(bytes::Bytes),
 }
 
 impl Deref for Bytes<'_> {
@@ -44,7 +43,7 @@ impl<'a> Buffers<'a> {
     /// Finds the bytes of all buffers.
     pub fn new(root: &'a Root, container: &Container<'a>, find: FindFile<'_>) -> Self {
         // Each file is asked for once, and its bytes count once, however many buffers name it.
-        let mut files: HashMap<String, Option<Arc<[u8]>>> = HashMap::new();
+        let mut files: HashMap<String, Option<bytes::Bytes>> = HashMap::new();
         let mut find = |path: &str| files.entry(path.to_owned()).or_insert_with(|| find(path)).clone();
         let buffers = root.buffers().iter().enumerate().map(|(index, buffer)| {
             let pointer = format!("/buffers/{index}");
@@ -152,7 +151,7 @@ impl<'a> Buffers<'a> {
     }
 }
 
-fn at_uri<'a>(uri: &str, pointer: &str, find: &mut impl FnMut(&str) -> Option<Arc<[u8]>>) -> Result<Bytes<'a>, Fault> {
+fn at_uri<'a>(uri: &str, pointer: &str, find: &mut impl FnMut(&str) -> Option<bytes::Bytes>) -> Result<Bytes<'a>, Fault> {
     let pointer = || format!("{pointer}/uri");
     let index = pointer();
     let index = index.trim_start_matches("/buffers/").trim_end_matches("/uri");

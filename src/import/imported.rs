@@ -1,6 +1,5 @@
 //! What comes out of a file of any format.
 
-use std::sync::Arc;
 
 use super::source::Source;
 use crate::diagnostic::Diagnostic;
@@ -34,5 +33,5 @@ pub struct Picture {
     /// The name that materials give it, with its extension; unique in the file.
     pub name: String,
     /// Its bytes, as a file of its kind has them.
-    pub bytes: Arc<[u8]>,
+    pub bytes: bytes::Bytes,
 }

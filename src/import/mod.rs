@@ -19,6 +19,7 @@ pub use imported::{Imported, Picture, Refused};
 pub use source::{FileFormat, Source};
 
 use crate::gltf::FindFile;
+use crate::slices::{Slices, at_once};
 
 /// Whether a file begins as one of the formats does, whatever its name.
 ///
@@ -45,10 +46,18 @@ pub fn import(bytes: &[u8]) -> Result<Imported, Box<Refused>> {
 /// # Errors
 /// As [`import`], and when such a file is not there.
 pub fn import_beside(bytes: &[u8], find: FindFile<'_>) -> Result<Imported, Box<Refused>> {
+    at_once(import_in(bytes, find, &Slices::ENDLESS))
+}
+
+/// [`import_beside`] in slices.
+///
+/// # Errors
+/// As [`import_beside`].
+pub async fn import_in(bytes: &[u8], find: FindFile<'_>, slices: &Slices) -> Result<Imported, Box<Refused>> {
     if gltf::begins_like_model(bytes) {
-        gltf::import(bytes, find)
+        gltf::import(bytes, find, slices).await
     } else {
-        m3d::import(bytes)
+        m3d::import(bytes, slices).await
     }
 }
 

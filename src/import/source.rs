@@ -6,6 +6,7 @@ use super::gltf::places::Places as GltfPlaces;
 use crate::diagnostic::Places;
 use crate::format::{self, Dialect, Parsed};
 use crate::gltf::Effort;
+use crate::slices::{Slices, at_once};
 
 /// The kinds of files that are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,9 +81,14 @@ impl Source {
 
     /// What the file says and where, if it is of the books' format. `bytes` are the file's; they are parsed again if that was forgotten.
     pub fn parsed(&self, bytes: &[u8]) -> Option<Arc<Parsed>> {
+        at_once(self.parsed_in(bytes, &Slices::ENDLESS))
+    }
+
+    /// [`Source::parsed`] in slices.
+    pub async fn parsed_in(&self, bytes: &[u8], slices: &Slices) -> Option<Arc<Parsed>> {
         match &self.kind {
             Kind::M3d(Some(parsed)) => Some(Arc::clone(parsed)),
-            Kind::M3d(None) => format::parse(bytes).ok().map(Arc::new),
+            Kind::M3d(None) => format::parse_in(bytes, slices).await.ok().map(Arc::new),
             Kind::Gltf(_) => None,
         }
     }

@@ -96,6 +96,7 @@ pub(super) struct Revisions {
     pub(super) pose: u64,
     pub(super) picture: u64,
     pub(super) openings: u64,
+    pub(super) beginnings: u64,
 }
 
 impl Revisions {

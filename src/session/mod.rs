@@ -33,10 +33,10 @@ pub use look::quality::{Lowered, PassChoice, PassState, Quality, QualityCommand,
 pub use look::skeleton_cache::SkinColorsKey;
 pub use look::{Look, LookCommand, MAX_EXPOSURE_STOPS, MAX_LINE_LENGTH};
 pub use open::files::{FILE_KINDS, File, FileKind, FileSet};
-pub use open::load::{LoadError, LoadJob, LoadStep, Loaded, Progress, load, load_beside};
+pub use open::load::{LoadError, LoadJob, Loaded, load, load_beside, load_job};
 pub use open::maps::{Maps, UnreadableMap, UsedMap};
 pub use open::open_model::{ClipSummary, OpenModel};
-pub use open::opening::FileCommand;
+pub use open::opening::{BeingOpened, FileCommand};
 pub use open::textures::{
     Checklist, FoundMap, MapNames, MapSource, MaterialMaps, find_map, find_maps, map_diagnostics, named_maps,
 };
@@ -48,7 +48,7 @@ pub use published::series::Series;
 pub use published::summary;
 pub use published::verdicts::limits_once_converted;
 pub use published::view_state::{AppearanceState, CameraState, PlaybackState, SelectionState, ViewState};
-pub use write::export::{Export, ExportCommand, ExportOptions, ExportRange};
+pub use write::export::{Export, Progress, ExportCommand, ExportOptions, ExportRange};
 pub use write::export_job::{ExportFormat, ExportJob, ExportRefusal, ExportStep, ExportedFile, ToExport, WrittenModel};
 pub use write::export_plan::ExportPlan;
 
@@ -59,6 +59,7 @@ use look::overlays::OverlayCache;
 use look::skeleton_cache::SkeletonCache;
 use look::view::View;
 use open::content::Content;
+use open::opening::Opening;
 use play::actor::Actor;
 use play::crowd_cache::CrowdCache;
 use play::instances::Instances;
@@ -80,6 +81,8 @@ pub const SPEEDS: [f32; 10] = [0.05, 0.1, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 
 #[derive(Clone, Debug, Default)]
 pub struct Session {
     content: Content,
+    /// What will be open next.
+    opening: Opening,
     /// The selected instance of the model.
     actor: Actor,
     instances: Instances,
@@ -143,6 +146,8 @@ impl Session {
         new.view.insets = self.view.insets;
         new.view.theme = self.view.theme;
         new.revisions = self.revisions;
+        new.revisions.beginnings += 1;
+        new.opening = std::mem::take(&mut self.opening);
         new.quality = self.quality.on_same_device();
         *self = new;
         self.commit(Changes::CONTENT);

@@ -123,6 +123,8 @@ pub(super) fn carry_out(ask: Ask, ui: &Ui, cx: &mut Cx<'_, UiState>) {
 
 /// What Esc closes or clears.
 enum OnTop {
+    /// What is being opened.
+    Opening,
     Error,
     Help,
     Diagnostics,
@@ -132,7 +134,9 @@ enum OnTop {
 
 /// What lies on top, apart from popovers.
 fn on_top(session: &Session, state: &UiState) -> Option<OnTop> {
-    if session.error().is_some() {
+    if session.being_opened().is_some() {
+        Some(OnTop::Opening)
+    } else if session.error().is_some() {
         Some(OnTop::Error)
     } else if state.help_open {
         Some(OnTop::Help)
@@ -148,6 +152,7 @@ fn on_top(session: &Session, state: &UiState) -> Option<OnTop> {
 /// Closes or clears what lies on top.
 fn escape(cx: &mut Cx<'_, UiState>) {
     match on_top(cx.session, cx.state) {
+        Some(OnTop::Opening) => cx.push(FileCommand::CancelOpening),
         Some(OnTop::Error) => cx.push(FileCommand::DismissError),
         Some(OnTop::Help) => cx.state.help_open = false,
         Some(OnTop::Diagnostics) => cx.state.diagnostics_open = false,

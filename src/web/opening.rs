@@ -1,47 +1,76 @@
-//! Opening files: those of a drop, clips for the open model, and beginning anew.
+//! Opening files: reading those that the person gave, and making them ready in slices, between which the page goes on.
 
+use std::cell::Cell;
 use std::rc::Rc;
-use std::sync::Arc;
 
 use js_sys::{Array, Promise, Uint8Array};
 use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::JsFuture;
+use web_sys::Blob;
 
 use super::shared::Shared;
 use super::viewer::Viewer;
-use super::{abort_error, field, next_task, promise, reduced_motion};
-use crate::session::{File, FileCommand, LoadJob, LoadStep};
+use super::{abort_error, field, next_task, now_secs, promise, reduced_motion};
+use crate::{format, import};
+use crate::session::{Changes, File, FileCommand, FileKind, Session};
+use crate::slices::Slices;
 
-/// Why an opening failed that was followed by another one, or by the viewer's end.
-const OVERTAKEN: &str = "another opening came after this one";
+/// Why an opening failed that was followed by another one, was given up, or ended with its viewer.
+const OVERTAKEN: &str = "another opening came after this one, or it was given up";
+
+/// How long one slice of an opening is: half a frame of most displays.
+const SLICE_SECS: f64 = 0.008;
+
+/// How long an opening may take before it is told how far it is, and how often that is drawn then.
+const TOLD_EVERY_SECS: f64 = 0.1;
+
+/// So many bytes are read from a disk at once.
+const PIECE_LEN: usize = 4 << 20;
+
+/// So many bytes may be read for one opening: a model with all its textures has fewer, and what is made of them fits the memory that a program
+/// can have in a browser.
+const MOST_BYTES: usize = 1 << 29;
+
+/// So many bytes decide whether a file is of another format.
+const HEAD_LEN: usize = 64 << 10;
+
+/// When the slice of an opening that runs now is over, by the page's clock.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Slice(Rc<Cell<f64>>);
+
+impl Slice {
+    fn begin(&self) {
+        self.0.set(now_secs() + SLICE_SECS);
+    }
+
+    /// Has a session open in such slices.
+    pub(super) fn give_to(&self, session: &mut Session) {
+        let ends_secs = Rc::clone(&self.0);
+        session.open_in(&Slices::new(move || now_secs() >= ends_secs.get()));
+    }
+}
 
 #[wasm_bindgen]
 impl Viewer {
-    /// Opens files: an array of `{name, bytes}` with relative paths as names. The largest model opens, in steps between which the
-    /// page goes on; what was open stays until then. Resolves with the state, which has a failure in its `error`. Rejects when
-    /// something else was opened meanwhile, or the viewer was freed.
-    ///
-    /// # Errors
-    /// When an entry is not of that shape.
-    pub fn open(&self, files: &Array) -> Result<Promise, JsError> {
-        let opening = self.shared.begin_opening(files_of(files)?);
-        let shared = Rc::clone(&self.shared);
-        Ok(promise(async move {
-            if let Some(opening) = opening {
-                shared.end_opening(opening).await?;
-            }
-            Ok::<_, JsValue>(shared.state())
-        }))
+    /// Opens files: an array of `{name, bytes}` with relative paths as names and bytes as `Uint8Array` or `Blob`. The largest model opens, in
+    /// slices between which the page goes on; what was open stays until then. Resolves with the state, which has a failure in its `error`.
+    /// Rejects when something else was opened meanwhile, the person gave it up, a file could not be read, or the viewer was freed.
+    pub fn open(&self, files: Array) -> Promise {
+        let only_joins = records_of(&files).is_ok_and(|records| {
+            let kinds = records.iter().map(|record| File::new(&record.name, Vec::new()).kind());
+            kinds.into_iter().all(|kind| matches!(kind, Some(FileKind::Picture | FileKind::Unread)))
+        });
+        self.shared.opened(files, !only_joins, |session, files| {
+            session.apply(FileCommand::Add(files));
+        })
     }
 
-    /// Adds the clips of models with the same bones to the open one: an array as [`Viewer::open`] takes it. Without an open model it
-    /// opens them. A failure is in the state's `error`. Returns the state.
-    ///
-    /// # Errors
-    /// When an entry is not of that shape.
+    /// Adds the clips of models with the same bones to the open one, as [`Viewer::open`] opens them. Without an open model it opens them.
     #[wasm_bindgen(js_name = addClips)]
-    pub fn add_clips(&self, files: &Array) -> Result<JsValue, JsError> {
-        self.shared.apply(FileCommand::AddClips(files_of(files)?));
-        Ok(self.state())
+    pub fn add_clips(&self, files: Array) -> Promise {
+        self.shared.opened(files, false, |session, files| {
+            session.apply(FileCommand::AddClips(files));
+        })
     }
 
     /// Opens one of the state's `models` again, by its path. Returns whether it is listed.
@@ -62,90 +91,208 @@ impl Viewer {
         self.shared.apply_to_listed("closeModel", path, FileCommand::Close)
     }
 
-    /// Begins anew, as a new viewer does: every choice is forgotten and these files are opened, an array as [`Viewer::open`] takes
-    /// it. What the GPU has compiled stays. Returns the state.
-    ///
-    /// # Errors
-    /// When an entry is not of that shape.
+    /// Begins anew, as a new viewer does, once these files are ready, which are opened as by [`Viewer::open`]: every choice is forgotten. What
+    /// the GPU has compiled stays. Without files it begins anew at once.
     #[wasm_bindgen(js_name = startOver)]
-    pub fn start_over(&self, files: &Array) -> Result<JsValue, JsError> {
-        let files = files_of(files)?;
-        self.shared.session.borrow_mut().start_over(reduced_motion());
-        if let Some(running) = &*self.shared.running.borrow()
-            && let Some(app) = running.app.borrow_mut().as_mut()
-        {
-            app.start_over(&running.ctx);
-        }
-        if files.is_empty() {
+    pub fn start_over(&self, files: Array) -> Promise {
+        if files.length() == 0 {
+            self.shared.session.borrow_mut().start_over(reduced_motion());
+            self.shared.follow_new_beginning();
             self.shared.tell_of_changes();
-        } else {
-            self.shared.apply(FileCommand::Add(files));
         }
-        Ok(self.state())
+        self.shared.opened(files, true, |session, files| {
+            if !files.is_empty() {
+                session.begin_anew(reduced_motion(), files);
+            }
+        })
     }
-}
-
-/// A drop that is being opened, and its number among the openings of its session.
-struct Opening {
-    job: LoadJob,
-    number: u64,
 }
 
 impl Shared {
     /// Applies a command with the path of a listed model.
-    fn apply_to_listed(&self, call: &str, path: &JsValue, command: fn(String) -> FileCommand) -> Result<bool, JsValue> {
+    fn apply_to_listed(
+        self: &Rc<Self>,
+        call: &str,
+        path: &JsValue,
+        command: fn(String) -> FileCommand,
+    ) -> Result<bool, JsValue> {
         let is_listed = |path: &str| self.session.borrow().models().iter().any(|file| file.path == path);
-        self.apply_named(call, path, |path| is_listed(path).then(|| path.to_owned()), command)
+        let is_listed = self.apply_named(call, path, |path| is_listed(path).then(|| path.to_owned()), command)?;
+        self.go_on_opening();
+        Ok(is_listed)
     }
 
-    /// Begins to open a drop, at once. A drop without a model is taken whole, and nothing is left to do.
-    fn begin_opening(&self, files: Vec<File>) -> Option<Opening> {
-        let job = self.session.borrow_mut().begin_opening(files.clone());
-        if job.is_none() {
-            self.apply(FileCommand::Add(files));
+    /// Reads files, has them opened, and waits until they are. Those that `replaces` can bring another model.
+    fn opened(self: &Rc<Self>, files: Array, replaces: bool, open: impl FnOnce(&mut Session, Vec<File>) + 'static) -> Promise {
+        let shared = Rc::clone(self);
+        promise(async move {
+            let records = records_of(&files)?;
+            let files = shared.read(records, replaces).await?;
+            open(&mut shared.session.borrow_mut(), files);
+            let mine = shared.session.borrow().openings();
+            shared.tell_of_changes();
+            shared.go_on_opening();
+            while shared.session.borrow().is_opening() {
+                next_task().await;
+                shared.check_not_overtaken(mine)?;
+            }
+            shared.check_not_overtaken(mine)?;
+            Ok::<_, JsValue>(shared.state())
+        })
+    }
+
+    fn check_not_overtaken(&self, openings: u64) -> Result<(), JsValue> {
+        if self.is_silenced() || self.session.borrow().openings() != openings {
+            return Err(abort_error(OVERTAKEN));
         }
-        let number = self.session.borrow().openings();
-        job.map(|job| Opening { job, number })
-    }
-
-    /// Does the steps of an opening, each in a task of its own. The session is borrowed only for a moment, never across a step.
-    async fn end_opening(&self, Opening { mut job, number }: Opening) -> Result<(), JsValue> {
-        let outcome = loop {
-            next_task().await;
-            if self.is_silenced() || self.session.borrow().openings() != number {
-                return Err(abort_error(OVERTAKEN));
-            }
-            match job.step() {
-                LoadStep::Working(next) => job = *next,
-                LoadStep::Ended(outcome) => break outcome,
-            }
-        };
-        self.session.borrow_mut().end_opening(outcome);
-        self.tell_of_changes();
         Ok(())
     }
+
+    /// Goes on with what is being opened, slice by slice, each in a task of its own, until there is nothing.
+    pub(super) fn go_on_opening(self: &Rc<Self>) {
+        if !self.session.borrow().is_opening() || self.is_opening.replace(true) {
+            return;
+        }
+        let shared = Rc::clone(self);
+        wasm_bindgen_futures::spawn_local(async move {
+            let mut told_secs = now_secs();
+            while !shared.is_silenced() && shared.session.borrow().is_opening() {
+                next_task().await;
+                shared.slice.begin();
+                let (changes, began_anew) = {
+                    let session = &mut *shared.session.borrow_mut();
+                    let beginnings = session.beginnings();
+                    (session.advance_opening(), session.beginnings() != beginnings)
+                };
+                if began_anew {
+                    shared.follow_new_beginning();
+                }
+                if changes != Changes::default() || !shared.session.borrow().is_opening() {
+                    shared.tell_of_changes();
+                } else if now_secs() - told_secs > TOLD_EVERY_SECS {
+                    told_secs = now_secs();
+                    shared.request_repaint();
+                }
+            }
+            shared.is_opening.set(false);
+        });
+    }
+
+    /// The session began anew: so does the window.
+    fn follow_new_beginning(&self) {
+        if let Some(running) = &*self.running.borrow()
+            && let Some(app) = running.app.borrow_mut().as_mut()
+        {
+            app.start_over(&running.ctx);
+        }
+    }
+
+    /// The bytes of some files, read in pieces. The session tells how far that is. Those that can bring a model overtake what is being opened.
+    async fn read(&self, records: Vec<Record>, replaces: bool) -> Result<Vec<File>, JsValue> {
+        let total: usize = records.iter().map(Record::size).sum();
+        if total > MOST_BYTES {
+            let in_mib = |bytes: usize| bytes.div_ceil(1 << 20);
+            let (total, most) = (in_mib(total), in_mib(MOST_BYTES));
+            let message = format!("These files have {total} MiB together; up to {most} MiB can be opened at once.");
+            return Err(js_sys::Error::new(&message).into());
+        }
+        let largest = records.iter().max_by_key(|record| record.size());
+        let name = largest.map_or("", |record| record.base_name()).to_owned();
+        let mine = self.session.borrow_mut().begin_fetching(name, total, replaces);
+        let (mut files, mut told_secs) = (Vec::new(), now_secs());
+        for record in records {
+            let mut bytes = Vec::with_capacity(record.size());
+            while bytes.len() < record.size() && !record.is_refused_by(&bytes) {
+                let piece = record.piece(bytes.len()).await?;
+                append(&mut bytes, &piece);
+                self.check_not_overtaken(mine)?;
+                self.session.borrow_mut().note_fetched(piece.length() as usize);
+                if now_secs() - told_secs > TOLD_EVERY_SECS {
+                    told_secs = now_secs();
+                    self.request_repaint();
+                }
+            }
+            files.push(File::new(&record.name, bytes));
+        }
+        self.session.borrow_mut().end_fetching();
+        Ok(files)
+    }
 }
 
-/// Copies bytes of the page into the program's memory, once.
-fn copied(bytes: &Uint8Array) -> Arc<[u8]> {
-    let mut copy: Arc<[u8]> = std::iter::repeat_n(0, bytes.length() as usize).collect();
-    if let Some(copy) = Arc::get_mut(&mut copy) {
-        bytes.copy_to(copy);
-    }
-    copy
+/// A file before it is read.
+struct Record {
+    name: String,
+    content: Content,
 }
 
-/// Files of `{name, bytes}` records.
-fn files_of(records: &Array) -> Result<Vec<File>, JsError> {
-    let mut files = Vec::new();
-    for record in records.iter() {
-        let name = field(&record, "name")
-            .as_string()
-            .ok_or_else(|| JsError::new("a file needs a name"))?;
-        let bytes: Uint8Array = field(&record, "bytes")
-            .dyn_into()
-            .map_err(|_| JsError::new(&format!("{name} needs its bytes as Uint8Array")))?;
-        files.push(File::new(&name, copied(&bytes)));
+enum Content {
+    Bytes(Uint8Array),
+    Blob(Blob),
+}
+
+impl Record {
+    fn base_name(&self) -> &str {
+        self.name.rsplit('/').next().unwrap_or(&self.name)
     }
-    Ok(files)
+
+    fn size(&self) -> usize {
+        match &self.content {
+            Content::Bytes(bytes) => bytes.length() as usize,
+            Content::Blob(blob) => blob.size() as usize,
+        }
+    }
+
+    /// Whether a file that begins so is refused, whatever follows: it is of another format. The beginning says all that is told of it.
+    fn is_refused_by(&self, beginning: &[u8]) -> bool {
+        let kind = File::new(&self.name, Vec::new()).kind();
+        beginning.len() == HEAD_LEN
+            && matches!(kind, None | Some(FileKind::Model))
+            && !import::begins_like_gltf(beginning)
+            && format::begins_like_another(beginning)
+    }
+
+    /// The bytes from an offset on, as many as are read at once.
+    async fn piece(&self, from: usize) -> Result<Uint8Array, JsValue> {
+        let length = if from == 0 { HEAD_LEN } else { PIECE_LEN };
+        let until = self.size().min(from + length);
+        let blob = match &self.content {
+            Content::Bytes(bytes) => return Ok(bytes.subarray(from as u32, until as u32)),
+            Content::Blob(blob) => blob,
+        };
+        let read = async {
+            let piece = blob.slice_with_f64_and_f64(from as f64, until as f64)?;
+            JsFuture::from(piece.array_buffer()).await
+        };
+        let buffer = read.await.map_err(|error| {
+            let reason = field(&error, "message").as_string().unwrap_or_default();
+            JsValue::from(js_sys::Error::new(&format!("{} could not be read: {reason}", self.name)))
+        })?;
+        Ok(Uint8Array::new(&buffer))
+    }
+}
+
+/// Copies bytes of the page behind those that are there.
+fn append(bytes: &mut Vec<u8>, piece: &Uint8Array) {
+    let start = bytes.len();
+    bytes.resize(start + piece.length() as usize, 0);
+    piece.copy_to(&mut bytes[start..]);
+}
+
+/// `{name, bytes}` records.
+fn records_of(files: &Array) -> Result<Vec<Record>, JsValue> {
+    let record = |record: JsValue| {
+        let name = field(&record, "name").as_string().ok_or_else(|| js_sys::Error::new("a file needs a name"))?;
+        let bytes = field(&record, "bytes");
+        // A blob of another window is none of this one's.
+        let content = match bytes.dyn_into::<Uint8Array>() {
+            Ok(bytes) => Content::Bytes(bytes),
+            Err(other) if field(&other, "arrayBuffer").is_function() => Content::Blob(other.unchecked_into()),
+            Err(_) => {
+                let message = format!("{name} needs its bytes as Uint8Array or Blob");
+                return Err(js_sys::Error::new(&message));
+            }
+        };
+        Ok(Record { name, content })
+    };
+    Ok(files.iter().map(record).collect::<Result<_, js_sys::Error>>()?)
 }

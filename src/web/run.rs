@@ -256,6 +256,7 @@ impl eframe::App for Shell {
             }
         }
         self.go_on_exporting(ui.ctx());
+        self.shared.go_on_opening();
         self.shared.emit_events();
         let changed_elsewhere = self.shared.names_changed.take();
         if self

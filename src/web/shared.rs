@@ -7,6 +7,7 @@ use js_sys::{Function, Uint8Array};
 use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
 
+use super::opening::Slice;
 use super::canvas::{ContextWatch, lose_context};
 use super::contrast::ContrastWatch;
 use super::mirror::{self, MirrorLink};
@@ -27,6 +28,10 @@ pub(super) struct Shared {
     listener: RefCell<Option<Function>>,
     /// Other names were kept for a model elsewhere; the next frame reads them.
     pub(super) names_changed: Cell<bool>,
+    /// The slice of an opening.
+    pub(super) slice: Slice,
+    /// Whether tasks go on with an opening.
+    pub(super) is_opening: Cell<bool>,
 }
 
 /// What lives as long as a viewer has its canvas.
@@ -64,8 +69,12 @@ impl Running {
 }
 
 impl Shared {
-    pub(super) fn new(session: Session, listener: Function) -> Self {
+    pub(super) fn new(mut session: Session, listener: Function) -> Self {
+        let slice = Slice::default();
+        slice.give_to(&mut session);
         Self {
+            slice,
+            is_opening: Cell::default(),
             mirror: MirrorLink::default(),
             session: Rc::new(RefCell::new(session)),
             running: RefCell::new(None),

@@ -197,7 +197,7 @@ impl Shared {
         self.emit_events();
     }
 
-    fn request_repaint(&self) {
+    pub(super) fn request_repaint(&self) {
         if let Some(running) = &*self.running.borrow() {
             running.ctx.request_repaint();
         }

@@ -27,7 +27,7 @@ pub(super) fn find(imported: &Imported, folders: &Folders, is_only: bool) -> Fou
     let own = imported
         .pictures
         .iter()
-        .map(|picture| File::new(&picture.name, Arc::clone(&picture.bytes)));
+        .map(|picture| File::new(&picture.name, picture.bytes.clone()));
     maps.add(materials, pictures.chain(own));
     let states = textures.states(materials, &maps);
     let mut diagnostics = Vec::new();

@@ -28,16 +28,16 @@ pub(super) enum Use {
 /// Pictures that were encoded before their file is written, by the map's place in memory and what they are for.
 #[derive(Clone, Debug, Default)]
 pub struct EncodedMaps {
-    encoded: HashMap<(usize, Use), Arc<[u8]>>,
+    encoded: HashMap<(usize, Use), bytes::Bytes>,
     /// Files that glTF takes as they are.
-    files: HashMap<usize, Arc<[u8]>>,
+    files: HashMap<usize, bytes::Bytes>,
     /// Which materials' normal maps are turned, once it is known.
     pub(super) turned: Option<Arc<[bool]>>,
 }
 
 impl EncodedMaps {
     /// The file that a map was read from. A PNG is written as it is where its texels are, and a JPEG that has nothing to forgive.
-    pub fn add_file(&mut self, image: &Image, bytes: Arc<[u8]>) {
+    pub fn add_file(&mut self, image: &Image, bytes: bytes::Bytes) {
         if is_strict_jpeg(&bytes).unwrap_or_default() || bytes.starts_with(b"\x89PNG") {
             self.files.insert(place(image), bytes);
         }
@@ -51,7 +51,7 @@ impl EncodedMaps {
         }
         let file = self.files.get(&key.0).filter(|_| purpose == Use::AsIs);
         let bytes = match file {
-            Some(file) => Arc::clone(file),
+            Some(file) => file.clone(),
             None => encode_png(&texels(image, purpose), image.width(), image.height())?.into(),
         };
         self.encoded.insert(key, bytes);
@@ -139,7 +139,7 @@ pub(super) struct Pictures {
     encoded: EncodedMaps,
     /// By the map's place in memory and what it is for.
     made: HashMap<(usize, Use), usize>,
-    by_bytes: HashMap<Arc<[u8]>, usize>,
+    by_bytes: HashMap<bytes::Bytes, usize>,
 }
 
 impl Pictures {

@@ -9,29 +9,31 @@ use crate::format::quick;
 use crate::format::reader::{Reader, looks_like_number};
 
 /// Reads the bone offsets, with the line of each.
-pub(in crate::format) fn offsets(reader: &mut Reader<'_>, bones: u32) -> Result<(Vec<[f32; 16]>, Vec<u32>), Fault> {
+pub(in crate::format) async fn offsets(reader: &mut Reader<'_>, bones: u32) -> Result<(Vec<[f32; 16]>, Vec<u32>), Fault> {
     /// A label and sixteen digits with blanks.
     const SMALLEST: usize = 34;
     const NAMES: &[&str] = &["boneoffset", "b"];
     let room = reader.room_for(bones, SMALLEST);
     let (mut offsets, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
     for bone in 0..bones {
+        reader.pause_every(bone as usize).await;
         let label = bone_label(reader, "BoneOffset", NAMES, bone, bones)?;
         lines.push(label.position.line);
         offsets.push(offset(reader, bone)?);
     }
-    surplus_rows(reader, NAMES, bones)?;
+    surplus_rows(reader, NAMES, bones).await?;
     Ok((offsets, lines))
 }
 
 /// Reads the parents, with the line of each: −1 or a bone.
-pub(in crate::format) fn hierarchy(reader: &mut Reader<'_>, bones: u32) -> Result<(Vec<i32>, Vec<u32>), Fault> {
+pub(in crate::format) async fn hierarchy(reader: &mut Reader<'_>, bones: u32) -> Result<(Vec<i32>, Vec<u32>), Fault> {
     /// `P0: 0` and a line end.
     const SMALLEST: usize = 6;
     const NAMES: &[&str] = &["parentindexofbone", "parentofbone", "p"];
     let room = reader.room_for(bones, SMALLEST);
     let (mut parents, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
     for bone in 0..bones {
+        reader.pause_every(bone as usize).await;
         let label = bone_label(reader, "ParentIndexOfBone", NAMES, bone, bones)?;
         let parent = reader.whole(Value::Parent, -1, (i64::from(bones) - 1).min(i64::from(i32::MAX)))?;
         lines.push(label.position.line);
@@ -39,7 +41,7 @@ pub(in crate::format) fn hierarchy(reader: &mut Reader<'_>, bones: u32) -> Resul
         parents.push(i32::try_from(parent).unwrap_or(-1));
         reader.pass_surplus_numbers();
     }
-    surplus_rows(reader, NAMES, bones)?;
+    surplus_rows(reader, NAMES, bones).await?;
     Ok((parents, lines))
 }
 
@@ -116,7 +118,7 @@ fn numbers_follow(reader: &Reader<'_>) -> usize {
 }
 
 /// An error when more rows follow than there are bones.
-fn surplus_rows(reader: &mut Reader<'_>, names: &[&str], bones: u32) -> Result<(), Fault> {
+async fn surplus_rows(reader: &mut Reader<'_>, names: &[&str], bones: u32) -> Result<(), Fault> {
     let ours = |label: &[u8]| {
         same_as_any(
             split_number(label.split(|&b| b == b':').next().unwrap_or(label)).0,
@@ -126,7 +128,7 @@ fn surplus_rows(reader: &mut Reader<'_>, names: &[&str], bones: u32) -> Result<(
     if !reader.peek_label().is_some_and(|(label, _)| ours(label.text)) {
         return Ok(());
     }
-    let surplus = reader.count_lines(ours);
+    let surplus = reader.count_lines(ours).await;
     Err(reader.section_row_count("bones", bones, bones as usize + surplus))
 }
 

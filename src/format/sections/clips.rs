@@ -19,7 +19,7 @@ const FIELDS: [(&str, &[&str]); 4] = [
 const BONE: &[&str] = &["bone", "b"];
 
 /// Reads the clips, with their lines.
-pub(in crate::format) fn clips(
+pub(in crate::format) async fn clips(
     reader: &mut Reader<'_>,
     count: u32,
     bones: u32,
@@ -28,6 +28,7 @@ pub(in crate::format) fn clips(
     let room = reader.room_for(count, SMALLEST);
     let (mut clips, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
     for index in 0..count {
+        reader.pause_every(index as usize).await;
         pass_surplus_braces(reader);
         let before = reader.cursor;
         let Some((label, behind)) = reader.peek_label() else {
@@ -45,7 +46,7 @@ pub(in crate::format) fn clips(
             reader.cursor = before;
             reader.cursor.token();
         }
-        let (clip, of_bones) = clip(reader, bones)?;
+        let (clip, of_bones) = clip(reader, bones).await?;
         lines.push(ClipLines {
             clip: label.position.line,
             ..of_bones
@@ -54,7 +55,7 @@ pub(in crate::format) fn clips(
     }
     pass_surplus_braces(reader);
     if reader.peek_label().is_some_and(|(label, _)| is_clip(label.text)) {
-        let surplus = reader.count_lines(is_clip);
+        let surplus = reader.count_lines(is_clip).await;
         return Err(reader.section_row_count("clips", count, clips.len() + surplus));
     }
     Ok((clips, lines))
@@ -65,7 +66,7 @@ fn is_clip(label: &[u8]) -> bool {
 }
 
 /// Reads a clip from behind its label, with the lines of its bones and keys.
-fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, ClipLines), Fault> {
+async fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, ClipLines), Fault> {
     /// `B0 0 {}` and a blank.
     const SMALLEST: usize = 7;
     let name = reader.cursor.rest_of_line();
@@ -85,10 +86,11 @@ fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, ClipLines
         ..ClipLines::default()
     };
     for bone in 0..bones {
-        animations.push(bone_animation(reader, &name, bone, bones, &mut lines)?);
+        reader.pause_every(bone as usize).await;
+        animations.push(bone_animation(reader, &name, bone, bones, &mut lines).await?);
     }
     if is_bone(reader) {
-        let surplus = reader.count_lines(|label| same_as_any(split_number(label).0, BONE));
+        let surplus = reader.count_lines(|label| same_as_any(split_number(label).0, BONE)).await;
         return Err(bone_count(reader, &name, bones, bones as usize + surplus));
     }
     close(reader)?;
@@ -102,7 +104,7 @@ fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, ClipLines
 }
 
 /// Reads the keys of one bone, and adds its lines.
-fn bone_animation(
+async fn bone_animation(
     reader: &mut Reader<'_>,
     clip: &str,
     bone: u32,
@@ -111,20 +113,23 @@ fn bone_animation(
 ) -> Result<BoneAnimation, Fault> {
     /// Four labels of a letter, eleven digits, blanks and a line end.
     const SMALLEST: usize = 30;
-    let Some((label, behind)) = reader.peek_label() else {
-        return Err(reader.end(format!(
-            "bone {} of {bones} in clip \"{}\"",
-            bone + 1,
-            quoted(clip.as_bytes())
-        )));
+    let begins_bone = |label: &[u8]| same_as_any(split_number(label).0, BONE);
+    let (label, behind) = loop {
+        let Some((label, behind)) = reader.peek_label() else {
+            return Err(reader.end(format!(
+                "bone {} of {bones} in clip \"{}\"",
+                bone + 1,
+                quoted(clip.as_bytes())
+            )));
+        };
+        if label.text != b"}" || !follows_brace(reader, begins_bone) {
+            break (label, behind);
+        }
+        reader.note(label, DiagnosticKind::BraceSurplus);
+        reader.cursor.token();
     };
     let (name, mut number) = split_number(label.text);
     if !same_as_any(name, BONE) {
-        if label.text == b"}" && follows_brace(reader, |label| same_as_any(split_number(label).0, BONE)) {
-            reader.note(label, DiagnosticKind::BraceSurplus);
-            reader.cursor.token();
-            return bone_animation(reader, clip, bone, bones, lines);
-        }
         if label.text == b"}" || is_clip(label.text) || is_ruler(label.text) {
             return Err(bone_count(reader, clip, bones, bone as usize));
         }
@@ -149,6 +154,7 @@ fn bone_animation(
     let mut keyframes = Vec::with_capacity(reader.room_for(count, SMALLEST));
     let mut next_line = None;
     for key in 0..count {
+        reader.pause_every(key as usize).await;
         let (keyframe, line) = match quick::keyframe(&mut reader.cursor) {
             Some(read) => read,
             None => keyframe(reader, bone, key, count)?,

@@ -30,7 +30,7 @@ const COUNTS: [(&str, &[&str]); 6] = [
 ];
 
 /// Reads the header, which must be there, up to the ruler or the first line of the next section.
-pub(in crate::format) fn header(reader: &mut Reader<'_>) -> Result<Counts, Fault> {
+pub(in crate::format) async fn header(reader: &mut Reader<'_>) -> Result<Counts, Fault> {
     let comment = pass_comments(reader);
     let beginning = reader.begin(Section::Header)?;
     let not_m3d = |label: Token<'_>| {
@@ -77,7 +77,7 @@ pub(in crate::format) fn header(reader: &mut Reader<'_>) -> Result<Counts, Fault
         }
         pass_surplus(reader);
     }
-    let counts = counts(reader, found)?;
+    let counts = counts(reader, found).await?;
     if let Some(start) = start.filter(|_| counts == Counts::default()) {
         reader.note(start, DiagnosticKind::CountsAllZero);
     }
@@ -122,14 +122,15 @@ fn is_count(label: Token<'_>, mut behind: Cursor<'_>) -> bool {
 }
 
 /// Turns what was found into counts; those that may be zero may be missing.
-fn counts(reader: &mut Reader<'_>, found: [Option<u32>; 6]) -> Result<Counts, Fault> {
+async fn counts(reader: &mut Reader<'_>, found: [Option<u32>; 6]) -> Result<Counts, Fault> {
     let [materials, subsets, vertices, triangles, bones, clips] = found;
     if reader.cursor.peek_token().is_none() {
         return Err(reader.end("the Materials section"));
     }
     let position = reader.next_position();
+    let are_nowhere = triangles.is_none() && !has_triangles(reader).await;
     let missing = |count| {
-        let fault = if count == "Triangles" && !has_triangles(reader) {
+        let fault = if count == "Triangles" && are_nowhere {
             Stranger::Relative("vertices but no triangles").diagnostic()
         } else {
             let message = format!("The header does not say how many {count} there are.");
@@ -159,9 +160,12 @@ fn counts(reader: &mut Reader<'_>, found: [Option<u32>; 6]) -> Result<Counts, Fa
 }
 
 /// True when a ruler further down announces triangles.
-fn has_triangles(reader: &Reader<'_>) -> bool {
+async fn has_triangles(reader: &Reader<'_>) -> bool {
     let mut ahead = reader.clone();
+    let mut line = 0;
     while ahead.cursor.peek_token().is_some() {
+        reader.pause_every(line).await;
+        line += 1;
         if let Some(ruler) = ahead.peek_ruler()
             && Section::of_ruler(ruler.text) == Some(Section::Triangles)
         {

@@ -92,17 +92,18 @@ struct Block<'a> {
 const FEWEST_LINES: usize = 3;
 
 /// Reads the materials, with the line of the first label of each.
-pub(in crate::format) fn materials(reader: &mut Reader<'_>, count: u32) -> Result<(Vec<Material>, Vec<u32>), Fault> {
+pub(in crate::format) async fn materials(reader: &mut Reader<'_>, count: u32) -> Result<(Vec<Material>, Vec<u32>), Fault> {
     /// `Effect:` and two such lines.
     const SMALLEST: usize = 24;
     reader.begin_rows(Section::Materials)?;
     // Blank lines part the materials. Some writers leave them out and some put them anywhere; then a label that comes
     // again begins the next material.
-    let blank_lines_part = count_blocks(reader) == count as usize;
+    let blank_lines_part = count_blocks(reader).await == count as usize;
     let room = reader.room_for(count, SMALLEST);
     let (mut materials, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
     let mut counted = 0;
     while let Some(block) = next_block(reader, blank_lines_part)? {
+        reader.pause_every(counted).await;
         if counted < count as usize {
             lines.push(block.first.map_or(0, |first| first.position.line));
             materials.push(material_of(reader, &block)?);
@@ -175,11 +176,14 @@ fn next_line<'a>(reader: &mut Reader<'a>) -> Option<(Token<'a>, Token<'a>, bool)
 }
 
 /// Groups of known lines that blank lines part, without reading them.
-fn count_blocks(reader: &Reader<'_>) -> usize {
+async fn count_blocks(reader: &Reader<'_>) -> usize {
     let mut ahead = reader.clone();
     let mut blocks = 0;
     let mut fresh = true;
+    let mut line = 0;
     while let Some((label, _, blank)) = next_line(&mut ahead) {
+        reader.pause_every(line).await;
+        line += 1;
         fresh |= blank;
         if Line::of_label(label.text).is_some() {
             blocks += usize::from(fresh);

@@ -15,13 +15,14 @@ const LABELS: [&str; 5] = ["SubsetID", "VertexStart", "VertexCount", "FaceStart"
 const OF_RELATIVES: [&str; 5] = ["MtlIndex", "VertexBase", "IndexStart", "IndexCount", "MaterialIndex"];
 
 /// Reads the subset table, with the line of each row.
-pub(in crate::format) fn subsets(reader: &mut Reader<'_>, count: u32) -> Result<(Vec<Subset>, Vec<u32>), Fault> {
+pub(in crate::format) async fn subsets(reader: &mut Reader<'_>, count: u32) -> Result<(Vec<Subset>, Vec<u32>), Fault> {
     /// Five labels of a letter and five digits, with blanks.
     const SMALLEST: usize = 20;
     reader.begin_rows(Section::SubsetTable)?;
     let room = reader.room_for(count, SMALLEST);
     let (mut subsets, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
     for row in 0..count {
+        reader.pause_every(row as usize).await;
         let Some((label, _)) = reader.peek_label() else {
             return Err(reader.end(format!("subset {} of {count}", row + 1)));
         };
@@ -36,7 +37,7 @@ pub(in crate::format) fn subsets(reader: &mut Reader<'_>, count: u32) -> Result<
         .is_some_and(|(label, _)| same(label.text, LABELS[0]))
     {
         let surplus =
-            reader.count_lines(|label| same(label.split(|&byte| byte == b':').next().unwrap_or(label), LABELS[0]));
+            reader.count_lines(|label| same(label.split(|&byte| byte == b':').next().unwrap_or(label), LABELS[0])).await;
         return Err(reader.section_row_count("subsets", count, subsets.len() + surplus));
     }
     Ok((subsets, lines))

@@ -7,7 +7,7 @@ use crate::format::quick;
 use crate::format::reader::{Reader, looks_like_number};
 
 /// Reads the triangles, with the line of each. All indices are below `vertices`.
-pub(in crate::format) fn triangles(
+pub(in crate::format) async fn triangles(
     reader: &mut Reader<'_>,
     count: u32,
     vertices: u32,
@@ -18,6 +18,7 @@ pub(in crate::format) fn triangles(
     let room = reader.room_for(count, SMALLEST);
     let (mut triangles, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
     for row in 0..count {
+        reader.pause_every(row as usize).await;
         let (triangle, line) = match quick::triangle(&mut reader.cursor, vertices) {
             Some(read) => read,
             None => triangle(reader, row, count, vertices)?,
@@ -30,7 +31,7 @@ pub(in crate::format) fn triangles(
         .peek_token()
         .is_some_and(|token| looks_like_number(token.text))
     {
-        let surplus = reader.count_lines(looks_like_number);
+        let surplus = reader.count_lines(looks_like_number).await;
         return Err(reader.section_row_count("triangles", count, triangles.len() + surplus));
     }
     Ok((triangles, lines))

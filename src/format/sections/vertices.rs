@@ -28,7 +28,7 @@ pub(in crate::format) struct Vertices {
     pub(in crate::format) quick: Option<QuickVertices>,
 }
 
-pub(in crate::format) fn vertices(reader: &mut Reader<'_>, count: u32, bones: u32) -> Result<Vertices, Fault> {
+pub(in crate::format) async fn vertices(reader: &mut Reader<'_>, count: u32, bones: u32) -> Result<Vertices, Fault> {
     /// Four labels of a letter, twelve digits, blanks and line ends.
     const SMALLEST: usize = 32;
     reader.begin_rows(Section::Vertices)?;
@@ -40,6 +40,7 @@ pub(in crate::format) fn vertices(reader: &mut Reader<'_>, count: u32, bones: u3
     let mut first = reader.cursor;
     first.pass_empty_lines();
     for row in 0..count {
+        reader.pause_every(row as usize).await;
         let quick = if short_labels {
             quick::vertex::<true>(&mut reader.cursor, bones)
         } else {
@@ -64,7 +65,7 @@ pub(in crate::format) fn vertices(reader: &mut Reader<'_>, count: u32, bones: u3
     if is_field(reader, 0) {
         let (_, names) = FIELDS[0];
         let first_word = |label: &[u8]| same_as_any(label.split(|&byte| byte == b':').next().unwrap_or(label), names);
-        let surplus = reader.count_lines(first_word);
+        let surplus = reader.count_lines(first_word).await;
         return Err(reader.section_row_count("vertices", count, vertices.len() + surplus));
     }
     Ok(Vertices {

@@ -25,11 +25,13 @@ use crate::diagnostic::collect::{Diagnostics, Place};
 use crate::diagnostic::{Diagnostic, Severity, codes};
 use crate::gltf::{self, Buffers, Container, Fault, FindFile, Reader, Root, Uri};
 use crate::model::{Front, Handedness, Model, UpAxis};
+use crate::slices::{Slices, Stage};
 
 pub(super) use crate::gltf::begins_like_gltf as begins_like_model;
 
-pub(super) fn import(bytes: &[u8], find: FindFile<'_>) -> Result<Imported, Box<Refused>> {
+pub(super) async fn import(bytes: &[u8], find: FindFile<'_>, slices: &Slices) -> Result<Imported, Box<Refused>> {
     let mut diagnostics = Vec::new();
+    slices.pause_at(Stage::Reading, 0, 1).await;
     let read = read(bytes, find, &mut diagnostics);
     let placed = |diagnostic: Diagnostic| placed(diagnostic, bytes);
     let diagnostics = diagnostics.into_iter().map(placed).collect();

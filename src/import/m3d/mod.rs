@@ -17,13 +17,17 @@ use crate::diagnostic::collect::Diagnostics;
 use crate::diagnostic::{Diagnostic, Fault};
 use crate::format::{self, Dialect, Document, LineMap, Parsed};
 use crate::model::{Front, Model, UpAxis};
+use crate::slices::{Slices, Stage, at_once};
 
 pub(super) use crate::format::begins_like_model;
 
-pub(super) fn import(bytes: &[u8]) -> Result<Imported, Box<Refused>> {
+pub(super) async fn import(bytes: &[u8], slices: &Slices) -> Result<Imported, Box<Refused>> {
     let refused = |error, diagnostics| Box::new(Refused { error, diagnostics });
-    let parsed = format::parse(bytes).map_err(|fault| refused(*fault, Vec::new()))?;
-    let (model, mut diagnostics) = from_parsed(&parsed).map_err(|fault| refused(*fault, parsed.diagnostics.clone()))?;
+    let parsed = format::parse_in(bytes, slices).await.map_err(|fault| refused(*fault, Vec::new()))?;
+    let (model, of_model) = from_document_in(&parsed.document, &parsed.lines, slices)
+        .await
+        .map_err(|fault| refused(*fault, parsed.diagnostics.clone()))?;
+    let mut diagnostics = [&parsed.diagnostics[..], &of_model].concat();
     diagnostics.sort_by_key(|diagnostic| diagnostic.position);
     Ok(Imported {
         model,
@@ -48,12 +52,27 @@ pub fn from_parsed(parsed: &Parsed) -> Result<(Model, Vec<Diagnostic>), Fault> {
 /// # Errors
 /// When a parent, a triangle's vertex or an influence names what does not exist, or the bones form a circle.
 pub fn from_document(document: &Document, lines: &LineMap) -> Result<(Model, Vec<Diagnostic>), Fault> {
+    at_once(from_document_in(document, lines, &Slices::ENDLESS))
+}
+
+/// [`from_document`] in slices.
+///
+/// # Errors
+/// As [`from_document`].
+pub async fn from_document_in(
+    document: &Document,
+    lines: &LineMap,
+    slices: &Slices,
+) -> Result<(Model, Vec<Diagnostic>), Fault> {
     let mut diagnostics = Diagnostics::default();
     let mut materials = surfaces::materials_from_document(document, lines, &mut diagnostics);
+    slices.pause_at(Stage::Building, 0, 4).await;
     let submeshes = surfaces::submeshes_from_document(document, lines, &mut materials, &mut diagnostics);
     let skeleton = bones::skeleton_from_document(document, lines, &mut diagnostics)?;
+    slices.pause_at(Stage::Building, 1, 4).await;
     let (mut mesh, handedness) = mesh::mesh_from_document(document, lines, &skeleton, &mut diagnostics)?;
     mesh.submeshes = submeshes;
+    slices.pause_at(Stage::Building, 3, 4).await;
     let clips = clips::clips_from_document(document, lines, &skeleton, &mut diagnostics)?;
     let up_axis = match document.dialect {
         Dialect::Imm => UpAxis::Z,

@@ -5,8 +5,13 @@ use std::io::{Cursor, Read as _};
 use zip::ZipArchive;
 use zip::result::ZipError;
 
+use crate::slices::{Slices, Stage};
+
 /// The files of an archive may have so many bytes together: more than models with all their textures have, and little enough for a page.
 const MOST_BYTES: u64 = 1 << 29;
+
+/// So many bytes are unpacked between two places at which that can stop.
+const PIECE_LEN: u64 = 256 << 10;
 
 pub(in crate::session) fn begins_like_archive(bytes: &[u8]) -> bool {
     bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06")
@@ -16,15 +21,20 @@ pub(in crate::session) fn begins_like_archive(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// In words, when a file in it cannot be unpacked, when there is none, or when they have too many bytes together.
-pub(in crate::session) fn unpack(archive: &[u8]) -> Result<Vec<(String, Vec<u8>)>, String> {
-    unpack_within(archive, MOST_BYTES)
+pub(in crate::session) async fn unpack(archive: &[u8], slices: &Slices) -> Result<Vec<(String, Vec<u8>)>, String> {
+    unpack_within(archive, MOST_BYTES, slices).await
 }
 
-pub fn unpack_within(archive: &[u8], most_bytes: u64) -> Result<Vec<(String, Vec<u8>)>, String> {
+pub async fn unpack_within(
+    archive: &[u8],
+    most_bytes: u64,
+    slices: &Slices,
+) -> Result<Vec<(String, Vec<u8>)>, String> {
     let mut entries = ZipArchive::new(Cursor::new(archive)).map_err(|error| format!("it {}", fault(&error)))?;
     let mut files = Vec::new();
     let mut bytes_left = most_bytes;
-    for index in 0..entries.len() {
+    let count = entries.len();
+    for index in 0..count {
         let name = match entries.name_for_index(index) {
             Some(Ok(name)) => name.into_owned(),
             _ => return Err(format!("the name of file {} in it cannot be read", index + 1)),
@@ -32,15 +42,16 @@ pub fn unpack_within(archive: &[u8], most_bytes: u64) -> Result<Vec<(String, Vec
         if is_hidden(&name) || name.ends_with(['/', '\\']) {
             continue;
         }
+        let damaged = |error: &ZipError| format!("{name} in it {}", fault(error));
+        let mut entry = entries.by_index(index).map_err(|error| damaged(&error))?.take(bytes_left + 1);
         let mut bytes = Vec::new();
-        let read = match entries.by_index(index) {
-            Ok(entry) => entry
-                .take(bytes_left + 1)
-                .read_to_end(&mut bytes)
-                .map_err(ZipError::from),
-            Err(error) => Err(error),
-        };
-        read.map_err(|error| format!("{name} in it {}", fault(&error)))?;
+        loop {
+            slices.pause_at(Stage::Unpacking, index, count).await;
+            let piece = entry.by_ref().take(PIECE_LEN).read_to_end(&mut bytes);
+            if piece.map_err(|error| damaged(&error.into()))? == 0 {
+                break;
+            }
+        }
         bytes_left = bytes_left
             .checked_sub(bytes.len() as u64)
             .ok_or_else(|| format!("its files have more than {} MiB together", most_bytes >> 20))?;

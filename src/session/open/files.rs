@@ -1,9 +1,9 @@
 //! Dropped files by name, as they came from one drop.
 
 use std::collections::{HashMap, HashSet};
-use std::sync::Arc;
 
 use super::archive;
+use crate::slices::{Slices, at_once};
 use crate::{image, import};
 
 /// One file: where it lay relative to what was dropped, and its bytes.
@@ -12,12 +12,12 @@ pub struct File {
     /// Relative path with `/`, as the drop gave it: `soldier/soldier.m3d`.
     pub path: String,
     /// Its bytes.
-    pub bytes: Arc<[u8]>,
+    pub bytes: bytes::Bytes,
 }
 
 impl File {
     /// A file with its path in one form: `/` between the parts, no leading `/` or `./`.
-    pub fn new(path: &str, bytes: impl Into<Arc<[u8]>>) -> Self {
+    pub fn new(path: &str, bytes: impl Into<bytes::Bytes>) -> Self {
         let path = path.replace('\\', "/");
         let path = path.trim_start_matches("./").trim_start_matches('/');
         Self {
@@ -40,12 +40,12 @@ impl File {
     }
 
     /// The files in a `.zip`, as if its folder had been dropped, or why it cannot be unpacked; `None` for any other file.
-    pub(in crate::session) fn unpacked(&self) -> Option<Result<Vec<Self>, String>> {
+    pub(in crate::session) async fn unpacked(&self, slices: &Slices) -> Option<Result<Vec<Self>, String>> {
         if self.kind() != Some(FileKind::Archive) || !archive::begins_like_archive(&self.bytes) {
             return None;
         }
         let folder = self.path.strip_suffix(self.base_name()).unwrap_or_default();
-        let files = archive::unpack(&self.bytes).map(|files| {
+        let files = archive::unpack(&self.bytes, slices).await.map(|files| {
             let files = files.into_iter();
             files
                 .map(|(path, bytes)| Self::new(&format!("{folder}{path}"), bytes))
@@ -112,12 +112,20 @@ impl FileSet {
     /// A set of these files, in their order. Of two files with one path the later is kept. The files in a `.zip` take its place; one that
     /// cannot be unpacked stays as it is.
     pub fn new(files: impl IntoIterator<Item = File>) -> Self {
+        at_once(Self::new_in(files, &Slices::ENDLESS))
+    }
+
+    /// [`FileSet::new`] in slices.
+    pub(in crate::session) async fn new_in(files: impl IntoIterator<Item = File>, slices: &Slices) -> Self {
+        let mut all = Vec::new();
+        for file in files {
+            match file.unpacked(slices).await {
+                Some(Ok(files)) => all.extend(files),
+                _ => all.push(file),
+            }
+        }
         let mut set = Self::default();
-        let unpacked = |file: File| match file.unpacked() {
-            Some(Ok(files)) => files,
-            _ => vec![file],
-        };
-        for file in files.into_iter().flat_map(unpacked) {
+        for file in all {
             match set.by_path.get(&file.path) {
                 Some(&known) => set.files[known] = file,
                 None => {

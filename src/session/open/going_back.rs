@@ -25,6 +25,7 @@ impl Session {
         *self = Self {
             revisions: self.revisions,
             events: std::mem::take(&mut self.events),
+            opening: std::mem::take(&mut self.opening),
             ..before
         };
         self.view.theme = theme;

@@ -6,29 +6,30 @@ use std::sync::Arc;
 
 use glam::Affine3A;
 
-use super::files::{File, FileSet};
+use super::files::FileSet;
 use super::load::{LoadError, load_among};
 use super::open_model::{ClipFacts, JoinedFile, OpenModel};
 use crate::diagnostic::{Diagnostic, Severity, Subject, codes};
 use crate::model::{Skeleton, unique_names};
+use crate::slices::Slices;
 
 /// Numbers of two bone offsets that differ by less are the same: lengths as fractions of the model's size, axes as they are.
 /// Two exports of one rig differ in the last of six digits; a thousandth of the size is hardly seen.
 const OFFSET_TOLERANCE: f32 = 1e-3;
 
 impl OpenModel {
-    /// Adds the clips of a file among others to the list, under names that are free. With `replaces` they take the place of clips that files
-    /// of this name brought before, if there are any; then it is true.
+    /// Adds the clips of another model, read from one of some files, to the list, under names that are free. With `replaces` they take the
+    /// place of clips that files of this name brought before, if there are any; then it is true.
     ///
     /// # Errors
-    /// When the file makes no model, has no clips, or its bones are not those of this model; then nothing is added.
+    /// When the other has no clips, or its bones are not those of this model; then nothing is added.
     pub(in crate::session) fn join_clips(
         &mut self,
-        file: &File,
+        other: Self,
         files: &FileSet,
         replaces: bool,
     ) -> Result<bool, Box<LoadError>> {
-        let other = load_among(file, files)?;
+        let file = &other.file.clone();
         let refuse = |code, message| Err(Box::new(LoadError::refused(file, code, message)));
         let (ours, theirs) = (self.file.base_name(), file.base_name());
         if let Some(difference) = difference(&self.model.skeleton, ours, &other.model.skeleton, theirs) {
@@ -77,9 +78,10 @@ impl OpenModel {
     }
 
     /// Adds the clips that joined a model that this one replaces. Those that no longer fit are left out with a diagnostic.
-    pub(in crate::session) fn join_again(&mut self, joined: &[JoinedFile]) {
+    pub(in crate::session) async fn join_again(&mut self, joined: &[JoinedFile], slices: &Slices) {
         for JoinedFile { file, files, .. } in joined {
-            if let Err(error) = self.join_clips(file, files, false) {
+            let other = load_among(file, files, slices).await;
+            if let Err(error) = other.and_then(|other| self.join_clips(other, files, false)) {
                 self.diagnostics.push(Diagnostic {
                     severity: Severity::Warning,
                     position: None,

@@ -8,7 +8,8 @@ use super::open_model::{JoinedFile, OpenModel};
 use crate::diagnostic::{Code, Diagnostic, codes};
 use crate::format::{self, Excerpt};
 use crate::import;
-use crate::session::published::verdicts::Verdicts;
+use crate::session::published::verdicts::{Verdicts, missing_maps};
+use crate::slices::{Sliced, Slices, at_once};
 
 /// A file that could not be opened.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,57 +83,50 @@ pub fn load(file: &File) -> Result<OpenModel, Box<LoadError>> {
 ///
 /// # Errors
 /// As [`load`], and when a file that it needs is not there.
-pub fn load_beside(file: &File, find: &dyn Fn(&str) -> Option<Arc<[u8]>>) -> Result<OpenModel, Box<LoadError>> {
-    if let Some(Err(reason)) = file.unpacked() {
+pub fn load_beside(file: &File, find: &dyn Fn(&str) -> Option<bytes::Bytes>) -> Result<OpenModel, Box<LoadError>> {
+    at_once(load_in(file, find, &Slices::ENDLESS))
+}
+
+async fn load_in(
+    file: &File,
+    find: &dyn Fn(&str) -> Option<bytes::Bytes>,
+    slices: &Slices,
+) -> Result<OpenModel, Box<LoadError>> {
+    if let Some(Err(reason)) = file.unpacked(slices).await {
         let message = format!("{} cannot be unpacked: {reason}.", file.base_name());
         return Err(Box::new(LoadError::refused(file, &codes::ARCHIVE_UNREADABLE, message)));
     }
-    let imported = import::import_beside(&file.bytes, find);
-    imported
-        .map(|imported| OpenModel::new(file, imported))
-        .map_err(|refused| {
+    match import::import_in(&file.bytes, find, slices).await {
+        Ok(imported) => Ok(OpenModel::new(file, imported, slices).await),
+        Err(refused) => {
             let diagnostic = refused.error;
             let excerpt = diagnostic
                 .position
                 .map(|at| format::excerpt(&file.bytes, at, diagnostic.length));
-            Box::new(LoadError {
+            Err(Box::new(LoadError {
                 file_name: file.base_name().to_owned(),
                 diagnostic,
                 excerpt,
-            })
-        })
+            }))
+        }
+    }
 }
 
 /// Reads a model of a drop, which may name others of its files.
-pub(in crate::session) fn load_among(file: &File, files: &FileSet) -> Result<OpenModel, Box<LoadError>> {
-    load_beside(file, &|path| {
-        files.data_beside(file, path).map(|file| Arc::clone(&file.bytes))
-    })
-}
-
-/// Makes what can be shown of the files of a drop, in steps, without a session: it can run anywhere, tell how far it is, and be
-/// dropped between two steps.
-#[derive(Clone, Debug)]
-pub struct LoadJob {
-    files: Arc<FileSet>,
-    file: File,
-    maps: Maps,
-    joined: Vec<JoinedFile>,
-    state: State,
-}
-
-#[derive(Clone, Debug)]
-enum State {
-    Model,
-    Maps(Box<OpenModel>),
-    Verdicts(Box<OpenModel>),
+pub(in crate::session) async fn load_among(
+    file: &File,
+    files: &FileSet,
+    slices: &Slices,
+) -> Result<OpenModel, Box<LoadError>> {
+    let find = |path: &str| files.data_beside(file, path).map(|file| file.bytes.clone());
+    load_in(file, &find, slices).await
 }
 
 /// A model with all that belongs to it, ready to be shown.
 #[derive(Clone, Debug)]
 pub struct Loaded {
     pub(in crate::session) files: Arc<FileSet>,
-    pub(in crate::session) open: OpenModel,
+    pub(in crate::session) open: Arc<OpenModel>,
     pub(in crate::session) maps: Maps,
     pub(in crate::session) verdicts: Verdicts,
 }
@@ -149,118 +143,110 @@ impl Loaded {
     }
 }
 
-/// How far a job is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress {
-    /// Steps that are done.
-    pub done: usize,
-    /// All steps that are known of. Images are, once the model has been read.
-    pub total: usize,
+/// What is there already of a file that is opened again.
+#[derive(Clone, Debug, Default)]
+pub(in crate::session) struct Kept {
+    /// Pictures, some of them decoded.
+    pub(in crate::session) maps: Maps,
+    /// Files whose clips joined.
+    pub(in crate::session) joined: Vec<JoinedFile>,
+    pub(in crate::session) before: Option<Before>,
 }
 
-impl Progress {
-    /// How much is done, rounded down.
-    pub fn percent(self) -> usize {
-        100 * self.done / self.total.max(1)
+/// What is open.
+#[derive(Clone, Debug)]
+pub(in crate::session) struct Before {
+    pub(in crate::session) open: Arc<OpenModel>,
+    /// The files that it came with.
+    pub(in crate::session) files: Arc<FileSet>,
+    pub(in crate::session) maps: Maps,
+    pub(in crate::session) verdicts: Verdicts,
+}
+
+impl Kept {
+    /// The open model, if reading the file would give it once more: it is the same by its bytes, and so is all that it names.
+    async fn same(&self, files: &FileSet, file: &File, slices: &Slices) -> Option<Arc<OpenModel>> {
+        let Before { open, files: of_open, .. } = self.before.as_ref()?;
+        let is_alone = open.joined.is_empty() && self.joined.is_empty();
+        if !is_alone || open.file.path != file.path || !are_same(&open.file.bytes, &file.bytes, slices).await {
+            return None;
+        }
+        for path in import::files_beside(&file.bytes) {
+            let bytes = [of_open, files].map(|files| Some(&*files.data_beside(file, &path)?.bytes));
+            if let [Some(before), Some(now)] = bytes
+                && are_same(before, now, slices).await
+            {
+                continue;
+            }
+            return None;
+        }
+        Some(Arc::clone(open))
     }
 }
 
-/// What became of a job in a step.
-#[derive(Debug)]
-pub enum LoadStep {
-    /// There is more to do.
-    Working(Box<LoadJob>),
-    Ended(Result<Box<Loaded>, Box<LoadError>>),
+async fn are_same(a: &[u8], b: &[u8], slices: &Slices) -> bool {
+    if std::ptr::eq(a, b) {
+        return true;
+    }
+    let mut are_same = a.len() == b.len();
+    for (a, b) in a.chunks(1 << 20).zip(b.chunks(1 << 20)) {
+        slices.pause().await;
+        are_same = are_same && a == b;
+    }
+    are_same
 }
 
-impl LoadJob {
-    /// A job that opens one file of a drop, which is one of [`FileSet::models`].
-    pub fn new(files: Arc<FileSet>, file: File) -> Self {
-        Self {
-            files,
-            file,
-            maps: Maps::default(),
-            joined: Vec::new(),
-            state: State::Model,
-        }
-    }
+async fn read_whole(
+    files: &FileSet,
+    file: &File,
+    joined: &[JoinedFile],
+    slices: &Slices,
+) -> Result<OpenModel, Box<LoadError>> {
+    let mut open = load_among(file, files, slices).await?;
+    open.join_again(joined, slices).await;
+    open.measure(slices).await;
+    Ok(open)
+}
 
-    /// Uses what an open model of the same file has: decoded images, and files whose clips joined.
-    pub(in crate::session) fn reusing(mut self, maps: Maps, joined: Vec<JoinedFile>) -> Self {
-        self.maps = maps;
-        self.joined = joined;
-        self
+/// Opens one file of a drop, which is one of [`FileSet::models`], with all that belongs to it.
+pub(in crate::session) async fn load_whole(
+    files: Arc<FileSet>,
+    file: &File,
+    kept: Kept,
+    slices: &Slices,
+) -> Result<Box<Loaded>, Box<LoadError>> {
+    let same = kept.same(&files, file, slices).await;
+    let before = kept.before.filter(|_| same.is_some());
+    let mut open = match same {
+        Some(open) => open,
+        None => Arc::new(read_whole(&files, file, &kept.joined, slices).await?),
+    };
+    let mut maps = kept.maps;
+    maps.begin(&open.model.materials, files.images().chain(&open.pictures).cloned());
+    maps.decode(slices).await;
+    maps.conclude(&open.model.materials);
+    let of_same = before.filter(|before| missing_maps(&before.maps) == missing_maps(&maps));
+    let verdicts = of_same.map_or_else(Verdicts::default, |before| before.verdicts);
+    verdicts.work_out(&open, &maps, slices).await;
+    if let Some(open) = Arc::get_mut(&mut open) {
+        open.source.forget();
     }
+    Ok(Box::new(Loaded {
+        files,
+        open,
+        maps,
+        verdicts,
+    }))
+}
 
-    /// Base name of the file that it opens.
-    pub fn file_name(&self) -> &str {
-        self.file.base_name()
-    }
+/// Makes what can be shown of the files of a drop, in slices, without a session: it can run anywhere, tell how far it is, and be
+/// dropped between two slices.
+///
+/// # Errors
+/// Of what comes out: as [`load`] has them. Images that cannot be read are no reason to fail.
+pub type LoadJob = Sliced<Result<Box<Loaded>, Box<LoadError>>>;
 
-    /// How far it is.
-    pub fn progress(&self) -> Progress {
-        // Reading the model, saying what is missing, and the books' verdicts are a step each.
-        let (done, left) = match &self.state {
-            State::Model => (0, 2),
-            State::Maps(_) => (1, self.maps.waiting_count() + 2),
-            State::Verdicts(_) => (2, 1),
-        };
-        let done = done + self.maps.decoded_count();
-        Progress {
-            done,
-            total: done + left,
-        }
-    }
-
-    /// Reads the model, decodes one image, or works out the books' verdicts.
-    pub fn step(mut self) -> LoadStep {
-        match self.state {
-            State::Model => match load_among(&self.file, &self.files) {
-                Err(error) => LoadStep::Ended(Err(error)),
-                Ok(mut open) => {
-                    open.join_again(&self.joined);
-                    let pictures = self.files.images().chain(&open.pictures).cloned();
-                    self.maps.begin(&open.model.materials, pictures);
-                    self.state = State::Maps(Box::new(open));
-                    LoadStep::Working(Box::new(self))
-                }
-            },
-            State::Maps(open) => {
-                let is_last = !self.maps.decode_next();
-                if is_last {
-                    self.maps.conclude(&open.model.materials);
-                }
-                self.state = if is_last {
-                    State::Verdicts(open)
-                } else {
-                    State::Maps(open)
-                };
-                LoadStep::Working(Box::new(self))
-            }
-            State::Verdicts(mut open) => {
-                let verdicts = Verdicts::default();
-                verdicts.of(&open, &self.maps);
-                open.source.forget();
-                LoadStep::Ended(Ok(Box::new(Loaded {
-                    files: self.files,
-                    open: *open,
-                    maps: self.maps,
-                    verdicts,
-                })))
-            }
-        }
-    }
-
-    /// Does all steps.
-    ///
-    /// # Errors
-    /// As [`load`] has them: images that cannot be read are no reason to fail.
-    pub fn run(mut self) -> Result<Box<Loaded>, Box<LoadError>> {
-        loop {
-            match self.step() {
-                LoadStep::Working(job) => self = *job,
-                LoadStep::Ended(outcome) => return outcome,
-            }
-        }
-    }
+/// A job that opens one file of a drop, which is one of [`FileSet::models`].
+pub fn load_job(files: Arc<FileSet>, file: File, slices: &Slices) -> LoadJob {
+    Sliced::new(slices, async move |slices| load_whole(files, &file, Kept::default(), &slices).await)
 }

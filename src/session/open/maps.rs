@@ -7,6 +7,7 @@ use crate::diagnostic::{Diagnostic, Subject, codes};
 use crate::image::{self, Image, MapKind};
 use crate::model::{MapSlot, Material};
 use crate::scene::map_kind;
+use crate::slices::{Slices, Stage, at_once};
 
 use super::files::File;
 use super::textures::{Checklist, MaterialMaps, find_maps, map_diagnostics, unused_diagnostic};
@@ -59,7 +60,7 @@ impl Maps {
     /// already keep their turn: the drop may be one that was read again.
     pub fn add(&mut self, materials: &[Material], pictures: impl IntoIterator<Item = File>) {
         self.begin(materials, pictures);
-        while self.decode_next() {}
+        at_once(self.decode(&Slices::ENDLESS));
         self.conclude(materials);
     }
 
@@ -82,10 +83,15 @@ impl Maps {
 
     /// Adds pictures that were dropped by themselves, which take the place of all that fit a name no better. Where none of them
     /// is used, a note says so. Whether anything is used otherwise than before.
-    pub fn join(&mut self, materials: &[Material], pictures: impl IntoIterator<Item = File>) -> bool {
+    pub(in crate::session) async fn join(
+        &mut self,
+        materials: &[Material],
+        pictures: impl IntoIterator<Item = File>,
+        slices: &Slices,
+    ) -> bool {
         let (dropped, replaced) = self.keep(pictures, true);
         let changed = self.find(materials) || replaced;
-        while self.decode_next() {}
+        self.decode(slices).await;
         self.conclude(materials);
         if !dropped.iter().any(|&index| self.is_used(index)) {
             let is_sound = |&&index: &&usize| matches!(self.decoded[index], Decoded::Unused);
@@ -160,44 +166,32 @@ impl Maps {
         before != self.of_materials
     }
 
-    /// How many pictures have been looked at.
-    pub(in crate::session) fn decoded_count(&self) -> usize {
-        self.pictures.len() - self.waiting.len()
-    }
-
-    /// How many pictures [`Maps::decode_next`] has yet to look at.
-    pub(in crate::session) fn waiting_count(&self) -> usize {
-        self.waiting.len()
-    }
-
-    /// Decodes one picture that a material names and makes its mips, or looks whether one could be decoded that nobody names.
-    /// False when none is left.
-    pub(in crate::session) fn decode_next(&mut self) -> bool {
-        let Some(index) = self.waiting.pop() else {
-            return false;
-        };
-        let picture = &self.pictures[index];
-        let name = picture.base_name();
-        let looked_at = if self.is_used(index) {
-            image::decode(&picture.bytes, name).map(|image| Decoded::Images(self.for_slots(index, image)))
-        } else {
-            image::check(&picture.bytes, name).map(|()| Decoded::Unused)
-        };
-        self.decoded[index] = looked_at.unwrap_or_else(|fault| Decoded::Failed(*fault));
-        true
+    /// Decodes the pictures that materials name and makes their mips, and looks whether those could be decoded that nobody names.
+    pub(in crate::session) async fn decode(&mut self, slices: &Slices) {
+        while let Some(index) = self.waiting.pop() {
+            let all = self.pictures.len();
+            slices.pause_at(Stage::Decoding, all - 1 - self.waiting.len(), all).await;
+            let picture = &self.pictures[index];
+            let name = picture.base_name();
+            let looked_at = if self.is_used(index) {
+                match image::decode(&picture.bytes, name) {
+                    Ok(image) => Ok(Decoded::Images(self.for_slots(index, image, slices).await)),
+                    Err(fault) => Err(fault),
+                }
+            } else {
+                image::check(&picture.bytes, name).map(|()| Decoded::Unused)
+            };
+            self.decoded[index] = looked_at.unwrap_or_else(|fault| Decoded::Failed(*fault));
+        }
     }
 
     /// A picture that was just decoded, for its slots. What is there of it stays.
-    fn for_slots(&self, index: usize, image: Image) -> ForSlots {
+    async fn for_slots(&self, index: usize, image: Image, slices: &Slices) -> ForSlots {
         let before = match &self.decoded[index] {
             Decoded::Images(images) => images.clone(),
             _ => ForSlots::default(),
         };
         let image = Arc::new(image);
-        let with_mips = |kind| {
-            let mipped = if self.without_mips { None } else { image.mipped(kind) };
-            mipped.map_or_else(|| Arc::clone(&image), Arc::new)
-        };
         // Slots of one kind share one chain of mips.
         let mut of_kinds: [Option<Arc<Image>>; MapKind::ALL.len()] = Default::default();
         for (slot, image) in MapSlot::ALL.into_iter().zip(&before) {
@@ -205,11 +199,19 @@ impl Maps {
                 of_kinds[map_kind(slot) as usize] = Some(Arc::clone(image));
             }
         }
+        for kind in MapKind::ALL {
+            let is_wanted = |&slot: &MapSlot| map_kind(slot) == kind && self.is_used_as(index, slot);
+            let of_kind = &mut of_kinds[kind as usize];
+            if of_kind.is_none() && MapSlot::ALL.iter().any(is_wanted) {
+                slices.pause().await;
+                let mipped = if self.without_mips { None } else { image.mipped(kind) };
+                *of_kind = Some(mipped.map_or_else(|| Arc::clone(&image), Arc::new));
+            }
+        }
         MapSlot::ALL.map(|slot| {
-            let of_kind = &mut of_kinds[map_kind(slot) as usize];
-            self.is_used_as(index, slot)
-                .then(|| Arc::clone(of_kind.get_or_insert_with(|| with_mips(map_kind(slot)))))
-                .or_else(|| before[slot as usize].clone())
+            let is_used = self.is_used_as(index, slot);
+            let of_kind = is_used.then(|| of_kinds[map_kind(slot) as usize].clone()).flatten();
+            of_kind.or_else(|| before[slot as usize].clone())
         })
     }
 

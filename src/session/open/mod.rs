@@ -10,4 +10,6 @@ pub(super) mod load;
 pub(super) mod maps;
 pub(super) mod open_model;
 pub(super) mod opening;
+pub(super) mod showing;
 pub(super) mod textures;
+pub(super) mod wish;

@@ -14,6 +14,7 @@ use crate::format::{self, Excerpt};
 use crate::import::{FileFormat, Imported, Source};
 use crate::model::{Clip, JointIndex, Model};
 use crate::scene::Aabb;
+use crate::slices::{Slices, Stage};
 
 /// A model that is on screen, with the file it came from.
 #[derive(Clone, Debug)]
@@ -132,22 +133,22 @@ fn submesh_names(model: &Model) -> Vec<String> {
 
 impl OpenModel {
     /// A model that has just been read from a file.
-    pub(in crate::session) fn new(file: &File, imported: Imported) -> Self {
+    pub(in crate::session) async fn new(file: &File, imported: Imported, slices: &Slices) -> Self {
         let Imported {
             model,
             mut diagnostics,
             pictures,
             source,
         } = imported;
-        let compiled = CompiledClip::all(&model.clips);
-        diagnostics.extend(check::model(&model, &compiled, &*source.places(&file.bytes)));
+        let compiled = CompiledClip::all_in(&model.clips, slices).await;
+        diagnostics.extend(check::model_in(&model, &compiled, &*source.places(&file.bytes), slices).await);
         diagnostics.sort_by_key(|diagnostic| diagnostic.position);
         Self {
             file: file.clone(),
             format: source.format,
             pictures: pictures
                 .iter()
-                .map(|picture| File::new(&picture.name, Arc::clone(&picture.bytes)))
+                .map(|picture| File::new(&picture.name, picture.bytes.clone()))
                 .collect(),
             diagnostics,
             source,
@@ -168,6 +169,18 @@ impl OpenModel {
         let clip = self.compiled.get(index).zip(self.clip_facts.get(index));
         let kept = clip.map_or(&self.at_rest, |(_, facts)| &facts.extent);
         kept.get_or_init(|| Extent::of(&self.model, self.vertex_groups(), clip.map(|(clip, _)| clip)))
+    }
+
+    /// Measures the space that the first clip needs, or rest without clips: by it the model is framed.
+    pub(in crate::session) async fn measure(&self, slices: &Slices) {
+        let clip = self.compiled.first().zip(self.clip_facts.first());
+        let kept = clip.map_or(&self.at_rest, |(_, facts)| &facts.extent);
+        if kept.get().is_none() {
+            slices.pause_at(Stage::Measuring, 0, 1).await;
+            let extent = Extent::of_in(&self.model, self.vertex_groups(), clip.map(|(clip, _)| clip), slices).await;
+            // Nobody else has set it meanwhile.
+            let _ = kept.set(extent);
+        }
     }
 
     /// The groups of the mesh's vertices.

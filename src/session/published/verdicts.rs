@@ -8,8 +8,9 @@ use crate::edit::too_large_for_book;
 use crate::model::Model;
 use crate::session::open::maps::Maps;
 use crate::session::open::open_model::OpenModel;
+use crate::slices::{Slices, Stage, at_once};
 
-/// The verdict of each book. [`LoadJob`](crate::session::LoadJob) works them out in a step of its own, since each program reads the file anew.
+/// The verdict of each book. Opening a model works them out, since each program reads the file anew.
 #[derive(Clone, Debug, Default)]
 pub(in crate::session) struct Verdicts {
     of_books: OnceLock<Vec<Verdict>>,
@@ -20,20 +21,16 @@ impl Verdicts {
     /// Those of the open model with its maps, in the order of [`Book::ALL`]; none for other formats than the books'. They are worked out
     /// at the first call.
     pub(in crate::session) fn of(&self, open: &OpenModel, maps: &Maps) -> &[Verdict] {
-        self.of_books.get_or_init(|| {
-            let bytes = &open.file.bytes;
-            let Some(parsed) = open.source.parsed(bytes) else {
-                return Vec::new();
-            };
-            let known = Known {
-                document: Some(&parsed.document),
-                quick_vertices: parsed.quick_vertices,
-                handedness: Some(open.model.handedness),
-                // Without any picture nobody meant to bring maps.
-                missing_maps: (!maps.pictures().is_empty()).then_some(&maps.checklist().missing),
-            };
-            Book::ALL.map(|book| book::verdict(book, bytes, &known)).into()
-        })
+        self.of_books
+            .get_or_init(|| at_once(of_books(open, maps, &Slices::ENDLESS)))
+    }
+
+    /// Works them out in slices.
+    pub(in crate::session) async fn work_out(&self, open: &OpenModel, maps: &Maps, slices: &Slices) {
+        if self.of_books.get().is_none() {
+            // Nobody else has set them meanwhile.
+            let _ = self.of_books.set(of_books(open, maps, slices).await);
+        }
     }
 
     /// What the open model exceeds even converted for the books; `None` for their own format.
@@ -46,6 +43,30 @@ impl Verdicts {
     pub(in crate::session) fn forget(&mut self) {
         *self = Self::default();
     }
+}
+
+/// The missing maps that verdicts tell of. Without any picture nobody meant to bring maps.
+pub(in crate::session) fn missing_maps(maps: &Maps) -> Option<&[String]> {
+    (!maps.pictures().is_empty()).then(|| &*maps.checklist().missing)
+}
+
+async fn of_books(open: &OpenModel, maps: &Maps, slices: &Slices) -> Vec<Verdict> {
+    let bytes = &open.file.bytes;
+    let Some(parsed) = open.source.parsed_in(bytes, slices).await else {
+        return Vec::new();
+    };
+    let known = Known {
+        document: Some(&parsed.document),
+        quick_vertices: parsed.quick_vertices,
+        handedness: Some(open.model.handedness),
+        missing_maps: missing_maps(maps),
+    };
+    let mut verdicts = Vec::new();
+    for (done, book) in Book::ALL.into_iter().enumerate() {
+        slices.pause_at(Stage::Judging, done, Book::ALL.len()).await;
+        verdicts.push(book::verdict(book, bytes, &known));
+    }
+    verdicts
 }
 
 /// What a model of another format exceeds in the demos of these books even when it is converted for them: what the export for the book

@@ -2,7 +2,6 @@
 
 use std::fmt;
 use std::io::{self, Cursor, Write as _};
-use std::sync::Arc;
 
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
@@ -13,7 +12,7 @@ const PART_LEN: usize = 1 << 18;
 /// Files on their way into an archive. The same files give the same bytes, whenever that is.
 pub(in crate::session) struct Archive {
     writer: ZipWriter<Cursor<Vec<u8>>>,
-    files: Vec<(String, Arc<[u8]>)>,
+    files: Vec<(String, bytes::Bytes)>,
     /// The file that is packed, and how much of it is.
     file: usize,
     packed: usize,
@@ -27,7 +26,7 @@ impl fmt::Debug for Archive {
 }
 
 impl Archive {
-    pub(in crate::session) fn new(files: impl Iterator<Item = (String, Arc<[u8]>)>) -> Self {
+    pub(in crate::session) fn new(files: impl Iterator<Item = (String, bytes::Bytes)>) -> Self {
         Self {
             writer: ZipWriter::new(Cursor::new(Vec::new())),
             files: files.collect(),
@@ -38,7 +37,7 @@ impl Archive {
 
     /// Parts that are packed, and all of them.
     pub(in crate::session) fn progress(&self) -> [usize; 2] {
-        let parts = |files: &[(String, Arc<[u8]>)]| -> usize {
+        let parts = |files: &[(String, bytes::Bytes)]| -> usize {
             files.iter().map(|(_, bytes)| 1 + bytes.len() / PART_LEN).sum()
         };
         let done = parts(&self.files[..self.file]) + self.packed / PART_LEN;

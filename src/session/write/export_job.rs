@@ -10,7 +10,7 @@ use crate::export::{self, EncodedMaps, ExportError, Exported, Loss};
 use crate::format::Dialect;
 use crate::model::{JointNames, MapSlot, Model};
 use crate::modes::modes;
-use crate::session::open::load::Progress;
+use super::export::Progress;
 use crate::session::open::maps::Maps;
 
 modes! {
@@ -48,7 +48,7 @@ pub struct WrittenModel {
     /// The bytes of its file.
     pub bytes: Vec<u8>,
     /// Pictures that its materials name: the name and the bytes of each.
-    pub maps: Vec<(String, Arc<[u8]>)>,
+    pub maps: Vec<(String, bytes::Bytes)>,
     /// What is otherwise in it.
     pub plan: ExportPlan,
 }
@@ -293,7 +293,7 @@ impl ExportJob {
                             let mut encoded = EncodedMaps::default();
                             for (place, image) in &self.maps.images {
                                 if let Some(file) = self.maps.pictures.get(place) {
-                                    encoded.add_file(image, Arc::clone(&file.bytes));
+                                    encoded.add_file(image, file.bytes.clone());
                                 }
                             }
                             State::Glb(Box::new(edited), encoded, plan)

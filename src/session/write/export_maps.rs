@@ -59,7 +59,7 @@ pub(in crate::session) struct MapsAsked {
 #[derive(Debug, Default)]
 pub(in crate::session) struct MapFiles {
     waiting: VecDeque<(String, Content)>,
-    pub(in crate::session) made: Vec<(String, Arc<[u8]>)>,
+    pub(in crate::session) made: Vec<(String, bytes::Bytes)>,
     /// What the materials look like, with the pictures that are written.
     pub(in crate::session) looks: Vec<Look>,
 }
@@ -266,14 +266,14 @@ fn content(
     let has_mips = |image: &Image| image.file_level_count() > 1 || image.level_size(0) == (1, 1);
     match image {
         Some(image) if for_book && file.bytes.starts_with(b"DDS ") && texels == Texels::Same && has_mips(image) => {
-            ("dds".to_owned(), Content::AsItIs(Arc::clone(&file.bytes)))
+            ("dds".to_owned(), Content::AsItIs(file.bytes.clone()))
         }
         Some(image) if for_book => (
             "dds".to_owned(),
             Content::Dds(Arc::clone(image), texels, map_kind(slot)),
         ),
         Some(image) if texels == Texels::Turned => ("png".to_owned(), Content::TurnedPng(Arc::clone(image))),
-        _ => (file.extension(), Content::AsItIs(Arc::clone(&file.bytes))),
+        _ => (file.extension(), Content::AsItIs(file.bytes.clone())),
     }
 }
 

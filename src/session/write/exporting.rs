@@ -5,7 +5,7 @@ use super::export_job::{ExportJob, ExportStep, ExportedFile, ToExport};
 use crate::edit::{Change, Edits};
 use crate::model::Front;
 use crate::session::Session;
-use crate::session::open::load::Progress;
+use super::export::Progress;
 
 impl Session {
     pub(in crate::session) fn apply_to_export(&mut self, command: ExportCommand) {

@@ -10,7 +10,7 @@ use crate::model::{MapSlot, Taken};
 /// What a file of a picture holds.
 #[derive(Debug)]
 pub(super) enum Content {
-    AsItIs(Arc<[u8]>),
+    AsItIs(bytes::Bytes),
     TurnedPng(Arc<Image>),
     Dds(Arc<Image>, Texels, MapKind),
     /// Base colours, if there are any, and metalness as one map: DDS, else PNG.
@@ -28,7 +28,7 @@ pub(super) enum Texels {
 
 impl Content {
     /// The bytes of the file.
-    pub(super) fn bytes(self) -> Result<Arc<[u8]>, ExportError> {
+    pub(super) fn bytes(self) -> Result<bytes::Bytes, ExportError> {
         Ok(match self {
             Self::AsItIs(bytes) => bytes,
             Self::TurnedPng(image) => encode_png(&directions(&image, true), image.width(), image.height())?.into(),

@@ -1,4 +1,4 @@
-//! Chips over the view: the modes that change what is seen, and a file that is being written, each with a cross that ends it.
+//! Chips over the view: the modes that change what is seen, and files that are being written or opened, each with a cross that ends it.
 
 use egui::{Color32, FontId, Galley, Rect, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2};
 use std::sync::Arc;
@@ -7,12 +7,13 @@ use crate::actions::{self, Action};
 use crate::anim::SkinView;
 use crate::scene::joint_colors;
 use crate::session::{
-    Command, CrowdCommand, ExportCommand, GHOSTS_SRGB, LookCommand, PlayCommand, Session, SubmeshCommand,
+    Command, CrowdCommand, ExportCommand, FileCommand, GHOSTS_SRGB, LookCommand, PlayCommand, Session, SubmeshCommand,
 };
+use crate::slices::{Stage, StageProgress};
 use crate::ui::cx::Cx;
 use crate::ui::kit::icons::{self, Icon};
 use crate::ui::kit::theme::{self, Tokens};
-use crate::ui::kit::wording::grouped;
+use crate::ui::kit::wording::{grouped, shortened};
 use crate::ui::kit::{control_size, elided_name, focus_ring, is_touch};
 use crate::ui::state::UiState;
 
@@ -25,6 +26,12 @@ const CROSS: f32 = 12.0;
 const GAP: f32 = 6.0;
 /// Room between chips.
 const SPACING: f32 = 6.0;
+/// Height of the bar of a chip that counts.
+const BAR: f32 = 2.0;
+/// An opening that takes longer is told.
+const SHOWN_AFTER_SECS: f64 = 0.2;
+/// Letters of the name of a file that is being opened, at most.
+const MOST_NAME: usize = 24;
 /// Width of the mark of a colour, and the most in a chip.
 const MARK: f32 = 12.0;
 const MOST_MARKS: usize = 3;
@@ -41,6 +48,8 @@ struct Mode {
     name: String,
     /// The colours that it has in the picture.
     marks: Vec<Color32>,
+    /// How much of it is done, 0…1, of what ends by itself.
+    done: Option<f32>,
 }
 
 impl Mode {
@@ -51,6 +60,7 @@ impl Mode {
             key: action.map_or("", Action::key),
             ends: ends.into(),
             marks: Vec::new(),
+            done: None,
         }
     }
 
@@ -85,6 +95,42 @@ fn export(session: &Session) -> Option<Mode> {
     Some(Mode {
         name: "Cancel the export".to_owned(),
         ..Mode::new(words, None, ExportCommand::Cancel)
+    })
+}
+
+/// What is being opened, once that has taken a while. Its name stays while the number grows.
+fn opening(session: &Session, state: &mut UiState, now_secs: f64) -> Option<Mode> {
+    let Some(opened) = session.being_opened() else {
+        state.opening_since = None;
+        return None;
+    };
+    let openings = session.openings();
+    let since_secs = match state.opening_since {
+        Some((of, since_secs)) if of == openings => since_secs,
+        _ => now_secs,
+    };
+    state.opening_since = Some((openings, since_secs));
+    if now_secs - since_secs < SHOWN_AFTER_SECS {
+        return None;
+    }
+    let StageProgress { stage, done, total } = opened.progress;
+    let mega = |bytes: usize| format!("{:.1}", bytes as f64 * 1e-6);
+    let percent = opened.progress.percent();
+    let stage = match stage {
+        Stage::Fetching => format!("{} of {} MB", mega(done), mega(total)),
+        Stage::Unpacking => format!("unpacking · {percent} %"),
+        Stage::Reading => format!("reading · {percent} %"),
+        Stage::Building => format!("building · {percent} %"),
+        Stage::Compiling | Stage::Checking => format!("checking · {percent} %"),
+        Stage::Measuring => format!("measuring · {percent} %"),
+        Stage::Decoding => format!("picture {} of {total}", done + 1),
+        Stage::Judging => format!("finishing · {percent} %"),
+    };
+    let name = shortened(opened.name, MOST_NAME);
+    Some(Mode {
+        name: format!("Cancel opening {name}"),
+        done: Some(percent as f32 * 0.01),
+        ..Mode::new(format!("Opening {name}: {stage}"), None, FileCommand::CancelOpening)
     })
 }
 
@@ -190,7 +236,9 @@ impl Chip {
             .layout_no_wrap(shown_key.to_owned(), theme::mono(11.0), tokens.muted);
         let behind = if shown_key.is_empty() { 0.0 } else { GAP + key.size().x };
         let marks = mode.marks.len() as f32 * MARK;
-        let width = 2.0 * PADDING + marks + words.size().x + behind + GAP + CROSS;
+        // One that counts keeps its width.
+        let words_width = mode.done.map_or(0.0, |_| MOST_WORDS.min(most)).max(words.size().x);
+        let width = 2.0 * PADDING + marks + words_width + behind + GAP + CROSS;
         Self {
             mode,
             words,
@@ -217,6 +265,12 @@ impl Chip {
         if response.hovered() {
             painter.rect_filled(chip, radius, tokens.field_hovered);
         }
+        if let Some(done) = self.mode.done {
+            let part = chip.with_max_x(chip.min.x + done * chip.width());
+            painter.with_clip_rect(part).rect_filled(chip, radius, tokens.field_hovered);
+            let bar = Rect::from_min_max(pos2(chip.min.x, chip.max.y - BAR), part.max);
+            painter.with_clip_rect(bar).rect_filled(chip, radius, tokens.accent);
+        }
         let middle = chip.center().y;
         let mut x = chip.min.x + PADDING;
         for &mark in &self.mode.marks {
@@ -240,16 +294,25 @@ impl Chip {
     }
 }
 
-/// Shows a chip for each mode, in rows at the top of a room, and one for a file that is written while its panel is not open. Returns the
-/// lower edge of the last row.
+/// Shows a chip for each mode, in rows at the top of a room, and one for a file that is written while its panel is not open, and one
+/// for what is being opened. Returns the lower edge of the last row of modes.
 pub(in crate::ui) fn show(ui: &Ui, cx: &mut Cx<'_, UiState>, room: Rect, export_is_open: bool) -> Option<f32> {
-    if cx.session.open_model().is_none() || room.width() < 2.0 * control_size(ui) {
+    let opening = opening(cx.session, cx.state, ui.input(|input| input.time));
+    if room.width() < 2.0 * control_size(ui) {
         return None;
     }
+    let modes = if cx.session.open_model().is_some() {
+        modes(cx.session)
+    } else {
+        Vec::new()
+    };
+    // The view is not framed anew for what goes by itself.
+    let lasting = modes.len();
     let most = room.width() - 2.0 * PADDING - GAP - CROSS - 40.0;
-    let chips: Vec<Chip> = modes(cx.session)
+    let chips: Vec<Chip> = modes
         .into_iter()
         .chain(export(cx.session).filter(|_| !export_is_open))
+        .chain(opening)
         .map(|mode| Chip::new(ui, mode, most))
         .collect();
     let height = if is_touch(ui) { control_size(ui) } else { HEIGHT };
@@ -275,7 +338,9 @@ pub(in crate::ui) fn show(ui: &Ui, cx: &mut Cx<'_, UiState>, room: Rect, export_
         }
         let mut left = room.center().x - 0.5 * width;
         let y = top + row as f32 * step;
-        bottom = Some(y + 0.5 * (height + HEIGHT));
+        if index < lasting {
+            bottom = Some(y + 0.5 * (height + HEIGHT));
+        }
         for chip in &chips[index..end] {
             let place = Rect::from_min_size(pos2(left, y), vec2(chip.width, height));
             if chip.show(ui, index, place) {

@@ -3,6 +3,7 @@
 use std::io::{Cursor, Write as _};
 
 use bindpose::session::for_tests::unpack_within;
+use bindpose::slices::{Slices, at_once};
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
@@ -16,9 +17,9 @@ fn a_few_bytes_that_become_very_many_are_not_all_unpacked() {
     }
     let bytes = writer.finish().expect("an archive").into_inner();
     assert!(bytes.len() < 1 << 14);
-    assert_eq!(unpack_within(&bytes, 3 << 20).map(|files| files.len()), Ok(3));
+    assert_eq!(at_once(unpack_within(&bytes, 3 << 20, &Slices::ENDLESS)).map(|files| files.len()), Ok(3));
     assert_eq!(
-        unpack_within(&bytes, (3 << 20) - 1).map(|files| files.len()),
+        at_once(unpack_within(&bytes, (3 << 20) - 1, &Slices::ENDLESS)).map(|files| files.len()),
         Err("its files have more than 2 MiB together".to_owned())
     );
 }

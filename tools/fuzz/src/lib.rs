@@ -9,7 +9,8 @@ use bindpose::anim::CompiledClip;
 use bindpose::edit::Edits;
 use bindpose::import;
 use bindpose::model::JointNames;
-use bindpose::session::{ExportFormat, ExportJob, File, FileSet, LoadJob, Loaded, ToExport};
+use bindpose::session::{ExportFormat, ExportJob, File, FileSet, Loaded, ToExport, load_job};
+use bindpose::slices::Slices;
 use bindpose::{check, image};
 
 /// Something to try, and how it is called.
@@ -131,5 +132,5 @@ fn whole(bytes: &[u8]) {
 fn load(name: &str, bytes: &[u8]) -> Option<Box<Loaded>> {
     let files = Arc::new(FileSet::new([File::new(name, bytes)]));
     let model = (*files.models().first()?).clone();
-    LoadJob::new(files, model).run().ok()
+    load_job(files, model, &Slices::ENDLESS).run().ok()
 }
