@@ -63,7 +63,11 @@ fn parsing(criterion: &mut Criterion) {
     report_ratio(
         "loading with the books' verdicts / without",
         || drop(black_box(load(&file))),
-        || drop(black_box(load_job(Arc::clone(&files), file.clone(), &Slices::ENDLESS).run())),
+        || {
+            drop(black_box(
+                load_job(Arc::clone(&files), file.clone(), &Slices::ENDLESS).run(),
+            ))
+        },
     );
     let model = import().model;
     report_ratio(

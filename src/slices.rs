@@ -103,13 +103,17 @@ impl Slices {
 
     /// How far the work is that was given these.
     pub fn progress(&self) -> StageProgress {
-        self.0.as_ref().map_or_else(StageProgress::default, |shared| shared.progress.get())
+        self.0
+            .as_ref()
+            .map_or_else(StageProgress::default, |shared| shared.progress.get())
     }
 }
 
 impl fmt::Debug for Slices {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("Slices").field(&self.0.as_ref().map(|shared| shared.progress.get())).finish()
+        f.debug_tuple("Slices")
+            .field(&self.0.as_ref().map(|shared| shared.progress.get()))
+            .finish()
     }
 }
 
@@ -135,7 +139,9 @@ impl Future for Pause {
 
 /// `0..count` in ranges of `length`, the last one shorter: pieces of a loop to pause between.
 pub fn pieces(count: usize, length: usize) -> impl Iterator<Item = Range<usize>> {
-    (0..count).step_by(length).map(move |start| start..count.min(start + length))
+    (0..count)
+        .step_by(length)
+        .map(move |start| start..count.min(start + length))
 }
 
 /// Does all of some work now.
@@ -184,6 +190,8 @@ impl<T> Sliced<T> {
 
 impl<T> fmt::Debug for Sliced<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Sliced").field("slices", &self.slices).finish_non_exhaustive()
+        f.debug_struct("Sliced")
+            .field("slices", &self.slices)
+            .finish_non_exhaustive()
     }
 }

@@ -1,7 +1,6 @@
 //! What the arguments name: a file, its model, a clip, a time.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
@@ -21,7 +20,7 @@ pub(super) fn read(path: &Path) -> Result<File, Failure> {
 pub(super) fn read_all(path: &Path) -> Result<Vec<File>, Failure> {
     let model = read(path)?;
     let named = import::files_beside(&model.bytes).into_iter();
-    let beside = named.filter_map(|name| Some(File::new(&name, beside(path, &name)?)));
+    let beside = named.filter_map(|name| Some(File::sharing(&name, beside(path, &name)?)));
     let beside: Vec<File> = beside.collect();
     Ok(std::iter::once(model).chain(beside).collect())
 }

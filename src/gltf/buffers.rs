@@ -151,7 +151,11 @@ impl<'a> Buffers<'a> {
     }
 }
 
-fn at_uri<'a>(uri: &str, pointer: &str, find: &mut impl FnMut(&str) -> Option<bytes::Bytes>) -> Result<Bytes<'a>, Fault> {
+fn at_uri<'a>(
+    uri: &str,
+    pointer: &str,
+    find: &mut impl FnMut(&str) -> Option<bytes::Bytes>,
+) -> Result<Bytes<'a>, Fault> {
     let pointer = || format!("{pointer}/uri");
     let index = pointer();
     let index = index.trim_start_matches("/buffers/").trim_end_matches("/uri");

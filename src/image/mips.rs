@@ -6,6 +6,7 @@ use super::format::{Channels, ImageFormat};
 use super::half;
 use super::picture::{Image, full_level_count, level_size};
 use super::srgb::{Srgb, WHOLE};
+use crate::slices::{Slices, at_once};
 
 /// The kind of values in a map, which decides how they are averaged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -22,6 +23,9 @@ impl MapKind {
     /// Each of them.
     pub const ALL: [Self; 3] = [Self::Diffuse, Self::Normal, Self::Data];
 }
+
+/// So many texels are averaged or written between two places at which that can stop: half a millisecond or so.
+const TEXELS_A_PIECE: usize = 1 << 15;
 
 /// A value that is averaged: colour times weight and weight, or direction or colour and alpha.
 type Texel = Vec4;
@@ -43,6 +47,11 @@ impl Image {
 
     /// [`with_mips`](Self::with_mips) of a borrowed picture; `None` where nothing would change.
     pub(crate) fn mipped(&self, map_kind: MapKind) -> Option<Self> {
+        at_once(self.mipped_in(map_kind, &Slices::ENDLESS))
+    }
+
+    /// [`mipped`](Self::mipped) in slices.
+    pub(crate) async fn mipped_in(&self, map_kind: MapKind, slices: &Slices) -> Option<Self> {
         let level_count = full_level_count(self.width, self.height);
         if self.level_count > 1 || level_count == 1 {
             return None;
@@ -55,7 +64,7 @@ impl Image {
         let face_len: usize = (0..level_count).map(level_len).sum();
         let mut data = Vec::with_capacity(face_len * self.face_count() as usize);
         for face in 0..self.face_count() {
-            coding.append_chain(&mut data, self, face, level_count);
+            coding.append_chain(&mut data, self, face, level_count, slices).await;
         }
         Some(self.remade(coding, [self.width, self.height], level_count, data))
     }
@@ -77,14 +86,14 @@ impl Image {
         let mut data = Vec::new();
         for face in 0..self.face_count() {
             let start = data.len();
-            let mut texels = coding.append_level(&mut data, self, face, level);
+            let mut texels = at_once(coding.append_level(&mut data, self, face, level, &Slices::ENDLESS));
             if halvings == 0 {
                 continue;
             }
             data.truncate(start);
             for halved in 1..halvings {
                 let (width, height) = size_after(halved);
-                texels = halve(width, height, &texels, |&texel| texel);
+                texels = at_once(halve(width, height, &texels, |&texel| texel, &Slices::ENDLESS));
             }
             coding.append(&mut data, &texels);
         }
@@ -141,23 +150,40 @@ impl Coding {
     }
 
     /// Writes a face of at least two levels: the largest as it is, then all smaller ones.
-    fn append_chain(self, data: &mut Vec<u8>, image: &Image, face: u32, level_count: u32) {
-        let mut texels = self.append_level(data, image, face, 0);
+    async fn append_chain(self, data: &mut Vec<u8>, image: &Image, face: u32, level_count: u32, slices: &Slices) {
+        let mut texels = self.append_level(data, image, face, 0, slices).await;
         for level in 1..level_count {
-            self.append(data, &texels);
+            for texels in texels.chunks(TEXELS_A_PIECE) {
+                slices.pause().await;
+                self.append(data, texels);
+            }
             // From the values before rounding, so that errors do not add up.
             let (width, height) = image.level_size(level);
-            texels = halve(width, height, &texels, |&texel| texel);
+            texels = halve(width, height, &texels, |&texel| texel, slices).await;
         }
     }
 
     /// Writes a level of the picture in this coding's format, and gives the values of the next smaller level.
-    fn append_level(self, data: &mut Vec<u8>, image: &Image, face: u32, level: u32) -> Vec<Texel> {
+    async fn append_level(
+        self,
+        data: &mut Vec<u8>,
+        image: &Image,
+        face: u32,
+        level: u32,
+        slices: &Slices,
+    ) -> Vec<Texel> {
         let (width, height) = image.level_size(level);
         if let Self::Half = self {
             let values = image.to_rgba32f(face, level).unwrap_or_default();
             data.extend(values.iter().flat_map(|&value| half::from_f32(value).to_le_bytes()));
-            return halve(width, height, values.as_chunks::<4>().0, |&texel| Vec4::from(texel));
+            return halve(
+                width,
+                height,
+                values.as_chunks::<4>().0,
+                |&texel| Vec4::from(texel),
+                slices,
+            )
+            .await;
         }
         let start = data.len();
         image.append_rgba8(data, face, level);
@@ -166,15 +192,19 @@ impl Coding {
         match self {
             Self::Srgb => {
                 let (srgb, weights) = (Srgb::tables(), weights());
-                halve(width, height, texels, |&[r, g, b, a]| {
+                let read = |&[r, g, b, a]: &[u8; 4]| {
                     Vec4::new(srgb.linear(r), srgb.linear(g), srgb.linear(b), 1.0) * weights[usize::from(a)]
-                })
+                };
+                halve(width, height, texels, read, slices).await
             }
-            Self::Direction { two_channels } => halve(width, height, texels, |texel| {
-                let direction = unit(texel) / Vec4::new(127.5, 127.5, 127.5, 255.0) - Vec4::new(1.0, 1.0, 1.0, 0.0);
-                if two_channels { with_z(direction) } else { direction }
-            }),
-            _ => halve(width, height, texels, |texel| unit(texel) / 255.0),
+            Self::Direction { two_channels } => {
+                let read = |texel: &[u8; 4]| {
+                    let direction = unit(texel) / Vec4::new(127.5, 127.5, 127.5, 255.0) - Vec4::new(1.0, 1.0, 1.0, 0.0);
+                    if two_channels { with_z(direction) } else { direction }
+                };
+                halve(width, height, texels, read, slices).await
+            }
+            _ => halve(width, height, texels, |texel| unit(texel) / 255.0, slices).await,
         }
     }
 
@@ -245,12 +275,16 @@ fn append_bytes(data: &mut Vec<u8>, texels: &[Texel], write: impl Fn(Texel) -> [
 
 /// The next smaller level. Each of its texels is the mean of the area it covers: of two rows and columns where a side is
 /// even, of parts of three where it is odd, of one where it is 1.
-fn halve<T>(width: u32, height: u32, texels: &[T], read: impl Fn(&T) -> Texel) -> Vec<Texel> {
+async fn halve<T>(width: u32, height: u32, texels: &[T], read: impl Fn(&T) -> Texel, slices: &Slices) -> Vec<Texel> {
     let (smaller_width, smaller_height) = level_size(width, height, 1);
+    let rows_a_piece = (TEXELS_A_PIECE / width as usize).max(1);
     let mut smaller = Vec::with_capacity(smaller_width as usize * smaller_height as usize);
     if width.is_multiple_of(2) && height.is_multiple_of(2) {
         // As below, where all four weights are a quarter.
-        for rows in texels.chunks_exact(2 * width as usize) {
+        for (index, rows) in texels.chunks_exact(2 * width as usize).enumerate() {
+            if index.is_multiple_of(rows_a_piece) {
+                slices.pause().await;
+            }
             let (upper, lower) = rows.split_at(width as usize);
             let squares = upper.as_chunks::<2>().0.iter().zip(lower.as_chunks::<2>().0);
             // The sum with 0 makes 0 of −0.
@@ -260,6 +294,9 @@ fn halve<T>(width: u32, height: u32, texels: &[T], read: impl Fn(&T) -> Texel) -
         return smaller;
     }
     for row in 0..smaller_height {
+        if (row as usize).is_multiple_of(rows_a_piece) {
+            slices.pause().await;
+        }
         let rows = covered(height, row);
         for column in 0..smaller_width {
             let columns = covered(width, column);

@@ -24,6 +24,7 @@ pub(crate) mod srgb;
 use file_kind::FileKind;
 
 use crate::diagnostic::{Diagnostic, Fault, codes};
+use crate::slices::{Slices, at_once};
 
 pub use encode::{EncodeError, encode_dds, encode_png};
 pub use format::{Channels, ImageFormat, MAX_SIDE};
@@ -49,10 +50,19 @@ pub use picture::{Image, ImageKind};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn decode(bytes: &[u8], name: &str) -> Result<Image, Fault> {
-    let decoded = kind_of(bytes, name).and_then(|kind| match kind {
-        FileKind::Dds => dds::decode(bytes),
-        kind => raster::decode(bytes, kind),
-    });
+    at_once(decode_in(bytes, name, &Slices::ENDLESS))
+}
+
+/// [`decode`] in slices. A JPEG, a WebP, a TGA or a BMP is decoded in one piece.
+///
+/// # Errors
+/// Those of [`decode`].
+pub async fn decode_in(bytes: &[u8], name: &str, slices: &Slices) -> Result<Image, Fault> {
+    let decoded = match kind_of(bytes, name) {
+        Ok(FileKind::Dds) => dds::decode(bytes),
+        Ok(kind) => raster::decode(bytes, kind, slices).await,
+        Err(fault) => Err(fault),
+    };
     decoded.map_err(|fault| naming(*fault, name))
 }
 

@@ -2,13 +2,16 @@
 
 use std::io::Cursor;
 
-use image::{ColorType, ImageDecoder, ImageReader, Limits};
+use image::{
+    ColorType, DynamicImage, GrayAlphaImage, GrayImage, ImageDecoder, ImageReader, Limits, RgbImage, RgbaImage,
+};
 
 use super::MAX_SIDE;
 use super::file_kind::FileKind;
 use super::format::{Channels, ImageFormat};
 use super::picture::{Image, ImageKind, check_size};
 use crate::diagnostic::{Fault, codes};
+use crate::slices::Slices;
 
 /// Bytes that decoding may take: a picture of 8192 × 8192 with 4 channels of 8 bits as the file has it, and as RGBA.
 const MAX_DECODED_LEN: u64 = 512 << 20;
@@ -18,7 +21,7 @@ const MAX_DECODED_LEN: u64 = 512 << 20;
 const MAX_TEXELS_PER_BYTE: u64 = 8 * 1032;
 
 /// Reads a picture of a kind other than DDS.
-pub(super) fn decode(bytes: &[u8], kind: FileKind) -> Result<Image, Fault> {
+pub(super) async fn decode(bytes: &[u8], kind: FileKind, slices: &Slices) -> Result<Image, Fault> {
     let decoder = open(bytes, kind)?;
     let (width, height) = decoder.dimensions();
     let channels = match decoder.color_type() {
@@ -30,7 +33,15 @@ pub(super) fn decode(bytes: &[u8], kind: FileKind) -> Result<Image, Fault> {
         ColorType::Rgb8 | ColorType::Rgb16 | ColorType::Rgb32F => Channels::Rgb,
         _ => Channels::Rgba,
     };
-    let decoded = image::DynamicImage::from_decoder(decoder).map_err(|error| undecodable(kind, &error))?;
+    let by_rows = match kind {
+        FileKind::Png => png_by_rows(bytes, decoder.total_bytes(), slices).await,
+        _ => None,
+    };
+    slices.pause().await;
+    let decoded = match by_rows {
+        Some(decoded) => decoded,
+        None => DynamicImage::from_decoder(decoder).map_err(|error| undecodable(kind, &error))?,
+    };
     let mut data = decoded.into_rgba8().into_raw();
     if !channels.has_alpha() {
         data.iter_mut().skip(3).step_by(4).for_each(|alpha| *alpha = 255);
@@ -46,6 +57,33 @@ pub(super) fn decode(bytes: &[u8], kind: FileKind) -> Result<Image, Fault> {
         mips_generated: false,
         data,
     })
+}
+
+/// A PNG, row by row: the largest pictures are of that kind. `None` where its rows do not come in order, for kinds that are rare, and for
+/// one that is damaged: who decodes it at once learns how.
+async fn png_by_rows(bytes: &[u8], decoded_len: u64, slices: &Slices) -> Option<DynamicImage> {
+    let mut decoder = png::Decoder::new(Cursor::new(bytes));
+    decoder.set_transformations(png::Transformations::EXPAND);
+    let mut reader = decoder.read_info().ok()?;
+    let (width, height) = reader.info().size();
+    if reader.info().interlaced {
+        return None;
+    }
+    let (color_type, png::BitDepth::Eight) = reader.output_color_type() else {
+        return None;
+    };
+    let mut data = Vec::with_capacity(usize::try_from(decoded_len).ok()?);
+    while let Some(row) = reader.next_row().ok()? {
+        data.extend_from_slice(row.data());
+        slices.pause().await;
+    }
+    match color_type {
+        png::ColorType::Grayscale => GrayImage::from_raw(width, height, data).map(Into::into),
+        png::ColorType::GrayscaleAlpha => GrayAlphaImage::from_raw(width, height, data).map(Into::into),
+        png::ColorType::Rgb => RgbImage::from_raw(width, height, data).map(Into::into),
+        png::ColorType::Rgba => RgbaImage::from_raw(width, height, data).map(Into::into),
+        png::ColorType::Indexed => None,
+    }
 }
 
 /// Whether the header and the size of the file allow to decode it.

@@ -1,6 +1,5 @@
 //! What comes out of a file of any format.
 
-
 use super::source::Source;
 use crate::diagnostic::Diagnostic;
 use crate::model::Model;

@@ -48,8 +48,10 @@ pub use published::series::Series;
 pub use published::summary;
 pub use published::verdicts::limits_once_converted;
 pub use published::view_state::{AppearanceState, CameraState, PlaybackState, SelectionState, ViewState};
-pub use write::export::{Export, Progress, ExportCommand, ExportOptions, ExportRange};
-pub use write::export_job::{ExportFormat, ExportJob, ExportRefusal, ExportStep, ExportedFile, ToExport, WrittenModel};
+pub use write::export::{Export, ExportCommand, ExportOptions, ExportRange};
+pub use write::export_job::{
+    ExportFormat, ExportJob, ExportRefusal, ExportStep, ExportedFile, Progress, ToExport, WrittenModel,
+};
 pub use write::export_plan::ExportPlan;
 
 use changes::Revisions;
@@ -59,7 +61,7 @@ use look::overlays::OverlayCache;
 use look::skeleton_cache::SkeletonCache;
 use look::view::View;
 use open::content::Content;
-use open::opening::Opening;
+use open::underway::Opening;
 use play::actor::Actor;
 use play::crowd_cache::CrowdCache;
 use play::instances::Instances;

@@ -21,6 +21,7 @@ mod playing;
 mod run;
 mod saving;
 mod shared;
+mod slice;
 mod state;
 mod viewer;
 

@@ -1,6 +1,5 @@
 //! Opening files: reading those that the person gave, and making them ready in slices, between which the page goes on.
 
-use std::cell::Cell;
 use std::rc::Rc;
 
 use js_sys::{Array, Promise, Uint8Array};
@@ -11,15 +10,11 @@ use web_sys::Blob;
 use super::shared::Shared;
 use super::viewer::Viewer;
 use super::{abort_error, field, next_task, now_secs, promise, reduced_motion};
-use crate::{format, import};
 use crate::session::{Changes, File, FileCommand, FileKind, Session};
-use crate::slices::Slices;
+use crate::{format, import};
 
 /// Why an opening failed that was followed by another one, was given up, or ended with its viewer.
 const OVERTAKEN: &str = "another opening came after this one, or it was given up";
-
-/// How long one slice of an opening is: half a frame of most displays.
-const SLICE_SECS: f64 = 0.008;
 
 /// How long an opening may take before it is told how far it is, and how often that is drawn then.
 const TOLD_EVERY_SECS: f64 = 0.1;
@@ -34,22 +29,6 @@ const MOST_BYTES: usize = 1 << 29;
 /// So many bytes decide whether a file is of another format.
 const HEAD_LEN: usize = 64 << 10;
 
-/// When the slice of an opening that runs now is over, by the page's clock.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Slice(Rc<Cell<f64>>);
-
-impl Slice {
-    fn begin(&self) {
-        self.0.set(now_secs() + SLICE_SECS);
-    }
-
-    /// Has a session open in such slices.
-    pub(super) fn give_to(&self, session: &mut Session) {
-        let ends_secs = Rc::clone(&self.0);
-        session.open_in(&Slices::new(move || now_secs() >= ends_secs.get()));
-    }
-}
-
 #[wasm_bindgen]
 impl Viewer {
     /// Opens files: an array of `{name, bytes}` with relative paths as names and bytes as `Uint8Array` or `Blob`. The largest model opens, in
@@ -58,7 +37,9 @@ impl Viewer {
     pub fn open(&self, files: Array) -> Promise {
         let only_joins = records_of(&files).is_ok_and(|records| {
             let kinds = records.iter().map(|record| File::new(&record.name, Vec::new()).kind());
-            kinds.into_iter().all(|kind| matches!(kind, Some(FileKind::Picture | FileKind::Unread)))
+            kinds
+                .into_iter()
+                .all(|kind| matches!(kind, Some(FileKind::Picture | FileKind::Unread)))
         });
         self.shared.opened(files, !only_joins, |session, files| {
             session.apply(FileCommand::Add(files));
@@ -123,7 +104,12 @@ impl Shared {
     }
 
     /// Reads files, has them opened, and waits until they are. Those that `replaces` can bring another model.
-    fn opened(self: &Rc<Self>, files: Array, replaces: bool, open: impl FnOnce(&mut Session, Vec<File>) + 'static) -> Promise {
+    fn opened(
+        self: &Rc<Self>,
+        files: Array,
+        replaces: bool,
+        open: impl FnOnce(&mut Session, Vec<File>) + 'static,
+    ) -> Promise {
         let shared = Rc::clone(self);
         promise(async move {
             let records = records_of(&files)?;
@@ -265,7 +251,10 @@ impl Record {
         };
         let buffer = read.await.map_err(|error| {
             let reason = field(&error, "message").as_string().unwrap_or_default();
-            JsValue::from(js_sys::Error::new(&format!("{} could not be read: {reason}", self.name)))
+            JsValue::from(js_sys::Error::new(&format!(
+                "{} could not be read: {reason}",
+                self.name
+            )))
         })?;
         Ok(Uint8Array::new(&buffer))
     }
@@ -281,7 +270,9 @@ fn append(bytes: &mut Vec<u8>, piece: &Uint8Array) {
 /// `{name, bytes}` records.
 fn records_of(files: &Array) -> Result<Vec<Record>, JsValue> {
     let record = |record: JsValue| {
-        let name = field(&record, "name").as_string().ok_or_else(|| js_sys::Error::new("a file needs a name"))?;
+        let name = field(&record, "name")
+            .as_string()
+            .ok_or_else(|| js_sys::Error::new("a file needs a name"))?;
         let bytes = field(&record, "bytes");
         // A blob of another window is none of this one's.
         let content = match bytes.dyn_into::<Uint8Array>() {

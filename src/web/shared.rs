@@ -7,11 +7,11 @@ use js_sys::{Function, Uint8Array};
 use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
 
-use super::opening::Slice;
 use super::canvas::{ContextWatch, lose_context};
 use super::contrast::ContrastWatch;
 use super::mirror::{self, MirrorLink};
 use super::picture::AppSlot;
+use super::slice::Slice;
 use super::{object, state};
 use crate::session::{ExportedFile, Session};
 use crate::ui::{UiState, view_in_words};

@@ -208,12 +208,12 @@ fn a_cube_map_among_textures_is_offered_as_sky_and_a_sky_can_be_taken_back() {
 
 #[test]
 fn models_that_are_closed_to_make_room_are_told() {
-    let bytes: std::sync::Arc<[u8]> = vec![0; 300 << 20].into();
-    let mut window = window(WIDE, vec![still("a.m3d"), File::new("a.bin", bytes.clone())]);
+    let bytes = bytes::Bytes::from(vec![0; 300 << 20]);
+    let mut window = window(WIDE, vec![still("a.m3d"), File::sharing("a.bin", bytes.clone())]);
     window.apply(FileCommand::Add(vec![
         still("b.m3d"),
         moving("c.m3d"),
-        File::new("b.bin", bytes),
+        File::sharing("b.bin", bytes),
     ]));
     assert!(window.shows("Opened c.m3d, the largest of 2 · 1 model closed, the oldest, to make room"));
 }

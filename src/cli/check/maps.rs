@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 use std::path::Path;
-use std::sync::Arc;
 
 use crate::cli::paths::not_a_file;
 use crate::cli::text::counted;
@@ -27,7 +26,7 @@ pub(super) fn find(imported: &Imported, folders: &Folders, is_only: bool) -> Fou
     let own = imported
         .pictures
         .iter()
-        .map(|picture| File::new(&picture.name, picture.bytes.clone()));
+        .map(|picture| File::sharing(&picture.name, picture.bytes.clone()));
     maps.add(materials, pictures.chain(own));
     let states = textures.states(materials, &maps);
     let mut diagnostics = Vec::new();

@@ -9,7 +9,10 @@ use crate::format::quick;
 use crate::format::reader::{Reader, looks_like_number};
 
 /// Reads the bone offsets, with the line of each.
-pub(in crate::format) async fn offsets(reader: &mut Reader<'_>, bones: u32) -> Result<(Vec<[f32; 16]>, Vec<u32>), Fault> {
+pub(in crate::format) async fn offsets(
+    reader: &mut Reader<'_>,
+    bones: u32,
+) -> Result<(Vec<[f32; 16]>, Vec<u32>), Fault> {
     /// A label and sixteen digits with blanks.
     const SMALLEST: usize = 34;
     const NAMES: &[&str] = &["boneoffset", "b"];

@@ -90,7 +90,9 @@ async fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, Cli
         animations.push(bone_animation(reader, &name, bone, bones, &mut lines).await?);
     }
     if is_bone(reader) {
-        let surplus = reader.count_lines(|label| same_as_any(split_number(label).0, BONE)).await;
+        let surplus = reader
+            .count_lines(|label| same_as_any(split_number(label).0, BONE))
+            .await;
         return Err(bone_count(reader, &name, bones, bones as usize + surplus));
     }
     close(reader)?;

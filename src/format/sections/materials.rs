@@ -92,7 +92,10 @@ struct Block<'a> {
 const FEWEST_LINES: usize = 3;
 
 /// Reads the materials, with the line of the first label of each.
-pub(in crate::format) async fn materials(reader: &mut Reader<'_>, count: u32) -> Result<(Vec<Material>, Vec<u32>), Fault> {
+pub(in crate::format) async fn materials(
+    reader: &mut Reader<'_>,
+    count: u32,
+) -> Result<(Vec<Material>, Vec<u32>), Fault> {
     /// `Effect:` and two such lines.
     const SMALLEST: usize = 24;
     reader.begin_rows(Section::Materials)?;

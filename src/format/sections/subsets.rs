@@ -36,8 +36,9 @@ pub(in crate::format) async fn subsets(reader: &mut Reader<'_>, count: u32) -> R
         .peek_label()
         .is_some_and(|(label, _)| same(label.text, LABELS[0]))
     {
-        let surplus =
-            reader.count_lines(|label| same(label.split(|&byte| byte == b':').next().unwrap_or(label), LABELS[0])).await;
+        let surplus = reader
+            .count_lines(|label| same(label.split(|&byte| byte == b':').next().unwrap_or(label), LABELS[0]))
+            .await;
         return Err(reader.section_row_count("subsets", count, subsets.len() + surplus));
     }
     Ok((subsets, lines))

@@ -85,7 +85,10 @@ impl Images {
                 Found::Inside { bytes, extension, stem } => {
                     // What makes it unique follows the name as it is spelt.
                     let number = unique.strip_prefix(wish.as_str()).unwrap_or_default();
-                    (Some(format!("{stem}{number}.{extension}")), Some(bytes.into_owned().into()))
+                    (
+                        Some(format!("{stem}{number}.{extension}")),
+                        Some(bytes.into_owned().into()),
+                    )
                 }
             };
             let picture = name.clone().zip(bytes).map(|(name, bytes)| Picture { name, bytes });

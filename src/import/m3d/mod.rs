@@ -23,7 +23,9 @@ pub(super) use crate::format::begins_like_model;
 
 pub(super) async fn import(bytes: &[u8], slices: &Slices) -> Result<Imported, Box<Refused>> {
     let refused = |error, diagnostics| Box::new(Refused { error, diagnostics });
-    let parsed = format::parse_in(bytes, slices).await.map_err(|fault| refused(*fault, Vec::new()))?;
+    let parsed = format::parse_in(bytes, slices)
+        .await
+        .map_err(|fault| refused(*fault, Vec::new()))?;
     let (model, of_model) = from_document_in(&parsed.document, &parsed.lines, slices)
         .await
         .map_err(|fault| refused(*fault, parsed.diagnostics.clone()))?;

@@ -25,11 +25,7 @@ pub(in crate::session) async fn unpack(archive: &[u8], slices: &Slices) -> Resul
     unpack_within(archive, MOST_BYTES, slices).await
 }
 
-pub async fn unpack_within(
-    archive: &[u8],
-    most_bytes: u64,
-    slices: &Slices,
-) -> Result<Vec<(String, Vec<u8>)>, String> {
+pub async fn unpack_within(archive: &[u8], most_bytes: u64, slices: &Slices) -> Result<Vec<(String, Vec<u8>)>, String> {
     let mut entries = ZipArchive::new(Cursor::new(archive)).map_err(|error| format!("it {}", fault(&error)))?;
     let mut files = Vec::new();
     let mut bytes_left = most_bytes;
@@ -43,7 +39,10 @@ pub async fn unpack_within(
             continue;
         }
         let damaged = |error: &ZipError| format!("{name} in it {}", fault(error));
-        let mut entry = entries.by_index(index).map_err(|error| damaged(&error))?.take(bytes_left + 1);
+        let mut entry = entries
+            .by_index(index)
+            .map_err(|error| damaged(&error))?
+            .take(bytes_left + 1);
         let mut bytes = Vec::new();
         loop {
             slices.pause_at(Stage::Unpacking, index, count).await;

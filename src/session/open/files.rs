@@ -17,12 +17,17 @@ pub struct File {
 
 impl File {
     /// A file with its path in one form: `/` between the parts, no leading `/` or `./`.
-    pub fn new(path: &str, bytes: impl Into<bytes::Bytes>) -> Self {
+    pub fn new(path: &str, bytes: impl Into<Vec<u8>>) -> Self {
+        Self::sharing(path, bytes.into().into())
+    }
+
+    /// The same of bytes that others have, too.
+    pub fn sharing(path: &str, bytes: bytes::Bytes) -> Self {
         let path = path.replace('\\', "/");
         let path = path.trim_start_matches("./").trim_start_matches('/');
         Self {
             path: path.to_owned(),
-            bytes: bytes.into(),
+            bytes,
         }
     }
 

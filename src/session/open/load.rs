@@ -166,7 +166,9 @@ pub(in crate::session) struct Before {
 impl Kept {
     /// The open model, if reading the file would give it once more: it is the same by its bytes, and so is all that it names.
     async fn same(&self, files: &FileSet, file: &File, slices: &Slices) -> Option<Arc<OpenModel>> {
-        let Before { open, files: of_open, .. } = self.before.as_ref()?;
+        let Before {
+            open, files: of_open, ..
+        } = self.before.as_ref()?;
         let is_alone = open.joined.is_empty() && self.joined.is_empty();
         if !is_alone || open.file.path != file.path || !are_same(&open.file.bytes, &file.bytes, slices).await {
             return None;
@@ -248,5 +250,7 @@ pub type LoadJob = Sliced<Result<Box<Loaded>, Box<LoadError>>>;
 
 /// A job that opens one file of a drop, which is one of [`FileSet::models`].
 pub fn load_job(files: Arc<FileSet>, file: File, slices: &Slices) -> LoadJob {
-    Sliced::new(slices, async move |slices| load_whole(files, &file, Kept::default(), &slices).await)
+    Sliced::new(slices, async move |slices| {
+        load_whole(files, &file, Kept::default(), &slices).await
+    })
 }

@@ -170,11 +170,13 @@ impl Maps {
     pub(in crate::session) async fn decode(&mut self, slices: &Slices) {
         while let Some(index) = self.waiting.pop() {
             let all = self.pictures.len();
-            slices.pause_at(Stage::Decoding, all - 1 - self.waiting.len(), all).await;
+            slices
+                .pause_at(Stage::Decoding, all - 1 - self.waiting.len(), all)
+                .await;
             let picture = &self.pictures[index];
             let name = picture.base_name();
             let looked_at = if self.is_used(index) {
-                match image::decode(&picture.bytes, name) {
+                match image::decode_in(&picture.bytes, name, slices).await {
                     Ok(image) => Ok(Decoded::Images(self.for_slots(index, image, slices).await)),
                     Err(fault) => Err(fault),
                 }
@@ -204,7 +206,11 @@ impl Maps {
             let of_kind = &mut of_kinds[kind as usize];
             if of_kind.is_none() && MapSlot::ALL.iter().any(is_wanted) {
                 slices.pause().await;
-                let mipped = if self.without_mips { None } else { image.mipped(kind) };
+                let mipped = if self.without_mips {
+                    None
+                } else {
+                    image.mipped_in(kind, slices).await
+                };
                 *of_kind = Some(mipped.map_or_else(|| Arc::clone(&image), Arc::new));
             }
         }

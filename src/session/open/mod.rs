@@ -12,4 +12,5 @@ pub(super) mod open_model;
 pub(super) mod opening;
 pub(super) mod showing;
 pub(super) mod textures;
+pub(super) mod underway;
 pub(super) mod wish;

@@ -148,7 +148,7 @@ impl OpenModel {
             format: source.format,
             pictures: pictures
                 .iter()
-                .map(|picture| File::new(&picture.name, picture.bytes.clone()))
+                .map(|picture| File::sharing(&picture.name, picture.bytes.clone()))
                 .collect(),
             diagnostics,
             source,

@@ -3,12 +3,12 @@
 //! What is asked for is made ready from copies of what is open, so that the session goes on meanwhile, and then shown at once: until then all
 //! stays as it is. A session that was given slices works in them, whenever [`Session::advance_opening`] is called; any other does all at once.
 
-use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::content::{Content, Opened};
 use super::files::File;
 use super::load::Before;
+use super::underway::Underway;
 use super::wish::{Beside, Ready, Wish};
 use crate::session::Session;
 use crate::session::changes::Changes;
@@ -42,36 +42,6 @@ impl FileCommand {
     /// Whether it may bring something that a renderer uploads.
     pub(in crate::session) fn opens(&self) -> bool {
         !matches!(self, Self::ClearSky | Self::DismissError | Self::CancelOpening)
-    }
-}
-
-/// What is being opened, and what waits for that. A copy of a session opens nothing.
-#[derive(Debug, Default)]
-pub(in crate::session) struct Opening {
-    now: Option<Underway>,
-    waiting: VecDeque<Wish>,
-    /// What is read to be opened: its name, bytes that are read, all of them.
-    fetching: Option<(String, [usize; 2])>,
-    /// Those that the session was given.
-    slices: Slices,
-}
-
-#[derive(Debug)]
-struct Underway {
-    work: Sliced<Ready>,
-    name: String,
-    /// Whether the session begins anew when it is shown, and motion is reduced from then on.
-    begins_anew: Option<bool>,
-    /// The model that leaves the list once this one is shown.
-    closes: Option<String>,
-}
-
-impl Clone for Opening {
-    fn clone(&self) -> Self {
-        Self {
-            slices: self.slices.clone(),
-            ..Self::default()
-        }
     }
 }
 
@@ -214,7 +184,9 @@ impl Session {
             maps: content.maps.clone(),
             verdicts: content.verdicts.clone(),
         });
-        let work = Sliced::new(&self.opening.slices, async move |slices| wish.fulfil(Beside(before), &slices).await);
+        let work = Sliced::new(&self.opening.slices, async move |slices| {
+            wish.fulfil(Beside(before), &slices).await
+        });
         self.opening.now = Some(Underway {
             work,
             name,

@@ -127,7 +127,9 @@ impl Beside {
             models.contains(&before.open.file.path) && models == paths(&before.files)
         });
         let path = again.map(|before| &before.open.file.path);
-        files.get(path.or(files.models().first().map(|file| &file.path))?).cloned()
+        files
+            .get(path.or(files.models().first().map(|file| &file.path))?)
+            .cloned()
     }
 
     /// What is there already of the same file: decoded maps and joined clips. The model alone, dropped again, keeps the pictures that came

@@ -1,25 +1,9 @@
 //! What is asked about writing a file of another format, and how far that is.
 
-use super::export_job::{ExportFormat, ExportJob, ExportedFile};
+use super::export_job::{ExportFormat, ExportJob, ExportedFile, Progress};
 use super::export_plan::ExportPlan;
 use crate::edit::Edits;
 use crate::model::{Handedness, UpAxis};
-
-/// How far a job is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress {
-    /// Steps that are done.
-    pub done: usize,
-    /// All steps that are known of.
-    pub total: usize,
-}
-
-impl Progress {
-    /// How much is done, rounded down.
-    pub fn percent(self) -> usize {
-        100 * self.done / self.total.max(1)
-    }
-}
 
 /// How a model is to be written.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -10,7 +10,6 @@ use crate::export::{self, EncodedMaps, ExportError, Exported, Loss};
 use crate::format::Dialect;
 use crate::model::{JointNames, MapSlot, Model};
 use crate::modes::modes;
-use super::export::Progress;
 use crate::session::open::maps::Maps;
 
 modes! {
@@ -39,6 +38,22 @@ impl ExportFormat {
     /// The extension of its files.
     pub fn extension(self) -> &'static str {
         if self == Self::Glb { "glb" } else { "m3d" }
+    }
+}
+
+/// How far a job is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Steps that are done.
+    pub done: usize,
+    /// All steps that are known of.
+    pub total: usize,
+}
+
+impl Progress {
+    /// How much is done, rounded down.
+    pub fn percent(self) -> usize {
+        100 * self.done / self.total.max(1)
     }
 }
 

@@ -1,11 +1,11 @@
 //! Writing what is open as a file of another format: what would be otherwise, and the work, which somebody does in steps.
 
 use super::export::{Export, ExportCommand, ExportOptions, ExportRange, Exporting, Made, Stamp};
+use super::export_job::Progress;
 use super::export_job::{ExportJob, ExportStep, ExportedFile, ToExport};
 use crate::edit::{Change, Edits};
 use crate::model::Front;
 use crate::session::Session;
-use super::export::Progress;
 
 impl Session {
     pub(in crate::session) fn apply_to_export(&mut self, command: ExportCommand) {

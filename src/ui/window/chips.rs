@@ -267,7 +267,9 @@ impl Chip {
         }
         if let Some(done) = self.mode.done {
             let part = chip.with_max_x(chip.min.x + done * chip.width());
-            painter.with_clip_rect(part).rect_filled(chip, radius, tokens.field_hovered);
+            painter
+                .with_clip_rect(part)
+                .rect_filled(chip, radius, tokens.field_hovered);
             let bar = Rect::from_min_max(pos2(chip.min.x, chip.max.y - BAR), part.max);
             painter.with_clip_rect(bar).rect_filled(chip, radius, tokens.accent);
         }

@@ -1,7 +1,5 @@
 //! The forms of a file, and how numbers are stored.
 
-use std::sync::Arc;
-
 use bindpose::import::{FileFormat, files_beside, import, import_beside};
 use serde_json::json;
 
@@ -14,8 +12,8 @@ fn binary_text_and_text_with_its_data_beside_are_one_model() {
     let beside = file.text_beside("some%20folder/data.bin");
     assert_eq!(files_beside(&beside), ["some folder/data.bin"]);
     assert_eq!(refused(&beside).code, "gltf-buffer-missing");
-    let bin: Arc<[u8]> = file.bin.clone().into();
-    let find = |path: &str| (path == "some folder/data.bin").then(|| Arc::clone(&bin));
+    let bin = bytes::Bytes::from(file.bin.clone());
+    let find = |path: &str| (path == "some folder/data.bin").then(|| bin.clone());
     let beside = import_beside(&beside, &find).expect("its data are there");
     let read = read(&file);
     assert_eq!(

@@ -3,7 +3,6 @@
 //! compared with all before.
 
 use std::cell::Cell;
-use std::sync::Arc;
 
 use bindpose::export::{ExportError, MapImages, glb};
 use bindpose::gltf::{self, Buffers, Effort};
@@ -191,10 +190,10 @@ fn a_file_beside_is_asked_for_once_and_counts_once() {
     file.json["images"] = vec![json!({ "uri": "skin.png" }); 20].into();
     file.json["textures"] = (0..20).map(|source| json!({ "source": source })).collect();
     let text = serde_json::to_vec(&file.json).expect("JSON");
-    let (asked, bin) = (Cell::new(0), Arc::<[u8]>::from(file.bin.as_slice()));
+    let (asked, bin) = (Cell::new(0), bytes::Bytes::from(file.bin.clone()));
     let find = |_: &str| {
         asked.set(asked.get() + 1);
-        Some(Arc::clone(&bin))
+        Some(bin.clone())
     };
     let imported = import_beside(&text, &find).expect("its data are there");
     assert_eq!(imported.pictures.len(), 1);

@@ -17,7 +17,10 @@ fn a_few_bytes_that_become_very_many_are_not_all_unpacked() {
     }
     let bytes = writer.finish().expect("an archive").into_inner();
     assert!(bytes.len() < 1 << 14);
-    assert_eq!(at_once(unpack_within(&bytes, 3 << 20, &Slices::ENDLESS)).map(|files| files.len()), Ok(3));
+    assert_eq!(
+        at_once(unpack_within(&bytes, 3 << 20, &Slices::ENDLESS)).map(|files| files.len()),
+        Ok(3)
+    );
     assert_eq!(
         at_once(unpack_within(&bytes, (3 << 20) - 1, &Slices::ENDLESS)).map(|files| files.len()),
         Err("its files have more than 2 MiB together".to_owned())

@@ -1,6 +1,5 @@
 //! Folders with very many files: what is looked at grows with the files, not with their square.
 
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use bindpose::format::Document;
@@ -26,8 +25,8 @@ fn soon<T>(what: &str, work: impl FnOnce() -> T) -> T {
 
 /// Pictures of one pixel in folders of a hundred, under names of their own.
 fn pictures(count: usize) -> impl Iterator<Item = File> {
-    let png: Arc<[u8]> = encode_png(&[9; 4], 1, 1).expect("one pixel").into();
-    (0..count).map(move |index| File::new(&format!("art/{}/map_{index}.png", index / 100), Arc::clone(&png)))
+    let png = bytes::Bytes::from(encode_png(&[9; 4], 1, 1).expect("one pixel"));
+    (0..count).map(move |index| File::sharing(&format!("art/{}/map_{index}.png", index / 100), png.clone()))
 }
 
 /// The box with this many materials, each of which names two maps.
@@ -99,12 +98,12 @@ fn a_model_of_many_materials_finds_its_maps_soon() {
 
 #[test]
 fn one_name_in_twenty_thousand_folders_is_found_soon_and_the_note_spells_out_a_few() {
-    let png: Arc<[u8]> = encode_png(&[9; 4], 1, 1).expect("one pixel").into();
+    let png = bytes::Bytes::from(encode_png(&[9; 4], 1, 1).expect("one pixel"));
     let mut document: Document = models::document();
     document.materials[0].diffuse_map = Some("skin.dds".to_owned());
     document.materials[0].normal_map = None;
     document.materials = vec![document.materials[0].clone(); 500];
-    let copies = (0..FILES).map(|index| File::new(&format!("{index:05}/skin.png"), Arc::clone(&png)));
+    let copies = (0..FILES).map(|index| File::sharing(&format!("{index:05}/skin.png"), png.clone()));
     let files: Vec<File> = copies.chain([models::file("box.m3d", &document)]).collect();
     let mut session = Session::new(false);
     soon("rivals", || session.apply(FileCommand::Add(files)));
@@ -122,8 +121,8 @@ fn one_name_in_twenty_thousand_folders_is_found_soon_and_the_note_spells_out_a_f
 
 #[test]
 fn twenty_thousand_models_of_one_drop_are_listed_soon() {
-    let bytes: Arc<[u8]> = models::still("a.m3d").bytes;
-    let files = (0..FILES).map(|index| File::new(&format!("{index}/a.m3d"), Arc::clone(&bytes)));
+    let bytes = models::still("a.m3d").bytes;
+    let files = (0..FILES).map(|index| File::sharing(&format!("{index}/a.m3d"), bytes.clone()));
     let mut session = Session::new(false);
     soon("models", || session.apply(FileCommand::Add(files.collect())));
     assert_eq!(session.files().models().len(), FILES);

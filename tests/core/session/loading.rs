@@ -9,7 +9,8 @@ use bindpose::session::{Event, File, FileCommand, FileSet, LoadJob, PlayCommand,
 use bindpose::slices::{Slices, StageProgress};
 
 use super::maps::{mapped, picture};
-use super::models::{broken, moving, opened, still};
+use super::models::{broken, moving, still};
+use super::opened;
 
 /// Slices that end at every place where they can.
 fn shortest() -> Slices {
@@ -53,7 +54,10 @@ fn slices_go_through_all_stages_in_their_order_and_come_to_what_one_slice_comes_
             None => told.push(job_in_slices.progress()),
         }
     };
-    assert!(told.windows(2).all(|two| two[0].percent() <= two[1].percent()), "{told:?}");
+    assert!(
+        told.windows(2).all(|two| two[0].percent() <= two[1].percent()),
+        "{told:?}"
+    );
     assert!(told.windows(2).all(|two| two[0].stage <= two[1].stage), "{told:?}");
     let mut stages: Vec<_> = told.iter().map(|progress| progress.stage).collect();
     stages.dedup();
@@ -187,5 +191,9 @@ fn a_file_that_comes_again_with_the_same_bytes_is_not_read_again() {
     assert_eq!(path(&session), Some("b.m3d"));
     session.apply(FileCommand::Add(vec![File::new("b.m3d", still("b.m3d").bytes)]));
     end(&mut session);
-    assert_eq!(session.open_model().map(|open| open.model.clips.len()), Some(0), "other bytes are read");
+    assert_eq!(
+        session.open_model().map(|open| open.model.clips.len()),
+        Some(0),
+        "other bytes are read"
+    );
 }

@@ -116,7 +116,7 @@ fn pictures_join_whatever_notes_come_with_them() {
 #[test]
 fn a_picture_that_cannot_be_read_is_a_finding_and_the_model_shows_on() {
     let mut file = picture("a.png", [9; 4]);
-    file.bytes = file.bytes[..20].into();
+    file.bytes = file.bytes.slice(..20);
     let session = opened(vec![mapped("box.m3d", "a.png", "a.png"), file]);
     assert!(session.maps().image(0, MapSlot::Diffuse).is_none());
     let findings: Vec<_> = session
@@ -179,7 +179,7 @@ fn a_map_that_comes_later_wins_whatever_its_folder_and_still_does_when_all_is_re
 fn what_cannot_be_read_is_noted_used_or_not_until_a_sound_one_takes_its_place() {
     let broken = |path: &str| {
         let mut file = picture(path, [9; 4]);
-        file.bytes = file.bytes[..20].into();
+        file.bytes = file.bytes.slice(..20);
         file
     };
     let mut session = opened(vec![mapped("box.m3d", "a.png", "b.png")]);

@@ -315,12 +315,12 @@ fn a_model_on_screen_stays_listed_when_the_one_in_its_place_cannot_be_read() {
 #[test]
 fn the_oldest_models_are_closed_when_their_files_have_too_many_bytes() {
     // Bytes that all of them share, since they are counted for each.
-    let bytes: std::sync::Arc<[u8]> = vec![0; 150 << 20].into();
+    let bytes = bytes::Bytes::from(vec![0; 150 << 20]);
     let drop = |name: &str| {
         vec![
             still(&format!("{name}1.m3d")),
             still(&format!("{name}2.m3d")),
-            File::new(&format!("{name}.bin"), bytes.clone()),
+            File::sharing(&format!("{name}.bin"), bytes.clone()),
         ]
     };
     let closed = |session: &mut Session| {
