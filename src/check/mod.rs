@@ -6,13 +6,15 @@ mod exploded;
 mod keys;
 mod mesh;
 mod overflow;
+mod repeated;
 pub mod report;
 mod rig;
 pub mod sarif;
 mod texture;
 
 pub(crate) use keys::{is_still, surplus_keys};
-pub(crate) use mesh::{flat_triangles, repeated_triangles, used_vertices};
+pub(crate) use mesh::{flat_triangles, used_vertices};
+pub(crate) use repeated::repeated_triangles;
 pub(crate) use texture::tangents_against;
 
 use crate::anim::CompiledClip;
@@ -26,7 +28,7 @@ use crate::model::Model;
 pub fn model(model: &Model, compiled: &[CompiledClip], places: &dyn Places) -> Vec<Diagnostic> {
     let mut diagnostics = Diagnostics::default();
     mesh::note_useless(&model.mesh, places, &mut diagnostics);
-    mesh::note_repeated(&model.mesh, places, &mut diagnostics);
+    repeated::note_repeated(&model.mesh, places, &mut diagnostics);
     mesh::note_turned_away(model, places, &mut diagnostics);
     texture::note_equal_coords(model, places, &mut diagnostics);
     texture::note_tangent_signs(model, places, &mut diagnostics);
