@@ -5,7 +5,7 @@ use crate::format::document::{AnimationClip, BoneAnimation, ClipLines, KeyRun, K
 use crate::format::error::{Value, quoted, row_count};
 use crate::format::kind::DiagnosticKind;
 use crate::format::label::{is_ruler, same, same_as_any, split_number};
-use crate::format::quick;
+use crate::format::quick::{self, QuickRun};
 use crate::format::reader::Reader;
 
 /// The fields of a key, in order, with their other spellings.
@@ -18,15 +18,20 @@ const FIELDS: [(&str, &[&str]); 4] = [
 
 const BONE: &[&str] = &["bone", "b"];
 
-/// Reads the clips, with their lines.
-pub(in crate::format) fn clips(
-    reader: &mut Reader<'_>,
-    count: u32,
-    bones: u32,
-) -> Result<(Vec<AnimationClip>, Vec<ClipLines>), Fault> {
+/// Of the bones of a clip, which keys are as the books' exporter writes them.
+pub(in crate::format) type QuickTracks = Vec<Option<QuickRun>>;
+
+pub(in crate::format) struct Clips {
+    pub(in crate::format) clips: Vec<AnimationClip>,
+    pub(in crate::format) lines: Vec<ClipLines>,
+    pub(in crate::format) quick: Vec<QuickTracks>,
+}
+
+/// Reads the clips.
+pub(in crate::format) fn clips(reader: &mut Reader<'_>, count: u32, bones: u32) -> Result<Clips, Fault> {
     const SMALLEST: usize = 16;
     let room = reader.room_for(count, SMALLEST);
-    let (mut clips, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
+    let (mut clips, mut lines, mut quick) = (Vec::with_capacity(room), Vec::with_capacity(room), Vec::new());
     for index in 0..count {
         pass_surplus_braces(reader);
         let before = reader.cursor;
@@ -45,7 +50,8 @@ pub(in crate::format) fn clips(
             reader.cursor = before;
             reader.cursor.token();
         }
-        let (clip, of_bones) = clip(reader, bones)?;
+        let (clip, of_bones, quick_tracks) = clip(reader, bones)?;
+        quick.push(quick_tracks);
         lines.push(ClipLines {
             clip: label.position.line,
             ..of_bones
@@ -57,7 +63,7 @@ pub(in crate::format) fn clips(
         let surplus = reader.count_lines(is_clip);
         return Err(reader.section_row_count("clips", count, clips.len() + surplus));
     }
-    Ok((clips, lines))
+    Ok(Clips { clips, lines, quick })
 }
 
 fn is_clip(label: &[u8]) -> bool {
@@ -65,7 +71,7 @@ fn is_clip(label: &[u8]) -> bool {
 }
 
 /// Reads a clip from behind its label, with the lines of its bones and keys.
-fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, ClipLines), Fault> {
+fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, ClipLines, QuickTracks), Fault> {
     /// `B0 0 {}` and a blank.
     const SMALLEST: usize = 7;
     let name = reader.cursor.rest_of_line();
@@ -78,14 +84,16 @@ fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, ClipLines
         open(reader)?;
     }
     let room = reader.room_for(bones, SMALLEST);
-    let mut animations = Vec::with_capacity(room);
+    let (mut animations, mut quick) = (Vec::with_capacity(room), Vec::with_capacity(room));
     let mut lines = ClipLines {
         bones: Vec::with_capacity(room),
         key_runs: Vec::with_capacity(room),
         ..ClipLines::default()
     };
     for bone in 0..bones {
-        animations.push(bone_animation(reader, &name, bone, bones, &mut lines)?);
+        let (animation, quick_track) = bone_animation(reader, &name, bone, bones, &mut lines)?;
+        animations.push(animation);
+        quick.push(quick_track);
     }
     if is_bone(reader) {
         let surplus = reader.count_lines(|label| same_as_any(split_number(label).0, BONE));
@@ -98,6 +106,7 @@ fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, ClipLines
             bones: animations,
         },
         lines,
+        quick,
     ))
 }
 
@@ -108,7 +117,7 @@ fn bone_animation(
     bone: u32,
     bones: u32,
     lines: &mut ClipLines,
-) -> Result<BoneAnimation, Fault> {
+) -> Result<(BoneAnimation, Option<QuickRun>), Fault> {
     /// Four labels of a letter, eleven digits, blanks and a line end.
     const SMALLEST: usize = 30;
     let Some((label, behind)) = reader.peek_label() else {
@@ -148,10 +157,14 @@ fn bone_animation(
     open(reader)?;
     let mut keyframes = Vec::with_capacity(reader.room_for(count, SMALLEST));
     let mut next_line = None;
+    let (first, mut all_quick) = (reader.cursor, true);
     for key in 0..count {
         let (keyframe, line) = match quick::keyframe(&mut reader.cursor) {
             Some(read) => read,
-            None => keyframe(reader, bone, key, count)?,
+            None => {
+                all_quick = false;
+                keyframe(reader, bone, key, count)?
+            }
         };
         if next_line != Some(line) {
             lines.key_runs.push(KeyRun { bone, key, line });
@@ -159,6 +172,7 @@ fn bone_animation(
         next_line = Some(line.saturating_add(1));
         keyframes.push(keyframe);
     }
+    let quick = all_quick.then(|| QuickRun::between(first, reader.cursor));
     let is_key = |label: &[u8]| same_as_any(label.split(|&byte| byte == b':').next().unwrap_or(label), FIELDS[0].1);
     if reader.peek_label().is_some_and(|(label, _)| is_key(label.text)) {
         let mut counted = keyframes.len();
@@ -171,7 +185,7 @@ fn bone_animation(
     }
     close(reader)?;
     lines.bones.push(label.position.line);
-    Ok(BoneAnimation { keyframes })
+    Ok((BoneAnimation { keyframes }, quick))
 }
 
 /// Reads a key of any layout. Also gives its line.

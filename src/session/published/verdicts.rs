@@ -27,7 +27,7 @@ impl Verdicts {
             };
             let known = Known {
                 document: Some(&parsed.document),
-                quick_vertices: parsed.quick_vertices,
+                quick: Some(&parsed.quick),
                 handedness: Some(open.model.handedness),
                 // Without any picture nobody meant to bring maps.
                 missing_maps: (!maps.pictures().is_empty()).then_some(&maps.checklist().missing),
