@@ -150,7 +150,7 @@ impl ExtentJob {
         let farthest = self.extremes.last.iter();
         *bounds = farthest.fold(*bounds, |bounds, &vertex| bounds.include(pose.place(vertex)));
         for (vertices, moved) in groups.iter() {
-            let moved = moved.in_pose(palette);
+            let moved = moved.narrow_in_pose(palette);
             if !(moved.min.cmpge(bounds.min).all() && moved.max.cmple(bounds.max).all()) {
                 *bounds = vertices
                     .iter()
@@ -231,9 +231,10 @@ impl Extremes {
         }
         let bound = Palette::default();
         for (vertices, moved) in groups.iter() {
-            if self.may_reach_out(&moved.in_pose(pose.palette.unwrap_or(&bound))) {
+            let reached = self.may_reach_out(&moved.narrow_in_pose(pose.palette.unwrap_or(&bound)));
+            if reached != 0 {
                 for &vertex in vertices.iter().step_by(stride) {
-                    self.take(vertex, pose.place(vertex));
+                    self.take_along(reached, vertex, pose.place(vertex));
                 }
             }
         }
@@ -243,19 +244,27 @@ impl Extremes {
         self.last.dedup();
     }
 
-    /// Whether something in a box may lie as far along a direction as what is known.
-    fn may_reach_out(&self, within: &Aabb) -> bool {
+    /// Along which lanes something in a box may lie as far as what is known: a bit for each.
+    fn may_reach_out(&self, within: &Aabb) -> u32 {
         let (center, half) = ((within.min + within.max) * 0.5, (within.max - within.min) * 0.5);
-        !self.lanes.iter().all(|lanes| {
+        self.lanes.iter().rev().fold(0, |reached, lanes| {
             let middle = lanes.along(center);
             let reach = lanes.x.abs() * half.x + lanes.y.abs() * half.y + lanes.z.abs() * half.z;
             // Not so where one of them is no number.
-            ((middle + reach).cmplt(lanes.greatest) & (middle - reach).cmpgt(lanes.least)).all()
+            let is_within = ((middle + reach).cmplt(lanes.greatest) & (middle - reach).cmpgt(lanes.least)).all();
+            reached << 1 | u32::from(!is_within)
         })
     }
 
     fn take(&mut self, vertex: u32, position: Vec3) {
-        for lanes in &mut self.lanes {
+        self.take_along((1 << (AXES / 4)) - 1, vertex, position);
+    }
+
+    /// Takes a vertex where it lies farther than those before, along the lanes whose bits are set.
+    #[inline]
+    fn take_along(&mut self, mut reached: u32, vertex: u32, position: Vec3) {
+        while let Some(lanes) = self.lanes.get_mut(reached.trailing_zeros() as usize) {
+            reached &= reached - 1;
             let along = lanes.along(position);
             if (along.cmpge(lanes.greatest) | along.cmple(lanes.least)).any() {
                 lanes.take(vertex, along);

@@ -1,7 +1,5 @@
 //! Four joints side by side, and the blend between four and four.
 
-use std::array::from_fn;
-
 use glam::{Affine3A, DQuat, Mat3A, Quat, Vec3, Vec4};
 
 use crate::model::LocalJoint;
@@ -63,13 +61,23 @@ impl JointLanes {
     /// two, which must lie on one side ([`ArcLanes::to_same_side`]). `fraction` is 0…1.
     #[inline]
     pub(super) fn toward(&self, other: &Self, arc: &ArcLanes, fraction: f32) -> Self {
+        let mut between = Self::IDENTITY;
+        between.set_between(self, other, arc, fraction);
+        between
+    }
+
+    /// Becomes what lies between four joints and four others: [`JointLanes::toward`] without a copy.
+    #[inline(always)]
+    pub(super) fn set_between(&mut self, from: &Self, to: &Self, arc: &ArcLanes, fraction: f32) {
         let part = Vec4::splat(fraction);
         let rest = Vec4::ONE - part;
         let [from_weight, to_weight] = arc.weights(part);
-        Self {
-            rotation: from_fn(|i| self.rotation[i] * from_weight + other.rotation[i] * to_weight),
-            translation: from_fn(|i| self.translation[i] * rest + other.translation[i] * part),
-            scale: from_fn(|i| self.scale[i] * rest + other.scale[i] * part),
+        for i in 0..4 {
+            self.rotation[i] = from.rotation[i] * from_weight + to.rotation[i] * to_weight;
+        }
+        for i in 0..3 {
+            self.translation[i] = from.translation[i] * rest + to.translation[i] * part;
+            self.scale[i] = from.scale[i] * rest + to.scale[i] * part;
         }
     }
 

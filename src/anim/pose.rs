@@ -2,7 +2,7 @@
 
 use glam::Affine3A;
 
-use super::lanes::JointLanes;
+use super::lanes::{JointLanes, MatrixLanes};
 use crate::model::{JointIndex, LocalJoint, Skeleton};
 
 /// Each joint relative to its parent: `parent_from_joint`, kept in parts, four joints side by side.
@@ -58,16 +58,37 @@ pub fn local_to_model(skeleton: &Skeleton, local: &LocalPose, model: &mut ModelP
     let model_from_joint = model.0.as_mut_slice();
     let posed = local.joint_count().min(skeleton.joint_count());
     let (posed_parents, unposed_parents) = skeleton.parents().split_at(posed);
-    for (group, (parents, joints)) in posed_parents.chunks(JointLanes::COUNT).zip(&local.groups).enumerate() {
+    let (fours, rest) = posed_parents.as_chunks::<{ JointLanes::COUNT }>();
+    for (group, (parents, joints)) in fours.iter().zip(&local.groups).enumerate() {
         let parent_from_joint = joints.parent_from_joint();
-        for (lane, parent) in parents.iter().enumerate() {
-            let model_from_parent = placed(model_from_joint, *parent);
-            model_from_joint[group * JointLanes::COUNT + lane] = parent_from_joint.after(model_from_parent, lane);
+        // Written out, so that each lane is known.
+        place(model_from_joint, group, 0, parents[0], &parent_from_joint);
+        place(model_from_joint, group, 1, parents[1], &parent_from_joint);
+        place(model_from_joint, group, 2, parents[2], &parent_from_joint);
+        place(model_from_joint, group, 3, parents[3], &parent_from_joint);
+    }
+    if let Some(joints) = local.groups.get(fours.len()) {
+        let parent_from_joint = joints.parent_from_joint();
+        for (lane, parent) in rest.iter().enumerate() {
+            place(model_from_joint, fours.len(), lane, *parent, &parent_from_joint);
         }
     }
     for (joint, (parent, rest)) in (posed..).zip(unposed_parents.iter().zip(&skeleton.rest()[posed..])) {
         model_from_joint[joint] = *placed(model_from_joint, *parent) * rest.parent_from_joint();
     }
+}
+
+/// Places the joint of one lane of a group on its parent, which is placed.
+#[inline(always)]
+fn place(
+    model_from_joint: &mut [Affine3A],
+    group: usize,
+    lane: usize,
+    parent: Option<JointIndex>,
+    parent_from_joint: &MatrixLanes,
+) {
+    let joint = parent_from_joint.after(placed(model_from_joint, parent), lane);
+    model_from_joint[group * JointLanes::COUNT + lane] = joint;
 }
 
 /// The parent's transform; the identity for a root.
@@ -78,8 +99,12 @@ fn placed(model_from_joint: &[Affine3A], parent: Option<JointIndex>) -> &Affine3
 
 /// `model_from_bind` of each joint; the books write it offset · toRoot, with row vectors.
 pub fn palette(skeleton: &Skeleton, model: &ModelPose, palette: &mut Palette) {
-    palette.0.clear();
-    palette.0.extend(palette_matrices(skeleton, model));
+    let count = model.0.len().min(skeleton.joint_count());
+    // What is there is written over, so it is not cleared.
+    palette.0.resize(count, Affine3A::IDENTITY);
+    for (place, matrix) in palette.0.iter_mut().zip(palette_matrices(skeleton, model)) {
+        *place = matrix;
+    }
 }
 
 /// The matrices of [`palette`], in the skeleton's order.

@@ -14,27 +14,33 @@ pub fn sample(clip: &CompiledClip, time_secs: f32, local: &mut LocalPose) {
     // Tracks of a clip mostly share their key times, so each group begins its search where the one before found its key.
     let mut guess = 0;
     for (joints, group) in local.groups.iter_mut().zip(clip.groups()) {
-        *joints = sample_group(group, time_secs, &mut guess);
+        sample_group(group, time_secs, &mut guess, joints);
     }
 }
 
 /// One joint of a clip at `time_secs`, as [`sample`] has it; at rest where the clip lacks it.
 pub fn sample_joint(skeleton: &Skeleton, clip: &CompiledClip, joint: JointIndex, time_secs: f32) -> LocalJoint {
     match clip.lane_of(joint) {
-        Some((group, lane)) => sample_group(group, time_secs, &mut 0).joint(lane),
+        Some((group, lane)) => {
+            let mut joints = JointLanes::IDENTITY;
+            sample_group(group, time_secs, &mut 0, &mut joints);
+            joints.joint(lane)
+        }
         None => skeleton.rest().get(joint.index()).copied().unwrap_or_default(),
     }
 }
 
-#[inline]
-fn sample_group(group: &TrackGroup, time_secs: f32, guess: &mut usize) -> JointLanes {
+#[inline(always)]
+fn sample_group(group: &TrackGroup, time_secs: f32, guess: &mut usize, joints: &mut JointLanes) {
     let (times_secs, keys) = (group.times_secs(), group.keys());
     let last = times_secs.len() - 1;
     if time_secs >= times_secs[last] {
-        return keys[last].joints;
+        *joints = keys[last].joints;
+        return;
     }
     if time_secs.is_nan() || time_secs <= times_secs[0] {
-        return keys[0].joints;
+        *joints = keys[0].joints;
+        return;
     }
     let from = span_at(times_secs, time_secs, *guess);
     *guess = from;
@@ -43,7 +49,7 @@ fn sample_group(group: &TrackGroup, time_secs: f32, guess: &mut usize) -> JointL
     let start_secs = f64::from(times_secs[from]);
     let fraction = (f64::from(time_secs) - start_secs) / (f64::from(times_secs[to]) - start_secs);
     let key = &keys[from];
-    key.joints.toward(&keys[to].joints, &key.arc, fraction as f32)
+    joints.set_between(&key.joints, &keys[to].joints, &key.arc, fraction as f32);
 }
 
 /// The key at or before a time that lies between the first and the last key: the guess where it holds, else a binary

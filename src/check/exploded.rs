@@ -57,28 +57,15 @@ pub(super) fn note_exploded(
     }
 }
 
-/// Fraction of the edges that grew far more, from the bind pose to this one, than the median edge.
+/// Fraction of the edges that grew far more, from the bind pose to this one, than the median edge. 0 where they are clearly no more than
+/// [`TORN_FRACTION`].
 fn torn_fraction(mesh: &Mesh, looked_at: usize, palette: &Palette) -> f64 {
-    let posed = |vertex: u32| -> Vec3 {
-        skin_position(
-            palette,
-            &mesh.influences[vertex as usize],
-            mesh.positions[vertex as usize],
-        )
-    };
     let stride = (mesh.triangle_count() / looked_at).max(1);
     let mut ratios = Vec::with_capacity(looked_at * 3);
-    for corners in mesh.indices.chunks_exact(3).step_by(stride) {
-        for [a, b] in [[0, 1], [1, 2], [2, 0]].map(|edge| edge.map(|corner: usize| corners[corner])) {
-            let weighted = |vertex: u32| mesh.influences[vertex as usize].weights != [0.0; 4];
-            let bind_length = mesh.positions[a as usize].distance(mesh.positions[b as usize]);
-            let ratio = posed(a).distance(posed(b)) / bind_length;
-            if bind_length > 0.0 && ratio.is_finite() && weighted(a) && weighted(b) {
-                ratios.push(ratio);
-            }
-        }
+    for &corners in mesh.indices.as_chunks::<3>().0.iter().step_by(stride) {
+        add_ratios(mesh, corners, palette, &mut ratios);
     }
-    if ratios.is_empty() {
+    if ratios.is_empty() || is_whole(&ratios) {
         return 0.0;
     }
     let middle = ratios.len() / 2;
@@ -88,4 +75,28 @@ fn torn_fraction(mesh: &Mesh, looked_at: usize, palette: &Palette) -> f64 {
         .filter(|&&ratio| ratio > TORN * median.max(f32::MIN_POSITIVE))
         .count();
     torn as f64 / ratios.len() as f64
+}
+
+/// By how much the edges of a triangle grew.
+fn add_ratios(mesh: &Mesh, corners: [u32; 3], palette: &Palette, ratios: &mut Vec<f32>) {
+    let influences = corners.map(|vertex| &mesh.influences[vertex as usize]);
+    let bind = corners.map(|vertex| mesh.positions[vertex as usize]);
+    let posed: [Vec3; 3] = std::array::from_fn(|corner| skin_position(palette, influences[corner], bind[corner]));
+    let weighted = influences.map(|influences| influences.weights != [0.0; 4]);
+    for (a, b) in [(0, 1), (1, 2), (2, 0)] {
+        let bind_length = bind[a].distance(bind[b]);
+        let ratio = posed[a].distance(posed[b]) / bind_length;
+        if bind_length > 0.0 && ratio.is_finite() && weighted[a] && weighted[b] {
+            ratios.push(ratio);
+        }
+    }
+}
+
+/// Whether so many edges kept half their length that the median did too, and so few are longer than the torn ones would be then that
+/// nothing is torn: that spares most clips the search for the median.
+fn is_whole(ratios: &[f32]) -> bool {
+    const HALF: f32 = 0.5;
+    let kept = ratios.iter().filter(|&&ratio| ratio >= HALF).count();
+    let long = ratios.iter().filter(|&&ratio| ratio > TORN * HALF).count();
+    2 * kept > ratios.len() && long as f64 / ratios.len() as f64 <= TORN_FRACTION
 }

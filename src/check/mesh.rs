@@ -1,5 +1,7 @@
 //! Triangles and vertices that add nothing to the picture, or harm it.
 
+use std::cell::OnceCell;
+
 use glam::DVec3;
 
 use crate::diagnostic::collect::{Diagnostics, Tally, counted};
@@ -12,19 +14,45 @@ const LEAST_HEIGHT: f64 = 1e-6;
 
 /// The triangles without area, in their order.
 pub(crate) fn flat_triangles(mesh: &Mesh) -> impl Iterator<Item = u32> {
-    let is_flat = flatness(mesh);
+    flat_of(mesh, Flatness::of(mesh, &used_vertices(mesh)))
+}
+
+fn flat_of(mesh: &Mesh, flatness: Flatness) -> impl Iterator<Item = u32> {
     triangles(mesh)
-        .filter(move |(_, corners)| is_flat(*corners))
+        .filter(move |&(_, corners)| flatness.is_flat(mesh, corners))
         .map(|(triangle, _)| triangle)
 }
 
-/// Whether a triangle has no area.
-fn flatness(mesh: &Mesh) -> impl Fn([u32; 3]) -> bool {
-    let corners = mesh.indices.iter().map(|&vertex| mesh.positions[vertex as usize]);
-    let least_height = LEAST_HEIGHT * diagonal(&Aabb::from_points(corners));
-    move |corners| {
-        let corners = corners.map(|vertex| mesh.positions[vertex as usize].as_dvec3());
-        is_flat(corners, least_height)
+/// What tells whether a triangle of a mesh has an area.
+#[derive(Clone, Copy)]
+struct Flatness {
+    least_height: f64,
+    /// A square of twice an area, in f32, that surely is one.
+    surely: f32,
+}
+
+impl Flatness {
+    /// That of a mesh; `used` are its [`used_vertices`].
+    fn of(mesh: &Mesh, used: &[bool]) -> Self {
+        let corners = mesh.positions.iter().zip(used).filter(|&(_, used)| *used);
+        let diagonal = diagonal(&Aabb::from_points(corners.map(|(&position, _)| position)));
+        let least_height = LEAST_HEIGHT * diagonal;
+        // No side is longer than the diagonal, so twice the area of a flat triangle is a millionth of its square at most. What f32 rounds in
+        // a cross product of two sides is less than that again. Four of these are sure, unless numbers are so small that f32 loses digits.
+        let area = 4.0 * least_height * diagonal;
+        Self {
+            least_height,
+            surely: ((area * area) as f32).max(1e-30),
+        }
+    }
+
+    /// Whether a triangle has no area.
+    #[inline]
+    fn is_flat(&self, mesh: &Mesh, corners: [u32; 3]) -> bool {
+        let corners = corners.map(|vertex| mesh.positions[vertex as usize]);
+        let [a, b, c] = corners;
+        let has_area = (b - a).cross(c - a).length_squared() > self.surely;
+        !has_area && is_flat(corners.map(|corner| corner.as_dvec3()), self.least_height)
     }
 }
 
@@ -41,7 +69,7 @@ pub(crate) fn used_vertices(mesh: &Mesh) -> Vec<bool> {
 pub(super) fn note_useless(mesh: &Mesh, places: &dyn Places, diagnostics: &mut Diagnostics) {
     let used = used_vertices(mesh);
     let (mut flat, mut unused) = (Tally::default(), Tally::default());
-    flat_triangles(mesh).for_each(|triangle| flat.add(triangle));
+    flat_of(mesh, Flatness::of(mesh, &used)).for_each(|triangle| flat.add(triangle));
     for (vertex, _) in (0u32..).zip(used).filter(|(_, used)| !used) {
         unused.add(vertex);
     }
@@ -76,7 +104,12 @@ pub(super) fn note_turned_away(model: &Model, places: &dyn Places, diagnostics: 
         let normals = corners.map(|vertex| mesh.normals[vertex as usize].as_dvec3());
         normals.into_iter().all(|normal| side.dot(normal) < 0.0)
     };
-    let is_flat = flatness(mesh);
+    // Asked of few triangles of few models.
+    let flatness = OnceCell::new();
+    let is_flat = |corners: [u32; 3]| {
+        let flatness = flatness.get_or_init(|| Flatness::of(mesh, &used_vertices(mesh)));
+        flatness.is_flat(mesh, corners)
+    };
     let (mut unseen, mut dark) = (Tally::default(), Tally::default());
     for submesh in &mesh.submeshes {
         let material = &model.materials[submesh.material as usize];
@@ -114,7 +147,7 @@ pub(super) fn note_turned_away(model: &Model, places: &dyn Places, diagnostics: 
 }
 
 /// Number and corners of each triangle.
-fn triangles(mesh: &Mesh) -> impl Iterator<Item = (u32, [u32; 3])> {
+pub(super) fn triangles(mesh: &Mesh) -> impl Iterator<Item = (u32, [u32; 3])> {
     let (corners, _) = mesh.indices.as_chunks::<3>();
     (0u32..).zip(corners.iter().copied())
 }
@@ -133,136 +166,4 @@ fn is_flat([a, b, c]: [DVec3; 3], least_height: f64) -> bool {
     let longest_squared = sides.into_iter().fold(0.0, f64::max);
     // Twice the area is side times height.
     (b - a).cross(c - a).length_squared() <= least_height * least_height * longest_squared
-}
-
-/// Notes triangles of the same three vertices, and edges of more than two triangles. Both come from sorted lists, so a vertex or an
-/// edge with any number of triangles costs hardly more than others. Vertices count as the same by their number, not by their place: a mesh
-/// may well be sewn together of sheets that touch.
-pub(super) fn note_repeated(mesh: &Mesh, places: &dyn Places, diagnostics: &mut Diagnostics) {
-    let mut by_corners = by_corners(mesh);
-    let repeated: Vec<u32> = repeated(&by_corners).map(|(_, triangle)| triangle).collect();
-    note_same_corners(repeated, places, diagnostics);
-    by_corners.dedup_by_key(|(corners, _)| *corners);
-    note_crowded_edges(by_corners, mesh.vertex_count(), places, diagnostics);
-}
-
-/// Each triangle that has the vertices of another one before, after that one.
-pub(crate) fn repeated_triangles(mesh: &Mesh) -> Vec<(u32, u32)> {
-    repeated(&by_corners(mesh)).collect()
-}
-
-/// Triangles with their corners in order, sorted by these. One with equal corners is no triangle; it is told of elsewhere.
-fn by_corners(mesh: &Mesh) -> Vec<([u32; 3], u32)> {
-    let with_area: Vec<([u32; 3], u32)> = triangles(mesh)
-        .map(|(triangle, mut corners)| {
-            corners.sort_unstable();
-            (corners, triangle)
-        })
-        .filter(|([a, b, c], _)| a != b && b != c)
-        .collect();
-    sorted_by_vertex(
-        &with_area,
-        mesh.vertex_count(),
-        |&([a, ..], _)| a,
-        |&([_, b, c], triangle)| (b, c, triangle),
-    )
-}
-
-/// Sorts by a vertex, and what has the same vertex by a key. The first is done by counting: a mesh has few triangles at each vertex.
-fn sorted_by_vertex<T: Copy, K: Ord>(
-    items: &[T],
-    vertex_count: usize,
-    vertex_of: impl Fn(&T) -> u32,
-    key_of: impl Fn(&T) -> K,
-) -> Vec<T> {
-    // Where the items of each vertex end; filled from the back, where they begin.
-    let mut places = vec![0_usize; vertex_count + 1];
-    for item in items {
-        places[vertex_of(item) as usize] += 1;
-    }
-    let mut end = 0;
-    for place in &mut places {
-        end += *place;
-        *place = end;
-    }
-    let mut sorted = items.to_vec();
-    for &item in items {
-        let place = &mut places[vertex_of(&item) as usize];
-        *place -= 1;
-        sorted[*place] = item;
-    }
-    for ends in places.windows(2) {
-        sorted[ends[0]..ends[1]].sort_unstable_by_key(&key_of);
-    }
-    sorted
-}
-
-fn repeated(by_corners: &[([u32; 3], u32)]) -> impl Iterator<Item = (u32, u32)> {
-    let pairs = by_corners.windows(2).filter(|pair| pair[0].0 == pair[1].0);
-    pairs.map(|pair| (pair[0].1, pair[1].1))
-}
-
-fn note_same_corners(mut repeated: Vec<u32>, places: &dyn Places, diagnostics: &mut Diagnostics) {
-    if repeated.is_empty() {
-        return;
-    }
-    repeated.sort_unstable();
-    let mut tally = Tally::default();
-    repeated.into_iter().for_each(|triangle| tally.add(triangle));
-    diagnostics.add(
-        &codes::TRIANGLES_REPEATED,
-        places.of_rows(&tally, Subject::Triangle, Entry::Triangle),
-        format!(
-            "{} the same three vertices as another one before.",
-            counted(tally.count, "triangle has", "triangles have")
-        ),
-    );
-}
-
-/// Takes different triangles with their corners in order.
-fn note_crowded_edges(
-    mut triangles: Vec<([u32; 3], u32)>,
-    vertex_count: usize,
-    places: &dyn Places,
-    diagnostics: &mut Diagnostics,
-) {
-    let edges: Vec<[u32; 2]> = triangles.iter().flat_map(|(corners, _)| edges_of(*corners)).collect();
-    let edges = sorted_by_vertex(&edges, vertex_count, |&[from, _]| from, |&[_, to]| to);
-    let mut crowded: Vec<[u32; 2]> = edges
-        .windows(3)
-        .filter(|three| three[0] == three[2])
-        .map(|three| three[0])
-        .collect();
-    crowded.dedup();
-    if crowded.is_empty() {
-        return;
-    }
-    // The place of each edge is the first triangle too many.
-    let mut met = vec![0_u32; crowded.len()];
-    let mut third = Tally::default();
-    triangles.sort_unstable_by_key(|(_, triangle)| *triangle);
-    for (corners, triangle) in triangles {
-        for edge in edges_of(corners)
-            .iter()
-            .filter_map(|edge| crowded.binary_search(edge).ok())
-        {
-            met[edge] += 1;
-            if met[edge] == 3 {
-                third.add(triangle);
-            }
-        }
-    }
-    diagnostics.add(
-        &codes::EDGES_CROWDED,
-        places.of_rows(&third, Subject::Triangle, Entry::Triangle),
-        format!(
-            "{} to more than two triangles.",
-            counted(third.count, "edge belongs", "edges belong")
-        ),
-    );
-}
-
-/// The edges of corners in order, each from its lesser end.
-fn edges_of([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
-    [[a, b], [b, c], [a, c]]
 }

@@ -6,13 +6,15 @@ mod exploded;
 mod keys;
 mod mesh;
 mod overflow;
+mod repeated;
 pub mod report;
 mod rig;
 pub mod sarif;
 mod texture;
 
 pub(crate) use keys::{is_still, surplus_keys};
-pub(crate) use mesh::{flat_triangles, repeated_triangles, used_vertices};
+pub(crate) use mesh::{flat_triangles, used_vertices};
+pub(crate) use repeated::repeated_triangles;
 pub(crate) use texture::tangents_against;
 
 use crate::anim::CompiledClip;
@@ -40,7 +42,7 @@ pub async fn model_in(
     at(0).await;
     mesh::note_useless(&model.mesh, places, &mut diagnostics);
     at(1).await;
-    mesh::note_repeated(&model.mesh, places, &mut diagnostics);
+    repeated::note_repeated(&model.mesh, places, &mut diagnostics);
     at(2).await;
     mesh::note_turned_away(model, places, &mut diagnostics);
     at(3).await;

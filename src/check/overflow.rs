@@ -1,6 +1,6 @@
 //! Finds clips that take a bone, or a vertex on it, further than `f32` can hold.
 
-use glam::{Affine3A, DAffine3, DMat3, DVec3};
+use glam::{Affine3A, DAffine3, DMat3, DVec3, Vec3A};
 
 use crate::anim::{CompiledClip, PoseBuffers};
 use crate::diagnostic::collect::{Diagnostics, Place};
@@ -37,15 +37,16 @@ pub(super) fn note_overflows(
 
 /// For each joint the greatest |x|, |y| and |z| of the vertices that it moves, in bind space.
 fn reaches(model: &Model) -> Vec<DVec3> {
-    let mut reaches = vec![DVec3::ZERO; model.skeleton.joint_count()];
+    let mut reaches = vec![Vec3A::ZERO; model.skeleton.joint_count()];
     for (influences, position) in model.mesh.influences.iter().zip(&model.mesh.positions) {
+        let position = Vec3A::from(*position).abs();
         let weighted = influences.joints.iter().zip(&influences.weights);
         for (&joint, _) in weighted.filter(|(_, weight)| **weight > 0.0) {
             let reach = &mut reaches[joint as usize];
-            *reach = reach.max(position.abs().as_dvec3());
+            *reach = reach.max(position);
         }
     }
-    reaches
+    reaches.into_iter().map(Vec3A::as_dvec3).collect()
 }
 
 /// Whether the bounds of the keys alone show that nothing overflows at any time: a chain of joints scales by no more than

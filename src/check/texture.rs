@@ -67,6 +67,8 @@ pub(super) fn note_tangent_signs(model: &Model, places: &dyn Places, diagnostics
 /// are looked at, and only those of which every triangle contradicts the sign: where mirrored and other triangles share a vertex, no
 /// sign is right, and the seam is too thin to be seen. glTF leaves it to the tangents where the green of its maps points: there a sign
 /// contradicts what most of a material's have.
+///
+/// One triangle that agrees clears its vertices, and the others around these are not asked.
 pub(crate) fn tangents_against(model: &Model) -> impl Iterator<Item = u32> {
     let mesh = &model.mesh;
     let greens = match model.front {
@@ -74,28 +76,36 @@ pub(crate) fn tangents_against(model: &Model) -> impl Iterator<Item = u32> {
         Front::Positive => model.greens(),
     };
     let green = |material: usize| greens.get(material).copied().flatten().unwrap_or(Green::Down);
-    let (mut accused, mut cleared) = (vec![false; mesh.vertex_count()], vec![false; mesh.vertex_count()]);
+    let (mut accused, mut cleared) = (Vec::new(), vec![false; mesh.vertex_count()]);
     let (triangles, _) = mesh.indices.as_chunks::<3>();
     for (wanted, sign) in [(Green::Down, 1.0), (Green::Up, -1.0)] {
         let is_such = |material: usize| {
             !mesh.tangents.is_empty() && model.materials[material].normal_map.is_some() && green(material) == wanted
         };
+        if !(0..model.materials.len()).any(is_such) {
+            continue;
+        }
         for corners in model.triangles_of(is_such).map(|triangle| triangles[triangle]) {
+            let is_clear = corners.map(|vertex| cleared[vertex as usize]);
+            if is_clear == [true; 3] {
+                continue;
+            }
             let Some(along_v) = mesh.along_v(corners) else {
                 continue;
             };
-            for vertex in corners {
+            for (vertex, _) in corners.into_iter().zip(is_clear).filter(|(_, is_clear)| !is_clear) {
                 let bitangent = mesh.bitangent(vertex) * sign;
                 let cosine = bitangent.dot(along_v);
                 // Most agree, and need no lengths.
-                let is_against = cosine < 0.0 && cosine < AGAINST * bitangent.length() * along_v.length();
-                accused[vertex as usize] |= is_against;
-                cleared[vertex as usize] |= !is_against;
+                if cosine < 0.0 && cosine < AGAINST * bitangent.length() * along_v.length() {
+                    accused.push(vertex);
+                } else {
+                    cleared[vertex as usize] = true;
+                }
             }
         }
     }
-    let vertices = (0u32..).zip(accused.into_iter().zip(cleared));
-    vertices
-        .filter(|(_, (accused, cleared))| *accused && !*cleared)
-        .map(|(vertex, _)| vertex)
+    accused.sort_unstable();
+    accused.dedup();
+    accused.into_iter().filter(move |&vertex| !cleared[vertex as usize])
 }

@@ -54,7 +54,8 @@ pub use document::*;
 pub use excerpt::{Excerpt, LineIndex, excerpt, is_printable};
 pub use label::Section;
 pub use likeness::{begins_like_another, begins_like_model};
-pub use quick::QuickVertices;
+pub use quick::QuickRows;
+pub(crate) use quick::QuickRun;
 pub use write::write;
 
 use self::reader::Reader;
@@ -72,8 +73,8 @@ pub struct Parsed {
     pub lines: LineMap,
     /// What was mended or is worth knowing, in the order of the file.
     pub diagnostics: Vec<Diagnostic>,
-    /// Where its vertices are, if a second reader can pass over them.
-    pub quick_vertices: Option<QuickVertices>,
+    /// Which rows a second reader can pass over.
+    pub quick: QuickRows,
 }
 
 impl Places for Parsed {
@@ -120,12 +121,17 @@ pub async fn parse_in(bytes: &[u8], slices: &Slices) -> Result<Parsed, Fault> {
     let (materials, material_lines) = sections::materials(&mut reader, counts.materials).await?;
     let (subsets, subset_lines) = sections::subsets(&mut reader, counts.subsets).await?;
     let vertices = sections::vertices(&mut reader, counts.vertices, counts.bones).await?;
-    let (triangles, triangle_lines) = sections::triangles(&mut reader, counts.triangles, counts.vertices).await?;
+    let triangles = sections::triangles(&mut reader, counts.triangles, counts.vertices).await?;
+    let mut quick = QuickRows {
+        vertices: vertices.quick,
+        triangles: triangles.quick,
+        ..QuickRows::default()
+    };
     let mut document = Document {
         materials,
         subsets,
         vertices: vertices.vertices,
-        triangles,
+        triangles: triangles.triangles,
         ..Document::default()
     };
     let mut lines = LineMap {
@@ -133,7 +139,7 @@ pub async fn parse_in(bytes: &[u8], slices: &Slices) -> Result<Parsed, Fault> {
         subsets: subset_lines,
         vertices: vertices.lines,
         vertices_apart: vertices.apart,
-        triangles: triangle_lines,
+        triangles: triangles.lines,
         ..LineMap::default()
     };
     // A file without bones has all of the last three sections, empty, or none of them.
@@ -147,7 +153,8 @@ pub async fn parse_in(bytes: &[u8], slices: &Slices) -> Result<Parsed, Fault> {
         (document.bone_parents, lines.bone_parents) = sections::hierarchy(&mut reader, counts.bones).await?;
     }
     if reader.begin_optional(Section::AnimationClips, counts.clips, skinned)? {
-        (document.clips, lines.clips) = sections::clips(&mut reader, counts.clips, counts.bones).await?;
+        let clips = sections::clips(&mut reader, counts.clips, counts.bones).await?;
+        (document.clips, lines.clips, quick.tracks) = (clips.clips, clips.lines, clips.quick);
     }
     if let Some(token) = reader.cursor.peek_token() {
         reader.note(token, DiagnosticKind::TextSurplus);
@@ -160,7 +167,7 @@ pub async fn parse_in(bytes: &[u8], slices: &Slices) -> Result<Parsed, Fault> {
         document,
         lines,
         diagnostics: reader.kinds.into_diagnostics(),
-        quick_vertices: vertices.quick,
+        quick,
     })
 }
 

@@ -17,7 +17,6 @@ pub(super) enum Reading {
 /// only not one of the plain cases, and [`read`] decides.
 #[inline(always)]
 pub(super) fn plain(window: &[u8; WINDOW]) -> Option<(f32, usize)> {
-    let end = end_of_token(window)?;
     let negative = window[1] == b'-';
     let start = 1 + usize::from(negative);
     let first = u64::from(window[start].wrapping_sub(b'0'));
@@ -25,23 +24,24 @@ pub(super) fn plain(window: &[u8; WINDOW]) -> Option<(f32, usize)> {
         return None;
     }
     // Only the sign bit, so that -0 keeps it.
-    let signed = |value: f32| (f32::from_bits(value.to_bits() ^ (u32::from(negative) << 31)), end);
+    let signed = |value: f32, end| (f32::from_bits(value.to_bits() ^ (u32::from(negative) << 31)), end);
     // One or two digits before the point are the common cases by far.
     let second = u64::from(window[start + 1].wrapping_sub(b'0'));
     let (whole, point) = if window[start + 1] == b'.' {
         (first, start + 1)
     } else if window[start + 2] == b'.' && second <= 9 {
         (first * 10 + second, start + 2)
-    } else if start + 1 == end {
-        return Some(signed(first as i64 as f32));
+    } else if window[start + 1] <= b' ' {
+        return Some(signed(first as i64 as f32, start + 1));
     } else {
         let (whole, behind) = whole_part(window, start)?;
-        if behind == end {
+        if window[behind & INSIDE] <= b' ' {
             // Seven digits, which f32 holds exactly.
-            return Some(signed(whole as i64 as f32));
+            return Some(signed(whole as i64 as f32, behind));
         }
         if window[behind & INSIDE] != b'.' {
-            return with_exponent(window, whole, 0, behind, end).map(signed);
+            let end = end_of_token(window)?;
+            return with_exponent(window, whole, 0, behind, end).map(|value| signed(value, end));
         }
         (whole, behind)
     };
@@ -50,10 +50,12 @@ pub(super) fn plain(window: &[u8; WINDOW]) -> Option<(f32, usize)> {
         return None;
     }
     let mantissa = whole * TEN_TO[count & 15] + part;
-    if point + 1 + count == end {
-        return scaled(mantissa, PART_OF[count & 15]).map(signed);
+    let behind = point + 1 + count;
+    if window[behind & INSIDE] <= b' ' {
+        return scaled(mantissa, PART_OF[count & 15]).map(|value| signed(value, behind));
     }
-    more_digits(window, mantissa, count, point + 1 + count, end).map(signed)
+    let end = end_of_token(window)?;
+    more_digits(window, mantissa, count, behind, end).map(|value| signed(value, end))
 }
 
 /// Goes on behind `count` digits of the fraction: with more of them, when these were eight, and an exponent.
@@ -102,43 +104,23 @@ fn whole_part(window: &[u8; WINDOW], start: usize) -> Option<(u64, usize)> {
 /// where a blank or a line end is. They must fit into 32 bytes.
 #[inline(always)]
 pub(super) fn plain_wholes<const N: usize>(window: &[u8; WINDOW]) -> Option<([u32; N], usize)> {
-    // All their ends at once, so that no number waits for the one before it.
-    let mut ends = 0;
-    for lane in 0..4 {
-        ends |= gathered(all_blanks(eight(window, 8 * lane))) << (8 * lane);
-    }
+    const { assert!(N <= 4) };
     let mut numbers = [0; N];
     let mut start = 0;
     for number in &mut numbers {
-        let end = ends.trailing_zeros() as usize;
         let (value, count) = leading_digits(eight(window, start));
-        if count == 0 || count == 8 || start + count != end {
+        // At most seven digits, so that the value fits, and a blank behind them.
+        let end = start + count;
+        if count == 0 || count == 8 || window[end & INSIDE] > b' ' {
             return None;
         }
-        // At most seven digits, so the value fits.
         *number = value as u32;
         start = end + 1;
-        ends &= ends - 1;
     }
     Some((numbers, start - 1))
 }
 
-/// The top bit of each byte that is a blank or another control character.
-#[inline(always)]
-fn all_blanks(chunk: u64) -> u64 {
-    const TOP_BITS: u64 = 0x8080_8080_8080_8080;
-    // With its top bit set no byte borrows from the next one; the bit is gone where less than 0x21 was below it.
-    !((chunk | TOP_BITS).wrapping_sub(0x2121_2121_2121_2121) | chunk) & TOP_BITS
-}
-
-/// The eight top bits as one byte, the first byte's lowest.
-#[inline(always)]
-fn gathered(top_bits: u64) -> u64 {
-    (top_bits >> 7).wrapping_mul(0x0102_0408_1020_4080) >> 56
-}
-
-/// The place of the first blank or line end behind `window[1]`, for tokens of up to 15 bytes. It takes no look at the number
-/// itself, so that the processor can begin with the next one while it still works on this one.
+/// The place of the first blank or line end behind `window[1]`, for tokens of up to 15 bytes.
 #[inline(always)]
 fn end_of_token(window: &[u8; WINDOW]) -> Option<usize> {
     let first = blanks(eight(window, 1));

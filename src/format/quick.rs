@@ -24,17 +24,59 @@ const LONG: VertexLabels = [
 /// As imm_engine writes them.
 const SHORT: VertexLabels = [b"P:", b"T:", b"N:", b"T:", b"W:", b"I:"];
 
-/// Where the vertices of a file are that all stand as the books' exporter writes them: who reads the same bytes with this reader comes to
-/// the same vertices, and can pass over them.
+/// Which rows of a file all stand as the books' exporter writes them: who reads the same bytes with this reader comes to the same, and can
+/// pass over them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct QuickRows {
+    /// The vertices, which have weights where there are bones.
+    pub(crate) vertices: Option<QuickRun>,
+    /// The triangles.
+    pub(crate) triangles: Option<QuickRun>,
+    /// Of each clip the keys of each bone.
+    pub(crate) tracks: Vec<Vec<Option<QuickRun>>>,
+}
+
+impl QuickRows {
+    /// Whether all vertices, all triangles and the keys of all bones are so.
+    pub fn are_all(&self) -> bool {
+        let tracks = self.tracks.iter().flatten();
+        self.vertices.is_some() && self.triangles.is_some() && tracks.into_iter().all(Option::is_some)
+    }
+}
+
+/// Rows that follow one another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct QuickVertices {
+pub(crate) struct QuickRun {
     /// Offset of the first, and behind the last.
-    pub(crate) bytes: [usize; 2],
+    bytes: [usize; 2],
     /// Line behind the last, and its offset.
-    pub(crate) end_line: u32,
-    pub(crate) end_line_start: usize,
-    /// Whether they have weights.
-    pub(crate) bones: u32,
+    end_line: u32,
+    end_line_start: usize,
+}
+
+impl QuickRun {
+    /// What lies between two places.
+    pub(super) fn between(mut first: Cursor<'_>, end: Cursor<'_>) -> Self {
+        first.pass_empty_lines();
+        Self {
+            bytes: [first.at, end.at],
+            end_line: end.line,
+            end_line_start: end.line_start,
+        }
+    }
+
+    /// Goes from the first row behind the last. False, and nothing is passed, where they do not begin here.
+    pub(crate) fn pass(&self, cursor: &mut Cursor<'_>) -> bool {
+        let mut ahead = *cursor;
+        ahead.pass_empty_lines();
+        let begins_here = ahead.at == self.bytes[0];
+        if begins_here {
+            ahead.at = self.bytes[1];
+            (ahead.line, ahead.line_start) = (self.end_line, self.end_line_start);
+            *cursor = ahead;
+        }
+        begins_here
+    }
 }
 
 /// Reads a vertex; with bones, its blend indices are below `bones`. Also gives the line of its position.
@@ -71,7 +113,7 @@ pub(crate) fn vertex<const SHORT_LABELS: bool>(cursor: &mut Cursor<'_>, bones: u
 }
 
 /// Reads a triangle whose indices are below `vertices`. Also gives its line.
-#[inline]
+#[inline(always)]
 pub(crate) fn triangle(cursor: &mut Cursor<'_>, vertices: u32) -> Option<([u32; 3], u32)> {
     let mut ahead = *cursor;
     let line = ahead.line;

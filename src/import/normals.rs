@@ -14,38 +14,49 @@ pub(super) fn is_direction(vector: Vec3) -> bool {
     vector.is_finite() && vector.as_dvec3().length_squared() > LEAST_LENGTH * LEAST_LENGTH
 }
 
-/// A direction at unit length. One that is as near to it as numbers are stays, so that a second time changes nothing.
-pub(super) fn at_unit_length(direction: Vec3) -> Vec3 {
-    let length = direction.as_dvec3().length();
-    if (length - 1.0).abs() <= f64::from(f32::EPSILON) {
-        return direction;
+/// A stored vector at unit length, if it [`is_direction`]. One that is as near to it as numbers are stays, so that a second time changes
+/// nothing.
+#[inline]
+pub(super) fn unit_direction(vector: Vec3) -> Option<Vec3> {
+    let wide = vector.as_dvec3();
+    let length_squared = wide.length_squared();
+    // The square of a finite f32 is finite in f64.
+    if !(length_squared > LEAST_LENGTH * LEAST_LENGTH && length_squared < f64::INFINITY) {
+        return None;
     }
-    (direction.as_dvec3() / length).as_vec3()
+    let length = length_squared.sqrt();
+    let is_unit = (length - 1.0).abs() <= f64::from(f32::EPSILON);
+    Some(if is_unit { vector } else { (wide / length).as_vec3() })
 }
 
-/// Makes the normals of a mesh unit vectors. Those that are zero or not finite become the mean of the triangles around, weighted
-/// by their area; a vertex without such triangles gets +y. `lines` gives the line of each normal in the file, or none; it is asked only if
-/// there is something to tell.
+/// Makes the normals of a mesh unit vectors. Those that are zero or not finite become 0; tells which they are.
+pub(super) fn make_normals_unit(mesh: &mut Mesh) -> Tally {
+    let mut missing = Tally::default();
+    for (index, normal) in (0u32..).zip(&mut mesh.normals) {
+        *normal = unit_direction(*normal).unwrap_or_else(|| {
+            missing.add(index);
+            Vec3::ZERO
+        });
+    }
+    missing
+}
+
+/// Gives normals to the vertices that [`make_normals_unit`] found to have none: the mean of the triangles around, weighted by their area; a
+/// vertex without such triangles gets +y. `lines` gives the line of each normal in the file, or none; it is asked only if there is something
+/// to tell.
 pub(super) fn mend_normals(
     mesh: &mut Mesh,
+    missing: &Tally,
     handedness: Handedness,
     lines: impl FnOnce() -> Vec<u32>,
     diagnostics: &mut Diagnostics,
 ) {
-    let mut missing = Tally::default();
-    for (index, normal) in (0u32..).zip(&mut mesh.normals) {
-        if is_direction(*normal) {
-            *normal = at_unit_length(*normal);
-        } else {
-            missing.add(index);
-        }
-    }
     if missing.count == 0 {
         return;
     }
     diagnostics.add(
         &codes::NORMALS_MISSING,
-        Place::of_rows(&missing, Subject::Vertex, &lines()),
+        Place::of_rows(missing, Subject::Vertex, &lines()),
         format!(
             "{} a normal that is zero or not finite; computed from the triangles.",
             counted(missing.count, "vertex has", "vertices have")
@@ -53,7 +64,7 @@ pub(super) fn mend_normals(
     );
     let computed = area_weighted(mesh, handedness);
     for (normal, computed) in mesh.normals.iter_mut().zip(computed) {
-        if !is_direction(*normal) {
+        if *normal == Vec3::ZERO {
             *normal = computed.try_normalize().unwrap_or(DVec3::Y).as_vec3();
         }
     }
@@ -75,15 +86,13 @@ fn area_weighted(mesh: &Mesh, handedness: Handedness) -> Vec<DVec3> {
 const CLEAR_FRACTION: f64 = 0.8;
 
 /// Compares the side that each triangle's winding faces with the side of its normals: both agree in a left-handed file
-/// (clockwise fronts), and disagree in a right-handed one. Left without any evidence, as in the books.
+/// (clockwise fronts), and disagree in a right-handed one. Left without any evidence, as in the books. A corner without a normal, which is 0,
+/// says nothing; the others still do.
 pub(super) fn handedness_of(mesh: &Mesh, diagnostics: &mut Diagnostics) -> Handedness {
     let (mut agree, mut disagree) = (0u32, 0u32);
     for &corners in mesh.indices.as_chunks::<3>().0 {
-        // A corner without a normal says nothing; the others still do.
-        let normals = corners.map(|vertex| mesh.normals[vertex as usize]);
-        let known = normals.into_iter().filter(|&normal| is_direction(normal));
-        let normal: DVec3 = known.map(|normal| at_unit_length(normal).as_dvec3()).sum();
-        let side = mesh.side_of(corners).dot(normal);
+        let [a, b, c] = corners.map(|vertex| mesh.normals[vertex as usize].as_dvec3());
+        let side = mesh.side_of(corners).dot(a + b + c);
         agree += u32::from(side > 0.0);
         disagree += u32::from(side < 0.0);
     }

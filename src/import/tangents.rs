@@ -1,6 +1,6 @@
 //! Tangents: unit length and a sign of ±1, computed from the texture coordinates where the file has none.
 
-use super::normals::{at_unit_length, is_direction};
+use super::normals::unit_direction;
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Code, Subject, codes};
 use crate::model::Mesh;
@@ -9,27 +9,23 @@ use crate::model::Mesh;
 /// not finite follow the u axis of the triangles around; where the texture coordinates give no direction, they are any vector
 /// square to the normal. `lines` gives the line of each tangent in the file, or none; it is asked only if there is something to tell.
 pub(super) fn mend_tangents(mesh: &mut Mesh, lines: impl Fn() -> Vec<u32>, diagnostics: &mut Diagnostics) {
-    let (mut missing, mut signs) = (Tally::default(), Tally::default());
-    for (index, tangent) in (0u32..).zip(&mesh.tangents) {
-        if !is_direction(tangent.truncate()) {
-            missing.add(index);
-        } else if tangent.w.abs() != 1.0 {
+    let (mut missing, mut signs) = (Vec::new(), Tally::default());
+    for (index, tangent) in (0u32..).zip(&mut mesh.tangents) {
+        let Some(direction) = unit_direction(tangent.truncate()) else {
+            missing.push(index);
+            continue;
+        };
+        if tangent.w.abs() != 1.0 {
             signs.add(index);
         }
+        *tangent = direction.extend(if tangent.w < 0.0 { -1.0 } else { 1.0 });
     }
-    let computed = if missing.count > 0 {
-        mesh.computed_tangents()
-    } else {
-        Vec::new()
-    };
-    for (index, tangent) in mesh.tangents.iter_mut().enumerate() {
-        let direction = tangent.truncate();
-        *tangent = if is_direction(direction) {
-            let sign = if tangent.w < 0.0 { -1.0 } else { 1.0 };
-            at_unit_length(direction).extend(sign)
-        } else {
-            computed[index]
-        };
+    let mut missing_tally = Tally::default();
+    if !missing.is_empty() {
+        for (&vertex, computed) in missing.iter().zip(mesh.computed_tangents_of(&missing)) {
+            mesh.tangents[vertex as usize] = computed;
+            missing_tally.add(vertex);
+        }
     }
     let mut warn = |code: &Code, tally: Tally, rule: &str| {
         if tally.count > 0 {
@@ -42,7 +38,7 @@ pub(super) fn mend_tangents(mesh: &mut Mesh, lines: impl Fn() -> Vec<u32>, diagn
         }
     };
     let rule = "a tangent that is zero or not finite; computed from the texture coordinates.";
-    warn(&codes::TANGENTS_MISSING, missing, rule);
+    warn(&codes::TANGENTS_MISSING, missing_tally, rule);
     warn(
         &codes::TANGENT_SIGN,
         signs,

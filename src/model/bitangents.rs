@@ -76,7 +76,7 @@ impl Model {
     /// The triangles with such a material, each once.
     pub fn triangles_of(&self, is_such: impl Fn(usize) -> bool) -> impl Iterator<Item = usize> {
         // How many such submeshes begin at a triangle, less those that end there.
-        let mut changes = vec![0_i64; self.mesh.triangle_count() + 1];
+        let mut changes = vec![0_i32; self.mesh.triangle_count() + 1];
         for submesh in &self.mesh.submeshes {
             if is_such(submesh.material as usize) {
                 changes[submesh.triangle_start as usize] += 1;

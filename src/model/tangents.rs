@@ -19,10 +19,19 @@ impl Mesh {
     /// A tangent for each vertex: along the u axis of the triangles around, square to the normal, which is a unit vector; w makes the
     /// bitangent go along v. Where the texture coordinates give no direction, it is any vector square to the normal.
     pub fn computed_tangents(&self) -> Vec<Vec4> {
-        let axes = texture_axes(self).into_iter();
+        let axes = texture_axes(self, |_| true).into_iter();
         axes.zip(&self.normals)
             .map(|(axes, &normal)| axes.tangent(normal))
             .collect()
+    }
+
+    /// The same tangents of some vertices alone: only the triangles around them are looked at closely.
+    pub(crate) fn computed_tangents_of(&self, vertices: &[u32]) -> Vec<Vec4> {
+        let mut is_asked = vec![false; self.vertex_count()];
+        vertices.iter().for_each(|&vertex| is_asked[vertex as usize] = true);
+        let axes = texture_axes(self, |vertex| is_asked.get(vertex).copied().unwrap_or(false));
+        let tangent = |&vertex: &u32| axes[vertex as usize].tangent(self.normals[vertex as usize]);
+        vertices.iter().map(tangent).collect()
     }
 }
 
@@ -50,12 +59,15 @@ impl TextureAxes {
     }
 }
 
-/// For each vertex the sum over its triangles, each weighted by its area. Triangles without an area on the surface or in
+/// For each vertex that is asked for the sum over its triangles, each weighted by its area. Triangles without an area on the surface or in
 /// the texture are skipped, and those of which the mesh lacks a corner.
-fn texture_axes(mesh: &Mesh) -> Vec<TextureAxes> {
+fn texture_axes(mesh: &Mesh, is_asked: impl Fn(usize) -> bool) -> Vec<TextureAxes> {
     let mut axes = vec![TextureAxes::default(); mesh.vertex_count()];
     for corners in mesh.indices.chunks_exact(3) {
         let [a, b, c] = [0, 1, 2].map(|corner| corners[corner] as usize);
+        if !(is_asked(a) || is_asked(b) || is_asked(c)) {
+            continue;
+        }
         let positions = [a, b, c].map(|vertex| mesh.positions.get(vertex));
         let tex_coords = [a, b, c].map(|vertex| mesh.tex_coords.get(vertex));
         let ([Some(at_a), Some(at_b), Some(at_c)], [Some(on_a), Some(on_b), Some(on_c)]) = (positions, tex_coords)

@@ -1,6 +1,6 @@
 //! The first triangle that a ray hits.
 
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, Vec3, Vec3A};
 
 use super::Ray;
 use crate::model::Mesh;
@@ -23,7 +23,7 @@ pub struct Hit {
 }
 
 /// The first triangle along a ray that `is_solid` accepts, from either side. `is_solid` is asked about candidates in no
-/// particular order. `positions` are the posed vertices, model space. `in_ray` is a buffer to use again.
+/// particular order. `positions` are the posed vertices, model space. `sides` is a buffer to use again.
 ///
 /// Edges are tested by products that are equal but for their sign in two neighbouring triangles, so no ray slips
 /// through between triangles with common corners (as in "Watertight Ray/Triangle Intersection", Woop, Benthin, Wald
@@ -33,24 +33,27 @@ pub fn pick(
     positions: &[Vec3],
     world_from_model: Affine3A,
     ray: Ray,
-    in_ray: &mut Vec<Vec3>,
+    sides: &mut Vec<u8>,
     is_solid: impl Fn(&Hit) -> bool,
 ) -> Option<Hit> {
     let ray_from_model = ray.ray_from_world() * world_from_model;
-    in_ray.clear();
-    in_ray.extend(
-        positions
-            .iter()
-            .map(|&position| ray_from_model.transform_point3(position)),
-    );
+    sides.clear();
+    sides.extend(positions.iter().map(|&position| sides_of(position, &ray_from_model)));
+    let side = |corner: u32| sides.get(corner as usize).copied().unwrap_or(0);
     let mut nearest: Option<Hit> = None;
     for (submesh, range) in mesh.submeshes.iter().enumerate() {
-        let first = range.triangle_start as usize;
-        let corners = mesh.indices.as_chunks::<3>().0.iter().enumerate();
-        for (triangle, corners) in corners.skip(first).take(range.triangle_count as usize) {
-            let [Some(&a), Some(&b), Some(&c)] = corners.map(|corner| in_ray.get(corner as usize)) else {
+        let mut triangles = mesh.triangles_of(range).iter();
+        while let Some(corners) = triangles.next() {
+            // Nearly all lie on one side of the ray.
+            if side(corners[0]) & side(corners[1]) & side(corners[2]) != 0 {
+                continue;
+            }
+            let end = range.triangle_start as usize + range.triangle_count as usize;
+            let triangle = end - triangles.len() - 1;
+            let [Some(a), Some(b), Some(c)] = corners.map(|corner| positions.get(corner as usize)) else {
                 continue;
             };
+            let [a, b, c] = [a, b, c].map(|&position| ray_from_model.transform_point3(position));
             let Some((barycentric, distance)) = meet(a, b, c) else {
                 continue;
             };
@@ -71,6 +74,17 @@ pub fn pick(
         }
     }
     nearest
+}
+
+/// On which sides of the z axis a point lies in the space of a ray: a bit each for right, above, left and below. None for a side on whose
+/// border it is.
+#[inline]
+fn sides_of(position: Vec3, ray_from_model: &Affine3A) -> u8 {
+    // x and y of what is greater than 0, and of what is less.
+    const ACROSS: u32 = 0b0011_0011;
+    let point = ray_from_model.transform_point3a(position.into());
+    let (more, less) = (point.cmpgt(Vec3A::ZERO), point.cmplt(Vec3A::ZERO));
+    ((more.bitmask() | less.bitmask() << 4) & ACROSS) as u8
 }
 
 /// Where the z axis, from 0 on, hits a triangle: barycentric weights, and z.

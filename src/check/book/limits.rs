@@ -6,7 +6,7 @@ use super::demo::{Book, DEMO_CLIP, DEMO_MATERIALS, DEMO_SCALE, SEEN_HEIGHTS};
 use crate::diagnostic::collect::{counted, named};
 use crate::diagnostic::limits::{MOST_BONE_INDEX, MOST_BONES, MOST_MATERIALS, MOST_VERTICES};
 use crate::diagnostic::{Code, Diagnostic, codes};
-use crate::format::{Document, Material, QuickVertices, Vertex};
+use crate::format::{Document, Keyframe, Material, QuickRows, QuickRun, Vertex};
 use crate::model::Handedness;
 
 /// What is known of a file beside its bytes. What is not known is not judged.
@@ -14,12 +14,27 @@ use crate::model::Handedness;
 pub struct Known<'a> {
     /// What the file means. Without it limits are found only in a file that the loader reads as it is meant.
     pub document: Option<&'a Document>,
-    /// Where the document's vertices stand in the bytes, so that they are not read again.
-    pub quick_vertices: Option<QuickVertices>,
+    /// Which of the document's rows stand as they should in the bytes, so that they are not read again.
+    pub quick: Option<&'a QuickRows>,
     /// Handedness of the model.
     pub handedness: Option<Handedness>,
     /// Names of maps for which there is no file.
     pub missing_maps: Option<&'a [String]>,
+}
+
+impl<'a> Known<'a> {
+    /// What the file means, and which of its rows need not be read again.
+    pub(super) fn rows(&self) -> Option<(&'a Document, &'a QuickRows)> {
+        self.document.zip(self.quick)
+    }
+
+    /// The keys of a bone in a clip, where they need not be read again.
+    pub(super) fn track(&self, clip: u32, bone: u32) -> Option<(&'a [Keyframe], &'a QuickRun)> {
+        let (document, quick) = self.rows()?;
+        let [clip, bone] = [clip, bone].map(|index| index as usize);
+        let keys = &document.clips.get(clip)?.bones.get(bone)?.keyframes;
+        Some((keys, quick.tracks.get(clip)?.get(bone)?.as_ref()?))
+    }
 }
 
 /// Something that a demo cannot show as it is meant.

@@ -70,8 +70,8 @@ const MATERIAL: [&str; 13] = [
 ];
 const KEY: [&str; 4] = ["Time", "Pos", "Scale", "Quat"];
 
-/// Reads a file as a book's loader does. Makes room only for what is there. Vertices of which is known that it reads them as they are meant
-/// are taken over.
+/// Reads a file as a book's loader does. Makes room only for what is there. Rows of which is known that it reads them as they are meant are
+/// taken over.
 pub fn read(book: Book, bytes: &[u8], known: &Known<'_>) -> Reading {
     let mut loader = Loader {
         stream: Stream::new(bytes),
@@ -87,11 +87,11 @@ pub fn read(book: Book, bytes: &[u8], known: &Known<'_>) -> Reading {
     loader.materials(counts.materials);
     loader.subsets(counts.materials);
     loader.vertices(counts.vertices, counts.bones, known);
-    loader.triangles(counts.triangles, counts.vertices);
+    loader.triangles(counts.triangles, counts.vertices, known);
     if counts.bones > 0 {
         loader.offsets(counts.bones);
         loader.hierarchy(counts.bones);
-        loader.clips(counts.clips, counts.bones);
+        loader.clips(counts.clips, counts.bones, known);
     }
     let Loader { stream, document } = loader;
     let (stop, mistake) = stream.into_troubles();
@@ -162,10 +162,11 @@ impl Loader<'_> {
 
     fn vertices(&mut self, count: u32, bones: u32, known: &Known<'_>) {
         self.stream.ruler("the vertices");
-        if let (Some(document), Some(quick)) = (known.document, &known.quick_vertices)
+        if let Some((document, quick)) = known.rows()
             && document.vertices.len() == count as usize
-            && quick.bones == bones
-            && self.stream.pass_over(quick)
+            && document.bone_parents.len() == bones as usize
+            && let (Some(last), Some(rows)) = (count.checked_sub(1), &quick.vertices)
+            && self.stream.pass_over(rows, Entry::Vertex(last))
         {
             self.document.vertices.clone_from(&document.vertices);
             return;
@@ -177,10 +178,19 @@ impl Loader<'_> {
         self.entries(count, Entry::Vertex, read, |document| &mut document.vertices);
     }
 
-    fn triangles(&mut self, count: u32, vertices: u32) {
+    fn triangles(&mut self, count: u32, vertices: u32, known: &Known<'_>) {
         self.stream.ruler("the triangles");
         // Of a `USHORT`, and of vertices that are there, as nearly all are.
         let end = vertices.min(1 << 16);
+        if let Some((document, quick)) = known.rows()
+            && document.triangles.len() == count as usize
+            && document.vertices.len() <= end as usize
+            && let (Some(last), Some(rows)) = (count.checked_sub(1), &quick.triangles)
+            && self.stream.pass_over(rows, Entry::Triangle(last))
+        {
+            self.document.triangles.clone_from(&document.triangles);
+            return;
+        }
         let read = |stream: &mut Stream<'_>, _| {
             let quick = stream.quick(|cursor| quick::triangle(cursor, end));
             quick.map_or_else(
@@ -209,7 +219,7 @@ impl Loader<'_> {
         self.entries(count, Entry::Bone, read, |document| &mut document.bone_parents);
     }
 
-    fn clips(&mut self, count: u32, bones: u32) {
+    fn clips(&mut self, count: u32, bones: u32, known: &Known<'_>) {
         self.stream.ruler("the clips");
         for clip in 0..count {
             let stream = &mut self.stream;
@@ -232,7 +242,16 @@ impl Loader<'_> {
                     return;
                 }
                 let mut keyframes = Vec::new();
-                for key in 0..keys {
+                let track = known
+                    .track(clip, bone)
+                    .filter(|(track, _)| track.len() == keys as usize);
+                if let Some((track, rows)) = track
+                    && let Some(key) = keys.checked_sub(1)
+                    && stream.pass_over(rows, Entry::Key { clip, bone, key })
+                {
+                    keyframes.extend_from_slice(track);
+                }
+                for key in keyframes.len() as u32..keys {
                     stream.entry = Entry::Key { clip, bone, key };
                     let keyframe = match stream.quick(quick::keyframe) {
                         Some((keyframe, _)) => keyframe,

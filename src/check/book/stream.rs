@@ -7,7 +7,7 @@ use std::fmt;
 
 use super::number::{Misfit, float_length, whole};
 use crate::diagnostic::{Entry, Position};
-use crate::format::{Cursor, QuickVertices};
+use crate::format::{Cursor, QuickRun};
 
 /// A run of bytes without blanks, and where it stands.
 #[derive(Clone, Copy, Debug)]
@@ -96,17 +96,14 @@ impl<'a> Stream<'a> {
         read(&mut self.cursor)
     }
 
-    /// Passes over vertices that [`quick`](Self::quick) reads as they are meant. False, and nothing is passed, where they do not begin here.
-    pub(super) fn pass_over(&mut self, vertices: &QuickVertices) -> bool {
-        let mut ahead = self.cursor;
-        ahead.pass_empty_lines();
-        let begins_here = !self.has_failed() && ahead.at == vertices.bytes[0];
-        if begins_here {
-            ahead.at = vertices.bytes[1];
-            (ahead.line, ahead.line_start) = (vertices.end_line, vertices.end_line_start);
-            self.cursor = ahead;
+    /// Passes over rows that [`quick`](Self::quick) reads as they are meant, of which `last` is the last. False, and nothing is passed,
+    /// where they do not begin here.
+    pub(super) fn pass_over(&mut self, rows: &QuickRun, last: Entry) -> bool {
+        let passes = !self.has_failed() && rows.pass(&mut self.cursor);
+        if passes {
+            self.entry = last;
         }
-        begins_here
+        passes
     }
 
     /// Reads a word that nobody looks at: the line above a section.

@@ -79,7 +79,7 @@ pub(super) fn check(
             let parsed = imported.and_then(|imported| imported.source.parsed(&bytes));
             let known = Known {
                 document: parsed.as_ref().map(|parsed| &parsed.document),
-                quick_vertices: parsed.as_ref().and_then(|parsed| parsed.quick_vertices),
+                quick: parsed.as_ref().map(|parsed| &parsed.quick),
                 handedness: imported.map(|imported| imported.model.handedness),
                 missing_maps: missing_maps.as_deref(),
             };

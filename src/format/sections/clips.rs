@@ -5,7 +5,7 @@ use crate::format::document::{AnimationClip, BoneAnimation, ClipLines, KeyRun, K
 use crate::format::error::{Value, quoted, row_count};
 use crate::format::kind::DiagnosticKind;
 use crate::format::label::{is_ruler, same, same_as_any, split_number};
-use crate::format::quick;
+use crate::format::quick::{self, QuickRun};
 use crate::format::reader::Reader;
 
 /// The fields of a key, in order, with their other spellings.
@@ -18,15 +18,20 @@ const FIELDS: [(&str, &[&str]); 4] = [
 
 const BONE: &[&str] = &["bone", "b"];
 
-/// Reads the clips, with their lines.
-pub(in crate::format) async fn clips(
-    reader: &mut Reader<'_>,
-    count: u32,
-    bones: u32,
-) -> Result<(Vec<AnimationClip>, Vec<ClipLines>), Fault> {
+/// Of the bones of a clip, which keys are as the books' exporter writes them.
+pub(in crate::format) type QuickTracks = Vec<Option<QuickRun>>;
+
+pub(in crate::format) struct Clips {
+    pub(in crate::format) clips: Vec<AnimationClip>,
+    pub(in crate::format) lines: Vec<ClipLines>,
+    pub(in crate::format) quick: Vec<QuickTracks>,
+}
+
+/// Reads the clips.
+pub(in crate::format) async fn clips(reader: &mut Reader<'_>, count: u32, bones: u32) -> Result<Clips, Fault> {
     const SMALLEST: usize = 16;
     let room = reader.room_for(count, SMALLEST);
-    let (mut clips, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
+    let (mut clips, mut lines, mut quick) = (Vec::with_capacity(room), Vec::with_capacity(room), Vec::new());
     for index in 0..count {
         reader.pause_every(index as usize).await;
         pass_surplus_braces(reader);
@@ -46,7 +51,8 @@ pub(in crate::format) async fn clips(
             reader.cursor = before;
             reader.cursor.token();
         }
-        let (clip, of_bones) = clip(reader, bones).await?;
+        let (clip, of_bones, quick_tracks) = clip(reader, bones).await?;
+        quick.push(quick_tracks);
         lines.push(ClipLines {
             clip: label.position.line,
             ..of_bones
@@ -58,7 +64,7 @@ pub(in crate::format) async fn clips(
         let surplus = reader.count_lines(is_clip).await;
         return Err(reader.section_row_count("clips", count, clips.len() + surplus));
     }
-    Ok((clips, lines))
+    Ok(Clips { clips, lines, quick })
 }
 
 fn is_clip(label: &[u8]) -> bool {
@@ -66,7 +72,7 @@ fn is_clip(label: &[u8]) -> bool {
 }
 
 /// Reads a clip from behind its label, with the lines of its bones and keys.
-async fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, ClipLines), Fault> {
+async fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, ClipLines, QuickTracks), Fault> {
     /// `B0 0 {}` and a blank.
     const SMALLEST: usize = 7;
     let name = reader.cursor.rest_of_line();
@@ -79,7 +85,7 @@ async fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, Cli
         open(reader)?;
     }
     let room = reader.room_for(bones, SMALLEST);
-    let mut animations = Vec::with_capacity(room);
+    let (mut animations, mut quick) = (Vec::with_capacity(room), Vec::with_capacity(room));
     let mut lines = ClipLines {
         bones: Vec::with_capacity(room),
         key_runs: Vec::with_capacity(room),
@@ -87,7 +93,9 @@ async fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, Cli
     };
     for bone in 0..bones {
         reader.pause_every(bone as usize).await;
-        animations.push(bone_animation(reader, &name, bone, bones, &mut lines).await?);
+        let (animation, quick_track) = bone_animation(reader, &name, bone, bones, &mut lines).await?;
+        animations.push(animation);
+        quick.push(quick_track);
     }
     if is_bone(reader) {
         let surplus = reader
@@ -102,6 +110,7 @@ async fn clip(reader: &mut Reader<'_>, bones: u32) -> Result<(AnimationClip, Cli
             bones: animations,
         },
         lines,
+        quick,
     ))
 }
 
@@ -112,7 +121,7 @@ async fn bone_animation(
     bone: u32,
     bones: u32,
     lines: &mut ClipLines,
-) -> Result<BoneAnimation, Fault> {
+) -> Result<(BoneAnimation, Option<QuickRun>), Fault> {
     /// Four labels of a letter, eleven digits, blanks and a line end.
     const SMALLEST: usize = 30;
     let begins_bone = |label: &[u8]| same_as_any(split_number(label).0, BONE);
@@ -155,11 +164,15 @@ async fn bone_animation(
     open(reader)?;
     let mut keyframes = Vec::with_capacity(reader.room_for(count, SMALLEST));
     let mut next_line = None;
+    let (first, mut all_quick) = (reader.cursor, true);
     for key in 0..count {
         reader.pause_every(key as usize).await;
         let (keyframe, line) = match quick::keyframe(&mut reader.cursor) {
             Some(read) => read,
-            None => keyframe(reader, bone, key, count)?,
+            None => {
+                all_quick = false;
+                keyframe(reader, bone, key, count)?
+            }
         };
         if next_line != Some(line) {
             lines.key_runs.push(KeyRun { bone, key, line });
@@ -167,6 +180,7 @@ async fn bone_animation(
         next_line = Some(line.saturating_add(1));
         keyframes.push(keyframe);
     }
+    let quick = all_quick.then(|| QuickRun::between(first, reader.cursor));
     let is_key = |label: &[u8]| same_as_any(label.split(|&byte| byte == b':').next().unwrap_or(label), FIELDS[0].1);
     if reader.peek_label().is_some_and(|(label, _)| is_key(label.text)) {
         let mut counted = keyframes.len();
@@ -179,7 +193,7 @@ async fn bone_animation(
     }
     close(reader)?;
     lines.bones.push(label.position.line);
-    Ok(BoneAnimation { keyframes })
+    Ok((BoneAnimation { keyframes }, quick))
 }
 
 /// Reads a key of any layout. Also gives its line.

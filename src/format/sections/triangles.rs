@@ -3,29 +3,37 @@
 use crate::diagnostic::Fault;
 use crate::format::error::Value;
 use crate::format::label::{Section, is_ruler};
-use crate::format::quick;
+use crate::format::quick::{self, QuickRun};
 use crate::format::reader::{Reader, looks_like_number};
 
-/// Reads the triangles, with the line of each. All indices are below `vertices`.
-pub(in crate::format) async fn triangles(
-    reader: &mut Reader<'_>,
-    count: u32,
-    vertices: u32,
-) -> Result<(Vec<[u32; 3]>, Vec<u32>), Fault> {
+pub(in crate::format) struct Triangles {
+    pub(in crate::format) triangles: Vec<[u32; 3]>,
+    /// Line of each.
+    pub(in crate::format) lines: Vec<u32>,
+    pub(in crate::format) quick: Option<QuickRun>,
+}
+
+/// Reads the triangles. All indices are below `vertices`.
+pub(in crate::format) async fn triangles(reader: &mut Reader<'_>, count: u32, vertices: u32) -> Result<Triangles, Fault> {
     /// Three digits, two blanks, a line end.
     const SMALLEST: usize = 6;
     reader.begin_rows(Section::Triangles)?;
     let room = reader.room_for(count, SMALLEST);
     let (mut triangles, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
+    let (first, mut all_quick) = (reader.cursor, true);
     for row in 0..count {
         reader.pause_every(row as usize).await;
         let (triangle, line) = match quick::triangle(&mut reader.cursor, vertices) {
             Some(read) => read,
-            None => triangle(reader, row, count, vertices)?,
+            None => {
+                all_quick = false;
+                triangle(reader, row, count, vertices)?
+            }
         };
         triangles.push(triangle);
         lines.push(line);
     }
+    let end = reader.cursor;
     if reader
         .cursor
         .peek_token()
@@ -34,7 +42,11 @@ pub(in crate::format) async fn triangles(
         let surplus = reader.count_lines(looks_like_number).await;
         return Err(reader.section_row_count("triangles", count, triangles.len() + surplus));
     }
-    Ok((triangles, lines))
+    Ok(Triangles {
+        triangles,
+        lines,
+        quick: all_quick.then(|| QuickRun::between(first, end)),
+    })
 }
 
 fn triangle(reader: &mut Reader<'_>, row: u32, count: u32, vertices: u32) -> Result<([u32; 3], u32), Fault> {

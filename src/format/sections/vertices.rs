@@ -5,7 +5,7 @@ use crate::format::document::Vertex;
 use crate::format::error::Value;
 use crate::format::kind::DiagnosticKind;
 use crate::format::label::{Section, is_ruler, same, same_as_any};
-use crate::format::quick::{self, QuickVertices};
+use crate::format::quick::{self, QuickRun};
 use crate::format::reader::{Reader, looks_like_number};
 
 /// The lines of a vertex, in order, with their other spellings. `T` is the tangent and then the texture coordinate.
@@ -25,7 +25,7 @@ pub(in crate::format) struct Vertices {
     /// The vertices whose fields are not on lines that follow one another, and the lines of these.
     pub(in crate::format) apart: Vec<(u32, [u32; 6])>,
     pub(in crate::format) short_labels: bool,
-    pub(in crate::format) quick: Option<QuickVertices>,
+    pub(in crate::format) quick: Option<QuickRun>,
 }
 
 pub(in crate::format) async fn vertices(reader: &mut Reader<'_>, count: u32, bones: u32) -> Result<Vertices, Fault> {
@@ -37,8 +37,7 @@ pub(in crate::format) async fn vertices(reader: &mut Reader<'_>, count: u32, bon
     let (mut vertices, mut lines) = (Vec::with_capacity(room), Vec::with_capacity(room));
     let mut apart = Vec::new();
     let mut all_quick = !short_labels;
-    let mut first = reader.cursor;
-    first.pass_empty_lines();
+    let first = reader.cursor;
     for row in 0..count {
         reader.pause_every(row as usize).await;
         let quick = if short_labels {
@@ -73,12 +72,7 @@ pub(in crate::format) async fn vertices(reader: &mut Reader<'_>, count: u32, bon
         lines,
         apart,
         short_labels,
-        quick: all_quick.then_some(QuickVertices {
-            bytes: [first.at, end.at],
-            end_line: end.line,
-            end_line_start: end.line_start,
-            bones,
-        }),
+        quick: all_quick.then(|| QuickRun::between(first, end)),
     })
 }
 

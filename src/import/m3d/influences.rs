@@ -1,7 +1,9 @@
 //! From the file's blend weights and bone numbers to influences.
 
+use glam::Vec4;
+
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
-use crate::diagnostic::{Fault, Subject, codes};
+use crate::diagnostic::{Diagnostic, Fault, Subject, codes};
 use crate::format::{Document, LineMap, Vertex, VertexField};
 use crate::import::weights::{Mended, SUM_TOLERANCE};
 use crate::model::{Influences, Skeleton};
@@ -20,16 +22,20 @@ pub(super) fn influences_from_document(
         return Ok(Vec::new());
     }
     let (mut mended, mut high_bone) = (Mended::default(), Tally::default());
-    let influences = (0u32..)
-        .zip(&document.vertices)
-        .map(|(index, vertex)| {
-            let weights = normalized(index, vertex.blend_weights, &mut mended);
-            joined(index, vertex, weights, skeleton, &mut high_bone).map_err(|fault| {
-                let lines = lines.vertex_lines(VertexField::BlendIndices);
-                fault.on_line(lines.get(index as usize).copied()).into()
-            })
-        })
-        .collect::<Result<_, Fault>>()?;
+    let mut influences = Vec::with_capacity(document.vertices.len());
+    for (index, vertex) in (0u32..).zip(&document.vertices) {
+        let weights = normalized(index, vertex.blend_weights, &mut mended);
+        let Some(joints) = joints_of(vertex, &weights, skeleton) else {
+            let lines = lines.vertex_lines(VertexField::BlendIndices);
+            let fault = out_of_range(index, vertex, &weights, skeleton);
+            return Err(fault.on_line(lines.get(index as usize).copied()).into());
+        };
+        let weighted = vertex.blend_indices.into_iter().zip(weights);
+        for _ in weighted.filter(|&(bone, weight)| bone > BOOK_BONE_INDEX && weight != 0.0) {
+            high_bone.add(index);
+        }
+        influences.push(Influences { joints, weights });
+    }
     let place = |field, tally: &Tally| Place::of_rows(tally, Subject::Vertex, &lines.vertex_lines(field));
     mended.tell(diagnostics, |tally| place(VertexField::BlendWeights, tally));
     if high_bone.count > 0 {
@@ -45,18 +51,16 @@ pub(super) fn influences_from_document(
 
 /// Weights that sum to 1, or four zeros.
 fn normalized(index: u32, stored: [f32; 4], mended: &mut Mended) -> [f32; 4] {
-    let usable = stored.map(|weight| {
-        if weight.is_finite() && weight > 0.0 {
-            weight
-        } else {
-            0.0
-        }
-    });
-    if usable != stored {
+    let stored = Vec4::from_array(stored);
+    let is_usable = stored.cmpgt(Vec4::ZERO) & stored.cmplt(Vec4::INFINITY);
+    let usable = Vec4::select(is_usable, stored, Vec4::ZERO);
+    if usable.cmpne(stored).any() {
         mended.invalid.add(index);
     }
+    let usable = usable.to_array();
     // In f64: four great weights must not overflow to infinity and divide to zero.
-    let sum: f64 = usable.iter().map(|&weight| f64::from(weight)).sum();
+    let [first, second, third, fourth] = usable.map(f64::from);
+    let sum = first + second + third + fourth;
     if sum <= 0.0 {
         mended.unweighted.add(index);
         return [0.0; 4];
@@ -71,32 +75,29 @@ fn normalized(index: u32, stored: [f32; 4], mended: &mut Mended) -> [f32; 4] {
     usable.map(|weight| (f64::from(weight) / sum) as f32)
 }
 
-/// Weights with the joints of their bones. A slot without weight names joint 0, whatever the file has there.
-fn joined(
-    index: u32,
-    vertex: &Vertex,
-    weights: [f32; 4],
-    skeleton: &Skeleton,
-    high_bone: &mut Tally,
-) -> Result<Influences, Fault> {
+/// The joints of a vertex's bones; none when one of them is not there. A slot without weight names joint 0, whatever the file has there.
+#[inline]
+fn joints_of(vertex: &Vertex, weights: &[f32; 4], skeleton: &Skeleton) -> Option<[u32; 4]> {
     let mut joints = [0; 4];
-    for ((joint, &bone), &weight) in joints.iter_mut().zip(&vertex.blend_indices).zip(&weights) {
-        if weight == 0.0 {
-            continue;
+    for ((joint, &bone), &weight) in joints.iter_mut().zip(&vertex.blend_indices).zip(weights) {
+        if weight != 0.0 {
+            *joint = skeleton.joint_of_bone().get(bone as usize)?.0;
         }
-        let Some(named) = skeleton.joint_of_bone().get(bone as usize) else {
-            let bone_count = skeleton.joint_count();
-            let message = format!("Vertex {index} gives weight to bone {bone}, but there are {bone_count} bones.");
-            let fault = codes::INFLUENCE_OUT_OF_RANGE
-                .says(message)
-                .about(Subject::Vertex(index));
-            let fault = fault.expected(format!("a bone below {bone_count}"));
-            return Err(fault.found(bone.to_string()).into());
-        };
-        if bone > BOOK_BONE_INDEX {
-            high_bone.add(index);
-        }
-        *joint = named.0;
     }
-    Ok(Influences { joints, weights })
+    Some(joints)
+}
+
+/// The error of a vertex that gives weight to a bone that is not there.
+#[cold]
+fn out_of_range(index: u32, vertex: &Vertex, weights: &[f32; 4], skeleton: &Skeleton) -> Diagnostic {
+    let bone_count = skeleton.joint_count();
+    let mut weighted = vertex.blend_indices.iter().zip(weights);
+    let missing = weighted.find(|&(&bone, &weight)| weight != 0.0 && bone as usize >= bone_count);
+    let bone = missing.map_or(0, |(&bone, _)| bone);
+    let message = format!("Vertex {index} gives weight to bone {bone}, but there are {bone_count} bones.");
+    let fault = codes::INFLUENCE_OUT_OF_RANGE
+        .says(message)
+        .about(Subject::Vertex(index));
+    let fault = fault.expected(format!("a bone below {bone_count}"));
+    fault.found(bone.to_string())
 }

@@ -7,7 +7,7 @@ use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::limits::MOST_VERTICES;
 use crate::diagnostic::{Fault, Subject, codes};
 use crate::format::{Document, LineMap, Vertex, VertexField};
-use crate::import::normals::{handedness_of, mend_normals};
+use crate::import::normals::{handedness_of, make_normals_unit, mend_normals};
 use crate::import::tangents::mend_tangents;
 use crate::model::{Handedness, Mesh, Skeleton};
 
@@ -42,9 +42,16 @@ pub(super) fn mesh_from_document(
         Some(Subject::Triangle(triangle)) => fault.on_line(lines.triangles.get(triangle as usize).copied()).into(),
         _ => fault,
     })?;
+    let missing = make_normals_unit(&mut mesh);
     let handedness = handedness_of(&mesh, diagnostics);
     let lines_of = |field| move || lines.vertex_lines(field);
-    mend_normals(&mut mesh, handedness, lines_of(VertexField::Normal), diagnostics);
+    mend_normals(
+        &mut mesh,
+        &missing,
+        handedness,
+        lines_of(VertexField::Normal),
+        diagnostics,
+    );
     mesh.influences = influences_from_document(document, lines, skeleton, diagnostics)?;
     mend_tangents(&mut mesh, lines_of(VertexField::Tangent), diagnostics);
     Ok((mesh, handedness))

@@ -8,7 +8,7 @@ use glam::{DAffine3, DMat3, Vec2, Vec3, Vec4};
 use super::{MeshUse, Scene};
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Code, Fault, Subject, codes};
-use crate::import::normals::{is_direction, mend_normals};
+use crate::import::normals::{is_direction, make_normals_unit, mend_normals};
 use crate::import::tangents::mend_tangents;
 use crate::import::weights;
 use crate::model::{Handedness, Influences, Mesh, Object, Submesh};
@@ -250,7 +250,8 @@ impl MeshBuilder {
         // What is absent was noted for each part, or is no flaw.
         let mut quiet = Diagnostics::default();
         mesh.check()?;
-        mend_normals(&mut mesh, Handedness::Right, Vec::new, &mut quiet);
+        let missing = make_normals_unit(&mut mesh);
+        mend_normals(&mut mesh, &missing, Handedness::Right, Vec::new, &mut quiet);
         if mesh.tangents.is_empty() {
             return Ok(mesh);
         }

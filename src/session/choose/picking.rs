@@ -25,7 +25,7 @@ pub(in crate::session) struct Picker {
     palette: Palette,
     /// Instances whose boxes a ray comes into, with the distances.
     entered: Vec<(f32, usize)>,
-    in_ray: Vec<Vec3>,
+    sides: Vec<u8>,
     cutouts: Cutouts,
 }
 
@@ -125,7 +125,7 @@ impl Picker {
             let is_seen = |material: &Material| !is_clear(material) && !is_culled(material);
             submeshes.is_visible(hit.submesh) && materials.get(index).is_none_or(is_seen)
         };
-        pick(mesh, positions, world_from_model, ray, &mut self.in_ray, is_solid)
+        pick(mesh, positions, world_from_model, ray, &mut self.sides, is_solid)
     }
 }
 

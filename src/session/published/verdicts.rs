@@ -57,7 +57,7 @@ async fn of_books(open: &OpenModel, maps: &Maps, slices: &Slices) -> Vec<Verdict
     };
     let known = Known {
         document: Some(&parsed.document),
-        quick_vertices: parsed.quick_vertices,
+        quick: Some(&parsed.quick),
         handedness: Some(open.model.handedness),
         missing_maps: missing_maps(maps),
     };

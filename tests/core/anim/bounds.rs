@@ -279,8 +279,17 @@ fn groups_that_are_left_out_change_no_bit_of_the_box_and_the_points() {
     for (influences, of) in uneven.mesh.influences.iter_mut().zip(0_u16..) {
         influences.weights[0] *= [1.0, 1.02, 0.97, -0.5][usize::from(of % 4)];
     }
+    // The joint with the greatest weight has less than another one in three slots.
+    let mut in_three_slots = arms.clone();
+    for influences in &mut in_three_slots.mesh.influences {
+        influences.joints = [0, 1, 1, 1];
+        influences.weights = [0.4, 0.2, 0.2, 0.2];
+    }
     let soldier = soldier().map(|parsed| m3d::from_parsed(&parsed).expect("sound").0);
-    for model in [Some(arms), Some(uneven), soldier].into_iter().flatten() {
+    for model in [Some(arms), Some(uneven), Some(in_three_slots), soldier]
+        .into_iter()
+        .flatten()
+    {
         let clip = &model.clips[0];
         let compiled = CompiledClip::new(clip);
         let Extent { bounds, points } = extent(&model, Some(&compiled));

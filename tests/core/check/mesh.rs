@@ -1,7 +1,10 @@
 //! Triangles and vertices that add nothing, or harm.
 
+use std::collections::{HashMap, HashSet};
+
 use bindpose::diagnostic::{Position, Subject};
 use bindpose::format::{Document, LineMap};
+use proptest::prelude::*;
 
 use super::{codes_of, only};
 use crate::documents::{arm, quad, subset, vertex};
@@ -99,4 +102,50 @@ fn an_edge_is_crowded_from_its_third_triangle_on() {
     document.vertices.extend([seam, seam, seam].concat());
     document.triangles = vec![[0, 1, 2], [0, 2, 3], [7, 4, 8], [9, 5, 10], [11, 12, 6]];
     assert_eq!(codes_of(&document), Vec::<&str>::new());
+}
+
+proptest! {
+    #![proptest_config(crate::properties::cases(300))]
+
+    /// A few vertices with many triangles: what is told is what a look at each pair of triangles, and at each edge of each, finds.
+    #[test]
+    fn repeated_triangles_and_crowded_edges_are_those_that_a_plain_count_finds(
+        corners in prop::collection::vec([0_u32..7, 0..7, 0..7], 1..9),
+    ) {
+        let mut document = quad();
+        document.vertices.extend([0.3, 0.7, 0.9].map(|depth| {
+            let mut fin = vertex(depth, 0.1);
+            fin.position[2] = -depth * depth;
+            fin
+        }));
+        document.subsets = vec![subset(0, corners.len() as u32)];
+        document.triangles = corners.clone();
+        let (mut met, mut edges, mut repeated, mut third) = (HashSet::new(), HashMap::new(), Vec::new(), Vec::new());
+        for (triangle, mut corners) in (0_u32..).zip(corners) {
+            corners.sort_unstable();
+            let [a, b, c] = corners;
+            if a == b || b == c {
+                continue;
+            }
+            if !met.insert(corners) {
+                repeated.push(Subject::Triangle(triangle));
+                continue;
+            }
+            for edge in [[a, b], [b, c], [a, c]] {
+                let count = edges.entry(edge).or_insert(0);
+                *count += 1;
+                if *count == 3 {
+                    third.push(Subject::Triangle(triangle));
+                }
+            }
+        }
+        let (_, findings) = crate::documents::checked(&document, &LineMap::default());
+        for (code, mut expected) in [("triangles-repeated", repeated), ("edges-crowded", third)] {
+            let found = findings.iter().find(|finding| finding.code == code);
+            let count = found.map_or(0, |finding| finding.count as usize);
+            prop_assert_eq!(count, expected.len());
+            expected.dedup();
+            prop_assert_eq!(found.map_or(&[][..], |finding| &finding.subjects), &expected[..]);
+        }
+    }
 }

@@ -5,7 +5,7 @@ use bindpose::import::m3d;
 use bindpose::model::{Handedness, UpAxis};
 use glam::{Vec2, Vec3, Vec4};
 
-use crate::documents::{assert_told, message_of, model_of, quad, vertex};
+use crate::documents::{assert_told, figure, message_of, model_of, quad, vertex};
 
 /// The quad as seen in a mirror: z negated, and with it normals; the winding stays.
 fn right_handed() -> Document {
@@ -244,4 +244,21 @@ fn a_finding_about_tangents_is_on_their_own_lines() {
     let tangents: Vec<u32> = tangents.map(|(number, _)| number).collect();
     let expected = [tangents[0], tangents[1], tangents[3]];
     assert_eq!(places.iter().map(|place| place.line).collect::<Vec<_>>(), expected);
+}
+
+#[test]
+fn a_few_missing_tangents_are_those_that_the_whole_mesh_would_have() {
+    let mut document = figure().document;
+    let missing: Vec<usize> = (0..document.vertices.len()).step_by(37).collect();
+    for &vertex in &missing {
+        document.vertices[vertex].tangent = [0.0; 4];
+    }
+    let mesh = model_of(&document).0.mesh;
+    let computed = mesh.computed_tangents();
+    assert!(missing.len() > 10);
+    for vertex in missing {
+        let [found, expected] =
+            [mesh.tangents[vertex], computed[vertex]].map(|tangent| tangent.to_array().map(f32::to_bits));
+        assert_eq!(found, expected, "{vertex}");
+    }
 }
