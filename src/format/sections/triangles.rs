@@ -14,7 +14,11 @@ pub(in crate::format) struct Triangles {
 }
 
 /// Reads the triangles. All indices are below `vertices`.
-pub(in crate::format) async fn triangles(reader: &mut Reader<'_>, count: u32, vertices: u32) -> Result<Triangles, Fault> {
+pub(in crate::format) async fn triangles(
+    reader: &mut Reader<'_>,
+    count: u32,
+    vertices: u32,
+) -> Result<Triangles, Fault> {
     /// Three digits, two blanks, a line end.
     const SMALLEST: usize = 6;
     reader.begin_rows(Section::Triangles)?;

@@ -9,7 +9,7 @@ use super::content::{Content, Opened};
 use super::files::File;
 use super::load::Before;
 use super::underway::Underway;
-use super::wish::{Beside, Ready, Wish};
+use super::wish::{Beside, Listed, Ready, Wish};
 use crate::session::Session;
 use crate::session::changes::Changes;
 use crate::slices::{Sliced, Slices, Stage, StageProgress};
@@ -238,12 +238,12 @@ impl Session {
         };
         let is_shown = Arc::ptr_eq(&opened.files, &content.files);
         let maps = if is_shown { &content.maps } else { &opened.maps };
-        self.ask(Wish::Listed {
+        self.ask(Wish::Listed(Box::new(Listed {
             files: Arc::clone(&opened.files),
             file: file.clone(),
             maps: maps.clone(),
             closes,
-        });
+        })));
     }
 
     fn is_on_screen(&self, path: &str) -> bool {

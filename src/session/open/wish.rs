@@ -15,16 +15,19 @@ pub(in crate::session) enum Wish {
     /// The largest model of a drop, or its pictures where it has none.
     Files(Vec<File>),
     /// A model of the list.
-    Listed {
-        files: Arc<FileSet>,
-        file: File,
-        /// The pictures that were found for the models of its drop.
-        maps: Maps,
-        /// The model that leaves the list then.
-        closes: Option<String>,
-    },
+    Listed(Box<Listed>),
     /// Clips for the open model.
     Clips(Vec<File>),
+}
+
+#[derive(Clone, Debug)]
+pub(in crate::session) struct Listed {
+    pub(in crate::session) files: Arc<FileSet>,
+    pub(in crate::session) file: File,
+    /// The pictures that were found for the models of its drop.
+    pub(in crate::session) maps: Maps,
+    /// The model that leaves the list then.
+    pub(in crate::session) closes: Option<String>,
 }
 
 /// What is open while something else is made ready; nothing of it changes.
@@ -55,7 +58,7 @@ impl Wish {
         let is_other = |file: &File| matches!(file.kind(), Some(FileKind::Picture | FileKind::Unread));
         match self {
             Self::Files(files) => !files.iter().all(is_other),
-            Self::Listed { .. } => true,
+            Self::Listed(_) => true,
             Self::Clips(_) => false,
         }
     }
@@ -63,7 +66,7 @@ impl Wish {
     /// The model that leaves the list then.
     pub(in crate::session) fn closes(&self) -> Option<String> {
         match self {
-            Self::Listed { closes, .. } => closes.clone(),
+            Self::Listed(listed) => listed.closes.clone(),
             Self::Files(_) | Self::Clips(_) => None,
         }
     }
@@ -71,7 +74,7 @@ impl Wish {
     /// Base name of the file that it is about, as far as names tell.
     pub(in crate::session) fn name(&self) -> String {
         let file = match self {
-            Self::Listed { file, .. } => Some(file),
+            Self::Listed(listed) => Some(&listed.file),
             Self::Files(files) | Self::Clips(files) => {
                 let is_model = |file: &&File| matches!(file.kind(), Some(FileKind::Model | FileKind::Archive));
                 let models = files.iter().filter(is_model);
@@ -94,7 +97,8 @@ impl Wish {
                     None => beside.others(files, slices).await,
                 }
             }
-            Self::Listed { files, file, maps, .. } => {
+            Self::Listed(listed) => {
+                let Listed { files, file, maps, .. } = *listed;
                 let before = beside.0.filter(|before| before.open.file.path == file.path);
                 let joined = before.as_ref().map_or(Vec::new(), |before| before.open.joined.clone());
                 let kept = Kept { maps, joined, before };
