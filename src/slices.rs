@@ -6,10 +6,12 @@
 
 use std::cell::Cell;
 use std::fmt;
-use std::ops::Range;
 use std::pin::{Pin, pin};
 use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
+
+/// Turns of a short loop between two places at which it can stop.
+const TURNS_A_PIECE: usize = 2048;
 
 /// When work has to stop for a while, and how far it is.
 #[derive(Clone, Default)]
@@ -95,6 +97,14 @@ impl Slices {
         }
     }
 
+    /// [`pause`](Self::pause) at some turns of a loop whose turns are short, so that what lies between takes less than a millisecond.
+    #[inline(always)]
+    pub async fn pause_every(&self, turn: usize) {
+        if turn.is_multiple_of(TURNS_A_PIECE) {
+            self.pause().await;
+        }
+    }
+
     /// [`pause`](Self::pause), and tells how much of a stage is done.
     pub fn pause_at(&self, stage: Stage, done: usize, total: usize) -> Pause {
         if let Some(shared) = &self.0 {
@@ -137,13 +147,6 @@ impl Future for Pause {
             Poll::Ready(())
         }
     }
-}
-
-/// `0..count` in ranges of `length`, the last one shorter: pieces of a loop to pause between.
-pub fn pieces(count: usize, length: usize) -> impl Iterator<Item = Range<usize>> {
-    (0..count)
-        .step_by(length)
-        .map(move |start| start..count.min(start + length))
 }
 
 /// Does all of some work now.

@@ -58,7 +58,7 @@ impl CompiledClip {
             let mut groups = Vec::with_capacity(clip.tracks.len().div_ceil(JointLanes::COUNT));
             for tracks in clip.tracks.chunks(JointLanes::COUNT) {
                 slices.pause_at(Stage::Compiling, done, clips.len()).await;
-                groups.push(TrackGroup::new(tracks));
+                groups.push(TrackGroup::new(tracks, slices).await);
             }
             all.push(Self {
                 start_secs: clip.start_secs,
@@ -130,7 +130,7 @@ impl CompiledClip {
 
 impl TrackGroup {
     /// Up to four tracks; the lanes of missing ones are identities.
-    fn new(tracks: &[Track]) -> Self {
+    async fn new(tracks: &[Track], slices: &Slices) -> Self {
         let tracks: Vec<_> = tracks.iter().map(straight).collect();
         let tracks: Vec<&Track> = tracks.iter().map(AsRef::as_ref).collect();
         let times_secs = common_times(&tracks);
@@ -140,7 +140,7 @@ impl TrackGroup {
         };
         let mut keys = vec![still; times_secs.len()];
         for (lane, track) in tracks.iter().enumerate() {
-            fill_lane(lane, track, &times_secs, &mut keys);
+            fill_lane(lane, track, &times_secs, &mut keys, slices).await;
         }
         Self { times_secs, keys }
     }
@@ -165,9 +165,10 @@ fn common_times(tracks: &[&Track]) -> Vec<f32> {
     times_secs
 }
 
-fn fill_lane(lane: usize, track: &Track, times_secs: &[f32], keys: &mut [KeyLanes]) {
+async fn fill_lane(lane: usize, track: &Track, times_secs: &[f32], keys: &mut [KeyLanes], slices: &Slices) {
     let mut before: Option<(&mut KeyLanes, DQuat)> = None;
-    for (key, joint) in keys.iter_mut().zip(track.at_times(times_secs)) {
+    for (turn, (key, joint)) in keys.iter_mut().zip(track.at_times(times_secs)).enumerate() {
+        slices.pause_every(turn).await;
         key.joints.set_joint(lane, joint);
         let rotation = joint.rotation.as_dquat();
         if let Some((key, start)) = before {

@@ -41,7 +41,7 @@ impl Extent {
 
     /// [`Extent::of`] in slices.
     pub async fn of_in(model: &Model, groups: &VertexGroups, clip: Option<&CompiledClip>, slices: &Slices) -> Self {
-        let mut job = ExtentJob::new(model, clip);
+        let mut job = ExtentJob::new(model, clip, slices).await;
         let all = job.times_left();
         loop {
             slices.pause_at(Stage::Measuring, all - job.times_left(), all).await;
@@ -53,8 +53,7 @@ impl Extent {
 }
 
 /// Works out an [`Extent`], one time of the clip after the other. It is given the same model, groups and clip at each step.
-#[derive(Clone, Debug)]
-pub struct ExtentJob {
+struct ExtentJob {
     /// Times for the box that are left, the last first.
     bounds_times_secs: Vec<f32>,
     /// Box by boxes of joints: see [`Extent::bounds`].
@@ -69,8 +68,7 @@ pub struct ExtentJob {
 }
 
 impl ExtentJob {
-    /// A job at its beginning.
-    pub fn new(model: &Model, clip: Option<&CompiledClip>) -> Self {
+    async fn new(model: &Model, clip: Option<&CompiledClip>, slices: &Slices) -> Self {
         let mesh = &model.mesh;
         let vertex_count = mesh.vertex_count();
         // A static model stands still.
@@ -86,7 +84,10 @@ impl ExtentJob {
         }
         let is_too_much = vertex_count.saturating_mul(bounds_times_secs.len()) > VERTEX_BUDGET;
         Self {
-            by_joint: is_too_much.then(|| VertexGroups::by_joint(mesh)),
+            by_joint: match is_too_much {
+                true => Some(VertexGroups::by_joint(mesh, slices).await),
+                false => None,
+            },
             stride: (vertex_count * points_times_secs.len()).div_ceil(VERTEX_BUDGET).max(1),
             bounds_times_secs,
             points_times_secs,
@@ -101,7 +102,7 @@ impl ExtentJob {
     }
 
     /// Looks at one time more. False when all is done.
-    pub fn step(&mut self, model: &Model, groups: &VertexGroups, clip: Option<&CompiledClip>) -> bool {
+    fn step(&mut self, model: &Model, groups: &VertexGroups, clip: Option<&CompiledClip>) -> bool {
         let mesh = &model.mesh;
         let clip = clip.filter(|_| !mesh.influences.is_empty());
         // The points come first: the box then grows by their vertices at each time before it is asked which groups lie inside.
@@ -128,11 +129,6 @@ impl ExtentJob {
             self.extent.bounds = pose.bounds();
         }
         true
-    }
-
-    /// What was worked out.
-    pub fn into_extent(self) -> Extent {
-        self.extent
     }
 
     fn grow_bounds(&mut self, mesh: &Mesh, groups: &VertexGroups) {

@@ -32,7 +32,7 @@ pub use buffers::PoseBuffers;
 pub use compile::CompiledClip;
 pub use crowd::{ClipPose, CrowdPalettes};
 pub use curve::{Curve, CurvePoint, CurveSpace};
-pub use extent::{Extent, ExtentJob};
+pub use extent::Extent;
 pub use inspect::{
     ExplainedInfluence, JointReadout, KeyRow, RowMatrix, TransformParts, VertexExplanation, explain_vertex, key_rows,
     key_table,

@@ -7,6 +7,7 @@ use rustc_hash::FxHashMap;
 
 use super::pose::Palette;
 use crate::model::{Aabb, Influences, Mesh};
+use crate::slices::{Slices, at_once};
 
 /// Vertices of a group: so many that its box costs less than they do, so few that its box is small.
 const GROUP: usize = 32;
@@ -31,15 +32,20 @@ struct VertexGroup {
 impl VertexGroups {
     /// Groups of a few vertices.
     pub fn new(mesh: &Mesh) -> Self {
-        Self::of_at_most(mesh, GROUP)
+        at_once(Self::new_in(mesh, &Slices::ENDLESS))
+    }
+
+    /// [`VertexGroups::new`] in slices.
+    pub async fn new_in(mesh: &Mesh, slices: &Slices) -> Self {
+        Self::of_at_most(mesh, GROUP, slices).await
     }
 
     /// One group for each joint that moves some vertices most.
-    pub(super) fn by_joint(mesh: &Mesh) -> Self {
-        Self::of_at_most(mesh, usize::MAX)
+    pub(super) async fn by_joint(mesh: &Mesh, slices: &Slices) -> Self {
+        Self::of_at_most(mesh, usize::MAX, slices).await
     }
 
-    fn of_at_most(mesh: &Mesh, most: usize) -> Self {
+    async fn of_at_most(mesh: &Mesh, most: usize, slices: &Slices) -> Self {
         let leading: Vec<[u32; 2]> = if mesh.influences.is_empty() {
             vec![[u32::MAX; 2]; mesh.vertex_count()]
         } else {
@@ -47,11 +53,14 @@ impl VertexGroups {
         };
         let joints_of = |vertex: u32| leading[vertex as usize];
         // In the order of the file, where neighbours are mostly neighbours in space.
+        slices.pause().await;
         let vertices = sorted_by_joints(&leading);
         let mut groups = Vec::new();
         let mut start = 0;
         for of_joint in vertices.chunk_by(|&a, &b| joints_of(a)[0] == joints_of(b)[0]) {
-            for few in of_joint.chunks(most) {
+            for (turn, few) in of_joint.chunks(most).enumerate() {
+                // As many vertices as a short loop has turns.
+                slices.pause_every(turn * GROUP).await;
                 let end = start + few.len();
                 groups.push(VertexGroup {
                     vertices: start..end,

@@ -7,6 +7,7 @@ use glam::DVec3;
 use crate::diagnostic::collect::{Diagnostics, Tally, counted};
 use crate::diagnostic::{Entry, Places, Subject, codes};
 use crate::model::{Aabb, Mesh, Model};
+use crate::slices::Slices;
 
 /// A triangle lower than this fraction of the mesh's diagonal has no area: positions have about seven digits in a file and in an
 /// `f32`, so a lesser height is a rounding error.
@@ -14,10 +15,7 @@ const LEAST_HEIGHT: f64 = 1e-6;
 
 /// The triangles without area, in their order.
 pub(crate) fn flat_triangles(mesh: &Mesh) -> impl Iterator<Item = u32> {
-    flat_of(mesh, Flatness::of(mesh, &used_vertices(mesh)))
-}
-
-fn flat_of(mesh: &Mesh, flatness: Flatness) -> impl Iterator<Item = u32> {
+    let flatness = Flatness::of(mesh, &used_vertices(mesh));
     triangles(mesh)
         .filter(move |&(_, corners)| flatness.is_flat(mesh, corners))
         .map(|(triangle, _)| triangle)
@@ -66,10 +64,17 @@ pub(crate) fn used_vertices(mesh: &Mesh) -> Vec<bool> {
 }
 
 /// Notes triangles without area, and vertices that no triangle uses.
-pub(super) fn note_useless(mesh: &Mesh, places: &dyn Places, diagnostics: &mut Diagnostics) {
+pub(super) async fn note_useless(mesh: &Mesh, places: &dyn Places, diagnostics: &mut Diagnostics, slices: &Slices) {
     let used = used_vertices(mesh);
     let (mut flat, mut unused) = (Tally::default(), Tally::default());
-    flat_of(mesh, Flatness::of(mesh, &used)).for_each(|triangle| flat.add(triangle));
+    slices.pause().await;
+    let flatness = Flatness::of(mesh, &used);
+    for (triangle, corners) in triangles(mesh) {
+        slices.pause_every(triangle as usize).await;
+        if flatness.is_flat(mesh, corners) {
+            flat.add(triangle);
+        }
+    }
     for (vertex, _) in (0u32..).zip(used).filter(|(_, used)| !used) {
         unused.add(vertex);
     }

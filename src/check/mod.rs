@@ -40,15 +40,15 @@ pub async fn model_in(
     let at = |done| slices.pause_at(Stage::Checking, done, 11);
     let mut diagnostics = Diagnostics::default();
     at(0).await;
-    mesh::note_useless(&model.mesh, places, &mut diagnostics);
+    mesh::note_useless(&model.mesh, places, &mut diagnostics, slices).await;
     at(1).await;
-    repeated::note_repeated(&model.mesh, places, &mut diagnostics);
+    repeated::note_repeated(&model.mesh, places, &mut diagnostics, slices).await;
     at(2).await;
     mesh::note_turned_away(model, places, &mut diagnostics);
     at(3).await;
     texture::note_equal_coords(model, places, &mut diagnostics);
     at(4).await;
-    texture::note_tangent_signs(model, places, &mut diagnostics);
+    texture::note_tangent_signs(model, places, &mut diagnostics, slices).await;
     at(5).await;
     rig::note_idle_bones(model, places, &mut diagnostics);
     at(6).await;

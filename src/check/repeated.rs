@@ -7,11 +7,12 @@ use super::mesh::triangles;
 use crate::diagnostic::collect::{Diagnostics, Tally, counted};
 use crate::diagnostic::{Entry, Places, Subject, codes};
 use crate::model::Mesh;
+use crate::slices::{Slices, at_once};
 
 /// Notes triangles of the same three vertices, and edges of more than two triangles. Vertices count as the same by their number, not by
 /// their place: a mesh may well be sewn together of sheets that touch.
-pub(super) fn note_repeated(mesh: &Mesh, places: &dyn Places, diagnostics: &mut Diagnostics) {
-    if has_neither(mesh) {
+pub(super) async fn note_repeated(mesh: &Mesh, places: &dyn Places, diagnostics: &mut Diagnostics, slices: &Slices) {
+    if has_neither(mesh, slices).await {
         return;
     }
     let mut by_corners = by_corners(mesh);
@@ -23,7 +24,7 @@ pub(super) fn note_repeated(mesh: &Mesh, places: &dyn Places, diagnostics: &mut 
 
 /// Each triangle that has the vertices of another one before, after that one.
 pub(crate) fn repeated_triangles(mesh: &Mesh) -> Vec<(u32, u32)> {
-    if has_neither(mesh) {
+    if at_once(has_neither(mesh, &Slices::ENDLESS)) {
         return Vec::new();
     }
     repeated(&by_corners(mesh)).collect()
@@ -39,14 +40,15 @@ const NONE: u32 = u32::MAX;
 ///
 /// Two triangles with the same vertices share an edge, and their third corner there. So a look at the first two triangles of each edge is
 /// enough to find them, and a third one ends the proof.
-fn has_neither(mesh: &Mesh) -> bool {
+async fn has_neither(mesh: &Mesh, slices: &Slices) -> bool {
     if mesh.indices.len() >= NONE as usize {
         return false;
     }
-    let (first, edges) = by_lesser_vertex(mesh);
+    let (first, edges) = by_lesser_vertex(mesh, slices).await;
     // Of each vertex: at which lesser vertex it was met last, and the third corner of that triangle; none where two were met.
     let mut met = vec![[NONE; 2]; first.len()];
     for (from, &first) in (0u32..).zip(&first) {
+        slices.pause_every(from as usize).await;
         let mut next = first;
         while let Some(&[to, third, behind]) = edges.get(next as usize) {
             next = behind;
@@ -64,10 +66,11 @@ fn has_neither(mesh: &Mesh) -> bool {
 }
 
 /// The edges of all triangles with three vertices, and the first one of each vertex.
-fn by_lesser_vertex(mesh: &Mesh) -> (Vec<u32>, Vec<HalfEdge>) {
+async fn by_lesser_vertex(mesh: &Mesh, slices: &Slices) -> (Vec<u32>, Vec<HalfEdge>) {
     let mut first = vec![NONE; mesh.vertex_count()];
     let mut edges = Vec::with_capacity(mesh.indices.len());
-    for (_, corners) in triangles(mesh) {
+    for (triangle, corners) in triangles(mesh) {
+        slices.pause_every(triangle as usize).await;
         let [a, b, c] = sorted(corners);
         if a == b || b == c {
             continue;

@@ -3,6 +3,7 @@
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Entry, Places, Subject, codes};
 use crate::model::{Front, Green, Material, Mesh, Model};
+use crate::slices::{Slices, at_once};
 
 /// The cosine of the angle between a bitangent and the way in which v grows, below which it points clearly the other way: by more than 135°. In the books'
 /// files a few slanted triangles come to 131°, and all else agrees.
@@ -48,9 +49,14 @@ fn ends_of_equal_coords(mesh: &Mesh) -> Vec<u32> {
 }
 
 /// Warns of tangents whose sign contradicts the texture coordinates.
-pub(super) fn note_tangent_signs(model: &Model, places: &dyn Places, diagnostics: &mut Diagnostics) {
+pub(super) async fn note_tangent_signs(
+    model: &Model,
+    places: &dyn Places,
+    diagnostics: &mut Diagnostics,
+    slices: &Slices,
+) {
     let mut against = Tally::default();
-    tangents_against(model).for_each(|vertex| against.add(vertex));
+    against_in(model, slices).await.for_each(|vertex| against.add(vertex));
     if against.count > 0 {
         diagnostics.add(
             &codes::TANGENT_SIGN_AGAINST_UV,
@@ -70,6 +76,10 @@ pub(super) fn note_tangent_signs(model: &Model, places: &dyn Places, diagnostics
 ///
 /// One triangle that agrees clears its vertices, and the others around these are not asked.
 pub(crate) fn tangents_against(model: &Model) -> impl Iterator<Item = u32> {
+    at_once(against_in(model, &Slices::ENDLESS))
+}
+
+async fn against_in(model: &Model, slices: &Slices) -> impl Iterator<Item = u32> + use<> {
     let mesh = &model.mesh;
     let greens = match model.front {
         Front::Negative => Vec::new(),
@@ -85,7 +95,9 @@ pub(crate) fn tangents_against(model: &Model) -> impl Iterator<Item = u32> {
         if !(0..model.materials.len()).any(is_such) {
             continue;
         }
-        for corners in model.triangles_of(is_such).map(|triangle| triangles[triangle]) {
+        for (turn, triangle) in model.triangles_of(is_such).enumerate() {
+            slices.pause_every(turn).await;
+            let corners = triangles[triangle];
             let is_clear = corners.map(|vertex| cleared[vertex as usize]);
             if is_clear == [true; 3] {
                 continue;

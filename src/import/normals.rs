@@ -5,6 +5,7 @@ use glam::{DVec3, Vec3};
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Subject, codes};
 use crate::model::{Handedness, Mesh};
+use crate::slices::Slices;
 
 /// Shorter than this is no direction.
 const LEAST_LENGTH: f64 = 1e-6;
@@ -30,9 +31,10 @@ pub(super) fn unit_direction(vector: Vec3) -> Option<Vec3> {
 }
 
 /// Makes the normals of a mesh unit vectors. Those that are zero or not finite become 0; tells which they are.
-pub(super) fn make_normals_unit(mesh: &mut Mesh) -> Tally {
+pub(super) async fn make_normals_unit(mesh: &mut Mesh, slices: &Slices) -> Tally {
     let mut missing = Tally::default();
     for (index, normal) in (0u32..).zip(&mut mesh.normals) {
+        slices.pause_every(index as usize).await;
         *normal = unit_direction(*normal).unwrap_or_else(|| {
             missing.add(index);
             Vec3::ZERO
@@ -88,9 +90,10 @@ const CLEAR_FRACTION: f64 = 0.8;
 /// Compares the side that each triangle's winding faces with the side of its normals: both agree in a left-handed file
 /// (clockwise fronts), and disagree in a right-handed one. Left without any evidence, as in the books. A corner without a normal, which is 0,
 /// says nothing; the others still do.
-pub(super) fn handedness_of(mesh: &Mesh, diagnostics: &mut Diagnostics) -> Handedness {
+pub(super) async fn handedness_of(mesh: &Mesh, diagnostics: &mut Diagnostics, slices: &Slices) -> Handedness {
     let (mut agree, mut disagree) = (0u32, 0u32);
-    for &corners in mesh.indices.as_chunks::<3>().0 {
+    for (turn, &corners) in mesh.indices.as_chunks::<3>().0.iter().enumerate() {
+        slices.pause_every(turn).await;
         let [a, b, c] = corners.map(|vertex| mesh.normals[vertex as usize].as_dvec3());
         let side = mesh.side_of(corners).dot(a + b + c);
         agree += u32::from(side > 0.0);

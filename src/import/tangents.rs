@@ -4,13 +4,20 @@ use super::normals::unit_direction;
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Code, Subject, codes};
 use crate::model::Mesh;
+use crate::slices::Slices;
 
 /// Makes the tangents of a mesh unit vectors with a sign of ±1. The normals are unit vectors already. Tangents that are zero or
 /// not finite follow the u axis of the triangles around; where the texture coordinates give no direction, they are any vector
 /// square to the normal. `lines` gives the line of each tangent in the file, or none; it is asked only if there is something to tell.
-pub(super) fn mend_tangents(mesh: &mut Mesh, lines: impl Fn() -> Vec<u32>, diagnostics: &mut Diagnostics) {
+pub(super) async fn mend_tangents(
+    mesh: &mut Mesh,
+    lines: impl Fn() -> Vec<u32>,
+    diagnostics: &mut Diagnostics,
+    slices: &Slices,
+) {
     let (mut missing, mut signs) = (Vec::new(), Tally::default());
     for (index, tangent) in (0u32..).zip(&mut mesh.tangents) {
+        slices.pause_every(index as usize).await;
         let Some(direction) = unit_direction(tangent.truncate()) else {
             missing.push(index);
             continue;
@@ -22,7 +29,8 @@ pub(super) fn mend_tangents(mesh: &mut Mesh, lines: impl Fn() -> Vec<u32>, diagn
     }
     let mut missing_tally = Tally::default();
     if !missing.is_empty() {
-        for (&vertex, computed) in missing.iter().zip(mesh.computed_tangents_of(&missing)) {
+        let computed = mesh.computed_tangents_of(&missing, slices).await;
+        for (&vertex, computed) in missing.iter().zip(computed) {
             mesh.tangents[vertex as usize] = computed;
             missing_tally.add(vertex);
         }

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use glam::{DVec3, Vec3, Vec4};
 
 use super::Mesh;
+use crate::slices::{Slices, at_once};
 
 impl Mesh {
     /// The tangents, or computed ones where the mesh has none.
@@ -19,17 +20,17 @@ impl Mesh {
     /// A tangent for each vertex: along the u axis of the triangles around, square to the normal, which is a unit vector; w makes the
     /// bitangent go along v. Where the texture coordinates give no direction, it is any vector square to the normal.
     pub fn computed_tangents(&self) -> Vec<Vec4> {
-        let axes = texture_axes(self, |_| true).into_iter();
+        let axes = at_once(texture_axes(self, |_| true, &Slices::ENDLESS)).into_iter();
         axes.zip(&self.normals)
             .map(|(axes, &normal)| axes.tangent(normal))
             .collect()
     }
 
     /// The same tangents of some vertices alone: only the triangles around them are looked at closely.
-    pub(crate) fn computed_tangents_of(&self, vertices: &[u32]) -> Vec<Vec4> {
+    pub(crate) async fn computed_tangents_of(&self, vertices: &[u32], slices: &Slices) -> Vec<Vec4> {
         let mut is_asked = vec![false; self.vertex_count()];
         vertices.iter().for_each(|&vertex| is_asked[vertex as usize] = true);
-        let axes = texture_axes(self, |vertex| is_asked.get(vertex).copied().unwrap_or(false));
+        let axes = texture_axes(self, |vertex| is_asked.get(vertex).copied().unwrap_or(false), slices).await;
         let tangent = |&vertex: &u32| axes[vertex as usize].tangent(self.normals[vertex as usize]);
         vertices.iter().map(tangent).collect()
     }
@@ -61,9 +62,10 @@ impl TextureAxes {
 
 /// For each vertex that is asked for the sum over its triangles, each weighted by its area. Triangles without an area on the surface or in
 /// the texture are skipped, and those of which the mesh lacks a corner.
-fn texture_axes(mesh: &Mesh, is_asked: impl Fn(usize) -> bool) -> Vec<TextureAxes> {
+async fn texture_axes(mesh: &Mesh, is_asked: impl Fn(usize) -> bool, slices: &Slices) -> Vec<TextureAxes> {
     let mut axes = vec![TextureAxes::default(); mesh.vertex_count()];
-    for corners in mesh.indices.chunks_exact(3) {
+    for (turn, corners) in mesh.indices.chunks_exact(3).enumerate() {
+        slices.pause_every(turn).await;
         let [a, b, c] = [0, 1, 2].map(|corner| corners[corner] as usize);
         if !(is_asked(a) || is_asked(b) || is_asked(c)) {
             continue;

@@ -10,6 +10,7 @@ use crate::diagnostic::{Code, Fault, Subject, codes};
 use crate::gltf::{Animation, Interpolation, Path, Reader, Root, Wanted, fault, out_of_range};
 use crate::import::keys::{self, Mended};
 use crate::model::{Channel, ChannelValue, Clip, LocalJoint, Track, unique_names};
+use crate::slices::Slices;
 
 /// More tracks than this do not come from a file of a character.
 const MAX_TRACKS: usize = 1_000_000;
@@ -18,11 +19,12 @@ const MAX_TRACKS: usize = 1_000_000;
 ///
 /// # Errors
 /// When a channel names what is not there, or its numbers are of the wrong kind.
-pub(super) fn clips(
+pub(super) async fn clips(
     root: &Root,
     reader: &Reader<'_>,
     rig: &Rig,
     diagnostics: &mut Diagnostics,
+    slices: &Slices,
 ) -> Result<Vec<Clip>, Fault> {
     let joint_count = rig.skeleton.joint_count();
     if root.animations().len().saturating_mul(joint_count) > MAX_TRACKS {
@@ -43,7 +45,7 @@ pub(super) fn clips(
             diagnostics,
             noted: Noted::default(),
         };
-        if let Some(tracks) = clip.read(animation)? {
+        if let Some(tracks) = clip.read(animation, slices).await? {
             read.push((index, tracks));
         }
     }
@@ -102,9 +104,10 @@ struct ClipReader<'a> {
 
 impl ClipReader<'_> {
     /// The tracks; `None` for an animation that moves no joint.
-    fn read(&mut self, animation: &Animation) -> Result<Option<Vec<Track>>, Fault> {
+    async fn read(&mut self, animation: &Animation, slices: &Slices) -> Result<Option<Vec<Track>>, Fault> {
         let mut joints: HashMap<u32, Channels> = HashMap::new();
         for (channel, of_file) in animation.channels.iter().enumerate() {
+            slices.pause().await;
             let pointer = format!("/animations/{}/channels/{channel}", self.index);
             let Some(node) = of_file.target.node else {
                 self.noted.elsewhere += 1;

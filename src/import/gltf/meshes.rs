@@ -13,6 +13,7 @@ use crate::diagnostic::collect::{Diagnostics, Place, counted};
 use crate::gltf::{Fault, Primitive, Reader, Root, fault, out_of_range};
 use crate::import::scene::{MeshBuilder, MeshUse, Rig, Scene, Vertices};
 use crate::model::{Influences, Mesh, Object, index_out_of_range};
+use crate::slices::{Slices, Stage};
 
 /// What is kept of a mesh on each node: all streams of a vertex, three indices, and a submesh with its name.
 const BYTES_PER_VERTEX: u64 = 104;
@@ -72,7 +73,11 @@ pub(super) struct Meshed {
 ///
 /// # Errors
 /// When a primitive names what is not there, or numbers of the wrong kind.
-pub(super) fn mesh(source: &Primitives<'_>, diagnostics: &mut Diagnostics) -> Result<Meshed, Fault> {
+pub(super) async fn mesh(
+    source: &Primitives<'_>,
+    diagnostics: &mut Diagnostics,
+    slices: &Slices,
+) -> Result<Meshed, Fault> {
     let mut meshes = Meshes {
         source,
         builder: MeshBuilder::new(source.normal_maps, source.second_tex_coords),
@@ -81,12 +86,12 @@ pub(super) fn mesh(source: &Primitives<'_>, diagnostics: &mut Diagnostics) -> Re
     };
     // They are in the order of their meshes.
     for uses in source.scene.uses.chunk_by(|a, b| a.mesh == b.mesh) {
-        meshes.add(uses)?;
+        meshes.add(uses, slices).await?;
     }
     let (builder, places) = (meshes.builder, meshes.places);
     Ok(Meshed {
         objects: builder.objects(source.scene),
-        mesh: builder.finish(diagnostics)?,
+        mesh: builder.finish(diagnostics, slices).await?,
         places,
     })
 }
@@ -106,7 +111,10 @@ fn is_skinned(part: &Primitive) -> bool {
 
 impl<'a> Meshes<'a> {
     /// Adds a mesh for each of its nodes.
-    fn add(&mut self, uses: &[MeshUse]) -> Result<(), Fault> {
+    async fn add(&mut self, uses: &[MeshUse], slices: &Slices) -> Result<(), Fault> {
+        slices
+            .pause_at(Stage::Building, uses[0].mesh, self.source.root.meshes().len())
+            .await;
         let (mut shared, parts) = self.read(uses[0].mesh)?;
         let of_vertices = shared
             .iter()
@@ -121,6 +129,7 @@ impl<'a> Meshes<'a> {
         for mesh in uses {
             let mut starts = vec![None; shared.len()];
             for part in &parts {
+                slices.pause().await;
                 let start = match starts[part.shared] {
                     Some(start) => start,
                     None => {

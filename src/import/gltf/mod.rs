@@ -32,7 +32,7 @@ pub(super) use crate::gltf::begins_like_gltf as begins_like_model;
 pub(super) async fn import(bytes: &[u8], find: FindFile<'_>, slices: &Slices) -> Result<Imported, Box<Refused>> {
     let mut diagnostics = Vec::new();
     slices.pause_at(Stage::Reading, 0, 1).await;
-    let read = read(bytes, find, &mut diagnostics);
+    let read = read(bytes, find, &mut diagnostics, slices).await;
     let placed = |diagnostic: Diagnostic| placed(diagnostic, bytes);
     let diagnostics = diagnostics.into_iter().map(placed).collect();
     match read {
@@ -82,13 +82,19 @@ pub(super) fn files_beside(bytes: &[u8]) -> Vec<String> {
     paths
 }
 
-fn read(bytes: &[u8], find: FindFile<'_>, diagnostics: &mut Vec<Diagnostic>) -> Result<Imported, Fault> {
+async fn read(
+    bytes: &[u8],
+    find: FindFile<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+    slices: &Slices,
+) -> Result<Imported, Fault> {
     let container = gltf::open(bytes, diagnostics)?;
     let root = gltf::parse(&container)?;
     gltf::check_asset(&root, diagnostics)?;
+    slices.pause_at(Stage::Building, 0, 1).await;
     let buffers = Buffers::new(&root, &container, find);
     let mut noted = Diagnostics::default();
-    let read = model(&root, &buffers, &container, find, &mut noted);
+    let read = model(&root, &buffers, &container, find, &mut noted, slices).await;
     if read.is_ok() {
         gltf::note_broken_rules(&root, &mut noted);
     }
@@ -110,12 +116,13 @@ fn read(bytes: &[u8], find: FindFile<'_>, diagnostics: &mut Vec<Diagnostic>) -> 
     })
 }
 
-fn model(
+async fn model(
     root: &Root,
     buffers: &Buffers<'_>,
     container: &Container<'_>,
     find: FindFile<'_>,
     diagnostics: &mut Diagnostics,
+    slices: &Slices,
 ) -> Result<(Model, Images, Places), Fault> {
     let reader = Reader::new(root, buffers, container.json.len() as u64);
     let mut scene = nodes::scene(root, diagnostics)?;
@@ -131,7 +138,7 @@ fn model(
         second_tex_coords: materials::take_second_tex_coords(&materials),
         normal_maps: materials::have_normal_maps(&materials),
     };
-    let Meshed { mesh, objects, places } = meshes::mesh(&source, diagnostics)?;
+    let Meshed { mesh, objects, places } = meshes::mesh(&source, diagnostics, slices).await?;
     // The last one is for primitives without any.
     if !mesh
         .submeshes
@@ -140,7 +147,7 @@ fn model(
     {
         materials.pop();
     }
-    let clips = clips::clips(root, &reader, &rig, diagnostics)?;
+    let clips = clips::clips(root, &reader, &rig, diagnostics, slices).await?;
     left_out::note(root, &scene, &rig, &objects, source.second_tex_coords, diagnostics);
     if mesh.positions.is_empty() && rig.skeleton.joint_count() == 0 {
         let message = codes::GLTF_EMPTY.sentence.to_owned();

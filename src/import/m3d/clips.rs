@@ -7,17 +7,19 @@ use crate::diagnostic::{Code, Fault, Moment, Subject, codes};
 use crate::format::{BoneAnimation, ClipLines, Document, Keyframe, LineMap};
 use crate::import::keys::{self, Mended};
 use crate::model::{Clip, LocalJoint, Skeleton, Track, unique_names};
+use crate::slices::Slices;
 
 /// The dot product of two keys' quaternions below which the second lies on the other side. About 0 both sides are as near: there a bone
 /// turns by half a circle, and no sign is wrong. Here it turns by less than a third of one.
 const OTHER_SIDE: f32 = -0.5;
 
 /// All clips of a document for a skeleton.
-pub(super) fn clips_from_document(
+pub(super) async fn clips_from_document(
     document: &Document,
     lines: &LineMap,
     skeleton: &Skeleton,
     diagnostics: &mut Diagnostics,
+    slices: &Slices,
 ) -> Result<Vec<Clip>, Fault> {
     let clip_lines = lines.clip_lines();
     let names = unique_names(
@@ -39,17 +41,16 @@ pub(super) fn clips_from_document(
         );
     }
     let no_lines = ClipLines::default();
-    (0u32..)
-        .zip(document.clips.iter().zip(names))
-        .map(|(index, (clip, name))| {
-            let reader = ClipReader {
-                clip: index,
-                lines: lines.clips.get(index as usize).unwrap_or(&no_lines),
-                skeleton,
-            };
-            reader.read(name, &clip.bones, diagnostics)
-        })
-        .collect()
+    let mut clips = Vec::with_capacity(document.clips.len());
+    for (index, (clip, name)) in (0u32..).zip(document.clips.iter().zip(names)) {
+        let reader = ClipReader {
+            clip: index,
+            lines: lines.clips.get(index as usize).unwrap_or(&no_lines),
+            skeleton,
+        };
+        clips.push(reader.read(name, &clip.bones, diagnostics, slices).await?);
+    }
+    Ok(clips)
 }
 
 /// What is noted of one clip, counted over its bones.
@@ -67,7 +68,13 @@ struct ClipReader<'a> {
 }
 
 impl ClipReader<'_> {
-    fn read(&self, name: String, bones: &[BoneAnimation], diagnostics: &mut Diagnostics) -> Result<Clip, Fault> {
+    async fn read(
+        &self,
+        name: String,
+        bones: &[BoneAnimation],
+        diagnostics: &mut Diagnostics,
+        slices: &Slices,
+    ) -> Result<Clip, Fault> {
         let mut noted = Noted::default();
         let mut tracks = Vec::with_capacity(self.skeleton.joint_count());
         for (&bone, &rest) in self.skeleton.file_bones().iter().zip(self.skeleton.rest()) {
@@ -75,7 +82,8 @@ impl ClipReader<'_> {
                 .get(bone as usize)
                 .map(|bone| bone.keyframes.as_slice())
                 .unwrap_or_default();
-            let keys = mended_keys(bone, keys, self.lines, &mut noted);
+            let keys = mended_keys(bone, keys, self.lines, &mut noted, slices).await;
+            slices.pause().await;
             if keys.is_empty() {
                 if (bone as usize) < bones.len() {
                     noted
@@ -149,13 +157,14 @@ impl ClipReader<'_> {
 type Key = (f32, (u32, LocalJoint));
 
 /// The keys of a bone: finite, in strictly increasing time.
-fn mended_keys(bone: u32, keys: &[Keyframe], lines: &ClipLines, noted: &mut Noted) -> Vec<Key> {
+async fn mended_keys(bone: u32, keys: &[Keyframe], lines: &ClipLines, noted: &mut Noted, slices: &Slices) -> Vec<Key> {
     let add = |moments: &mut Moments, number: u32, time_secs: f32| {
         keys::add(moments, bone, time_secs, || lines.key(bone, number));
     };
     let Noted { mended, other_side, .. } = noted;
     let mut sound: Vec<Key> = Vec::with_capacity(keys.len());
     for (number, key) in (0u32..).zip(keys) {
+        slices.pause_every(number as usize).await;
         let joint = LocalJoint {
             rotation: Quat::from_array(key.rotation),
             translation: Vec3::from_array(key.translation),
@@ -173,6 +182,7 @@ fn mended_keys(bone: u32, keys: &[Keyframe], lines: &ClipLines, noted: &mut Note
     let keys = mended.in_order(sound, |moments, &(time_secs, (number, _))| {
         add(moments, number, time_secs);
     });
+    slices.pause().await;
     for two in keys.windows(2) {
         let (time_secs, (number, joint)) = two[1];
         if two[0].1.1.rotation.dot(joint.rotation) < OTHER_SIDE {

@@ -7,16 +7,18 @@ use crate::diagnostic::{Diagnostic, Fault, Subject, codes};
 use crate::format::{Document, LineMap, Vertex, VertexField};
 use crate::import::weights::{Mended, SUM_TOLERANCE};
 use crate::model::{Influences, Skeleton};
+use crate::slices::Slices;
 
 /// Highest bone number that the books' loaders keep: they store it in a byte.
 const BOOK_BONE_INDEX: u32 = 255;
 
 /// One entry per vertex; none for a model without joints.
-pub(super) fn influences_from_document(
+pub(super) async fn influences_from_document(
     document: &Document,
     lines: &LineMap,
     skeleton: &Skeleton,
     diagnostics: &mut Diagnostics,
+    slices: &Slices,
 ) -> Result<Vec<Influences>, Fault> {
     if skeleton.joint_count() == 0 {
         return Ok(Vec::new());
@@ -24,6 +26,7 @@ pub(super) fn influences_from_document(
     let (mut mended, mut high_bone) = (Mended::default(), Tally::default());
     let mut influences = Vec::with_capacity(document.vertices.len());
     for (index, vertex) in (0u32..).zip(&document.vertices) {
+        slices.pause_every(index as usize).await;
         let weights = normalized(index, vertex.blend_weights, &mut mended);
         let Some(joints) = joints_of(vertex, &weights, skeleton) else {
             let lines = lines.vertex_lines(VertexField::BlendIndices);

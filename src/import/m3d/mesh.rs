@@ -10,13 +10,15 @@ use crate::format::{Document, LineMap, Vertex, VertexField};
 use crate::import::normals::{handedness_of, make_normals_unit, mend_normals};
 use crate::import::tangents::mend_tangents;
 use crate::model::{Handedness, Mesh, Skeleton};
+use crate::slices::{Slices, Stage};
 
 /// The mesh, still without submeshes, and the handedness of its space.
-pub(super) fn mesh_from_document(
+pub(super) async fn mesh_from_document(
     document: &Document,
     lines: &LineMap,
     skeleton: &Skeleton,
     diagnostics: &mut Diagnostics,
+    slices: &Slices,
 ) -> Result<(Mesh, Handedness), Fault> {
     let vertices = &document.vertices;
     if vertices.len() > MOST_VERTICES {
@@ -27,9 +29,11 @@ pub(super) fn mesh_from_document(
     let positions = finite_stream(vertices, lines, diagnostics, VertexField::Position, |vertex| {
         vertex.position
     });
+    slices.pause().await;
     let tex_coords = finite_stream(vertices, lines, diagnostics, VertexField::TexCoords, |vertex| {
         vertex.tex_coords
     });
+    slices.pause().await;
     let mut mesh = Mesh {
         positions: positions.into_iter().map(Vec3::from_array).collect(),
         normals: vertices.iter().map(|vertex| Vec3::from_array(vertex.normal)).collect(),
@@ -38,12 +42,14 @@ pub(super) fn mesh_from_document(
         indices: document.triangles.as_flattened().to_vec(),
         ..Mesh::default()
     };
+    slices.pause().await;
     mesh.check().map_err(|fault| match fault.subject {
         Some(Subject::Triangle(triangle)) => fault.on_line(lines.triangles.get(triangle as usize).copied()).into(),
         _ => fault,
     })?;
-    let missing = make_normals_unit(&mut mesh);
-    let handedness = handedness_of(&mesh, diagnostics);
+    let missing = make_normals_unit(&mut mesh, slices).await;
+    let handedness = handedness_of(&mesh, diagnostics, slices).await;
+    slices.pause_at(Stage::Building, 2, 4).await;
     let lines_of = |field| move || lines.vertex_lines(field);
     mend_normals(
         &mut mesh,
@@ -52,8 +58,8 @@ pub(super) fn mesh_from_document(
         lines_of(VertexField::Normal),
         diagnostics,
     );
-    mesh.influences = influences_from_document(document, lines, skeleton, diagnostics)?;
-    mend_tangents(&mut mesh, lines_of(VertexField::Tangent), diagnostics);
+    mesh.influences = influences_from_document(document, lines, skeleton, diagnostics, slices).await?;
+    mend_tangents(&mut mesh, lines_of(VertexField::Tangent), diagnostics, slices).await;
     Ok((mesh, handedness))
 }
 

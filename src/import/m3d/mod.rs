@@ -72,10 +72,10 @@ pub async fn from_document_in(
     let submeshes = surfaces::submeshes_from_document(document, lines, &mut materials, &mut diagnostics);
     let skeleton = bones::skeleton_from_document(document, lines, &mut diagnostics)?;
     slices.pause_at(Stage::Building, 1, 4).await;
-    let (mut mesh, handedness) = mesh::mesh_from_document(document, lines, &skeleton, &mut diagnostics)?;
+    let (mut mesh, handedness) = mesh::mesh_from_document(document, lines, &skeleton, &mut diagnostics, slices).await?;
     mesh.submeshes = submeshes;
     slices.pause_at(Stage::Building, 3, 4).await;
-    let clips = clips::clips_from_document(document, lines, &skeleton, &mut diagnostics)?;
+    let clips = clips::clips_from_document(document, lines, &skeleton, &mut diagnostics, slices).await?;
     let up_axis = match document.dialect {
         Dialect::Imm => UpAxis::Z,
         Dialect::D3d11 | Dialect::D3d12 => UpAxis::Y,
@@ -91,5 +91,6 @@ pub async fn from_document_in(
         front: Front::Negative,
         copyright: None,
     };
+    slices.pause().await;
     Ok((model.checked()?, diagnostics.into_vec()))
 }

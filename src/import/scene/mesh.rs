@@ -12,6 +12,7 @@ use crate::import::normals::{is_direction, make_normals_unit, mend_normals};
 use crate::import::tangents::mend_tangents;
 use crate::import::weights;
 use crate::model::{Handedness, Influences, Mesh, Object, Submesh};
+use crate::slices::Slices;
 
 /// Attributes of the vertices of a part of a mesh. Those that are absent are empty; all others have one length.
 #[derive(Clone, Default)]
@@ -221,7 +222,7 @@ impl MeshBuilder {
     ///
     /// # Errors
     /// When its parts do not fit each other.
-    pub(in crate::import) fn finish(self, diagnostics: &mut Diagnostics) -> Result<Mesh, Fault> {
+    pub(in crate::import) async fn finish(self, diagnostics: &mut Diagnostics, slices: &Slices) -> Result<Mesh, Fault> {
         let mut mesh = self.mesh;
         if !mesh.colors.is_empty() {
             mesh.colors.resize(mesh.positions.len(), Vec4::ONE);
@@ -250,14 +251,14 @@ impl MeshBuilder {
         // What is absent was noted for each part, or is no flaw.
         let mut quiet = Diagnostics::default();
         mesh.check()?;
-        let missing = make_normals_unit(&mut mesh);
+        let missing = make_normals_unit(&mut mesh, slices).await;
         mend_normals(&mut mesh, &missing, Handedness::Right, Vec::new, &mut quiet);
         if mesh.tangents.is_empty() {
             return Ok(mesh);
         }
         let computed = mesh.tangents.iter().map(|tangent| !is_direction(tangent.truncate()));
         let computed: Vec<bool> = computed.collect();
-        mend_tangents(&mut mesh, Vec::new, &mut quiet);
+        mend_tangents(&mut mesh, Vec::new, &mut quiet, slices).await;
         // The green of normal maps points against v there, and so do the bitangents of tangents that a file has.
         for (tangent, _) in mesh.tangents.iter_mut().zip(computed).filter(|(_, computed)| *computed) {
             tangent.w = -tangent.w;

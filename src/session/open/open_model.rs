@@ -177,6 +177,11 @@ impl OpenModel {
         let kept = clip.map_or(&self.at_rest, |(_, facts)| &facts.extent);
         if kept.get().is_none() {
             slices.pause_at(Stage::Measuring, 0, 1).await;
+            if self.vertex_groups.get().is_none() {
+                let _ = self
+                    .vertex_groups
+                    .set(VertexGroups::new_in(&self.model.mesh, slices).await);
+            }
             let extent = Extent::of_in(&self.model, self.vertex_groups(), clip.map(|(clip, _)| clip), slices).await;
             // Nobody else has set it meanwhile.
             let _ = kept.set(extent);
