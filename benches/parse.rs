@@ -66,7 +66,7 @@ fn parsing(criterion: &mut Criterion) {
         || {
             drop(black_box(
                 load_job(Arc::clone(&files), file.clone(), &Slices::ENDLESS).run(),
-            ))
+            ));
         },
     );
     let model = import().model;

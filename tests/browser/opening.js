@@ -5,7 +5,7 @@ import { mkdtempSync, mkdirSync, copyFileSync, readFileSync, writeFileSync } fro
 import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 import {
-  FIXTURES, LARGE, SAMPLE, SHARED, call, drop, dropAndWait, filesIn, keep, settled, state, test, unless, until,
+  CENTRE, FIXTURES, LARGE, SAMPLE, SHARED, call, drop, dropAndWait, filesIn, keep, settled, state, test, unless, until,
 } from "./harness.js";
 import { assertDrawn, difference, picture } from "./picture.js";
 import { GROUND, click } from "./widgets.js";
@@ -35,11 +35,10 @@ test("a dropped file opens, and the page says before release what it will do", {
 /** From now on the names of the files whose bytes the page asks for stand in `reads` there. */
 async function watchReads(page) {
   await page.evaluate(() => {
-    const { arrayBuffer } = File.prototype;
     globalThis.reads = [];
-    File.prototype.arrayBuffer = function () {
-      globalThis.reads.push(this.name);
-      return arrayBuffer.call(this);
+    File.prototype.slice = function (from, ...rest) {
+      if (from === 0) globalThis.reads.push(this.name);
+      return Blob.prototype.slice.call(this, from, ...rest);
     };
   });
 }
@@ -57,7 +56,7 @@ test("a dropped folder opens with the paths in it", { own: true }, async (page) 
 test("a folder of more entries than one call gives is read to its end", { own: true }, async (page) => {
   const { folder } = copyOfSample("pack", "zz.m3d");
   const pictures = Array.from({ length: 250 }, (_, index) => `picture${index}.png`);
-  for (const name of pictures) writeFileSync(join(folder, "pack", name), "");
+  for (const name of pictures) writeFileSync(join(folder, "pack", name), "none");
   await watchReads(page);
   const { outcome, model } = await dropAndWait(page, [join(folder, "pack")]);
   assert.equal(outcome, "load");
@@ -385,4 +384,67 @@ test("programs open files and bytes in every form, also where a file has a metho
     nothing: "nothing.m3d needs its bytes as Uint8Array, ArrayBuffer or Blob",
     nameless: "a file to open is a File or {name, bytes}",
   });
+});
+
+/** The sample with its vertices' section made long by blank lines: it takes a while to read, and is the same model. */
+const slow = (megabytes) => readFileSync(SAMPLE, "utf8").replace(/(\*+Triangles\*+)/, `${"\n".repeat(megabytes << 20)}$1`);
+
+test("while a large file opens the page goes on, tells how far it is, and Esc gives it up", {}, async (page) => {
+  const { folder } = copyOfSample("small.m3d");
+  const large = join(folder, "large.m3d");
+  writeFileSync(large, slow(300));
+  await call(page, "pause");
+  await page.evaluate(() => {
+    globalThis.outcome = null;
+    const input = document.createElement("input");
+    input.type = "file";
+    input.id = "large";
+    document.body.append(input);
+  });
+  await page.setInputFiles("#large", large);
+  const begin = () => page.evaluate(() => {
+    globalThis.outcome = null;
+    bindpose.open(document.getElementById("large").files).then((state) => (globalThis.outcome = state.model.name), ({ name }) => (globalThis.outcome = name));
+  });
+  await begin();
+  const chip = page.locator("[role=button][aria-label='Cancel opening large.m3d']");
+  await chip.waitFor({ state: "attached" });
+  await keep(page, "opening");
+  assert.equal((await state(page)).model.name, "figure.m3d", "what was open stays");
+  await page.evaluate(() => bindpose.seek(0.5));
+  await until(page, () => bindpose.state().timeSecs === 0.5);
+  assert.equal(await page.evaluate(() => globalThis.outcome), null, "and the page takes commands");
+  await page.mouse.click(...CENTRE);
+  await page.keyboard.press("Escape");
+  await until(page, () => globalThis.outcome !== null);
+  assert.equal(await page.evaluate(() => globalThis.outcome), "AbortError");
+  assert.equal((await state(page)).model.name, "figure.m3d");
+  await until(page, () => !document.querySelector("[aria-label^='Cancel opening']"));
+
+  await begin();
+  await until(page, () => globalThis.outcome !== null);
+  assert.equal(await page.evaluate(() => globalThis.outcome), "large.m3d");
+});
+
+test("what cannot be read or is too much is told in words, and a file of another kind is not read to its end", {}, async (page) => {
+  const told = await page.evaluate(async () => {
+    const pieces = [];
+    const blob = (size, slice) => ({ size, slice, arrayBuffer: () => Promise.reject(new Error("not all at once")) });
+    const open = (name, bytes) => bindpose.open([{ name, bytes }]).then(({ error }) => error?.message, ({ message }) => message);
+    const film = new Blob([new Uint8Array([0x1a, 0x45, 0xdf, 0xa3]), new Uint8Array(20 << 20)]);
+    const watched = blob(film.size, (from, until) => {
+      pieces.push(until - from);
+      return film.slice(from, until);
+    });
+    return {
+      gone: await open("gone.m3d", blob(9, () => blob(9))),
+      much: await open("much.m3d", blob(600 << 20)),
+      film: await open("film.m3d", watched),
+      pieces,
+    };
+  });
+  assert.equal(told.gone, "gone.m3d could not be read: not all at once");
+  assert.equal(told.much, "These files have 600 MiB together; up to 512 MiB can be opened at once.");
+  assert.match(told.film, /binary/);
+  assert.deepEqual(told.pieces, [64 << 10]);
 });

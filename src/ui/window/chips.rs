@@ -37,6 +37,8 @@ const MARK: f32 = 12.0;
 const MOST_MARKS: usize = 3;
 /// A longer name of a subset or a bone ends in an ellipsis.
 const MOST_WORDS: f32 = 220.0;
+/// The same of a chip that counts, which is as wide whatever the number.
+const MOST_COUNTED: f32 = 320.0;
 
 /// A mode that is on, and the command that ends it.
 struct Mode {
@@ -229,7 +231,8 @@ impl Chip {
     fn new(ui: &Ui, mode: Mode, most: f32) -> Self {
         let tokens = Tokens::of(ui);
         let font = FontId::proportional(12.0);
-        let words = elided_name(ui.painter(), &mode.words, font, tokens.text, MOST_WORDS.min(most));
+        let longest = if mode.done.is_some() { MOST_COUNTED } else { MOST_WORDS };
+        let words = elided_name(ui.painter(), &mode.words, font, tokens.text, longest.min(most));
         let shown_key = if is_touch(ui) { "" } else { mode.key };
         let key = ui
             .painter()
@@ -237,7 +240,7 @@ impl Chip {
         let behind = if shown_key.is_empty() { 0.0 } else { GAP + key.size().x };
         let marks = mode.marks.len() as f32 * MARK;
         // One that counts keeps its width.
-        let words_width = mode.done.map_or(0.0, |_| MOST_WORDS.min(most)).max(words.size().x);
+        let words_width = mode.done.map_or(0.0, |_| MOST_COUNTED.min(most)).max(words.size().x);
         let width = 2.0 * PADDING + marks + words_width + behind + GAP + CROSS;
         Self {
             mode,

@@ -15,10 +15,14 @@ function file(name, waits = false) {
   return { name, come, arrayBuffer: () => there.then(() => new ArrayBuffer(1)) };
 }
 
-/** A viewer that opens what it is given; the last part of `opened` is on screen. */
+/** A viewer that reads and opens what it is given, unless something else was given meanwhile; the last part of `opened` is on screen. */
 function viewerOf(opened = []) {
+  let given = 0;
   const state = () => ({ model: opened.length ? { name: opened.at(-1), opening: opened.length } : null, error: null });
   const open = async (records) => {
+    const mine = ++given;
+    await Promise.all(records.map(({ bytes }) => bytes.arrayBuffer()));
+    if (mine !== given) throw new DOMException("overtaken", "AbortError");
     opened.push(records[0].name);
     return state();
   };
@@ -64,7 +68,7 @@ test("an opening that failed holds up nothing, and the first of two before the v
   attach(viewer);
   assert.deepEqual(await Promise.all([early, late]), [REPLACED, "opened"]);
   const broken = { name: "gone.m3d", arrayBuffer: () => Promise.reject(new Error("it was moved")) };
-  assert.equal(await outcome(bindpose.open([broken])), "Error: gone.m3d could not be read: it was moved");
+  assert.equal(await outcome(bindpose.open([broken])), "Error: it was moved");
   assert.equal(await outcome(bindpose.addClips([file("walk.m3d")])), "opened");
   assert.deepEqual(viewer.opened, ["late.m3d", "walk.m3d"]);
 });
