@@ -19,6 +19,7 @@ pub struct Slices(Option<Rc<Shared>>);
 
 struct Shared {
     is_over: Box<dyn Fn() -> bool>,
+    entered: Box<dyn Fn(Stage)>,
     progress: Cell<StageProgress>,
 }
 
@@ -58,6 +59,21 @@ pub struct StageProgress {
 }
 
 impl Stage {
+    /// Its name for programs.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Fetching => "fetching",
+            Self::Unpacking => "unpacking",
+            Self::Reading => "reading",
+            Self::Building => "building",
+            Self::Compiling => "compiling",
+            Self::Checking => "checking",
+            Self::Measuring => "measuring",
+            Self::Decoding => "decoding",
+            Self::Judging => "judging",
+        }
+    }
+
     /// The part of all work at which a stage begins, in percent: about as a text of many vertices has them.
     const BEGINS: [usize; 10] = [0, 5, 10, 45, 60, 65, 75, 80, 95, 100];
 }
@@ -76,8 +92,14 @@ impl StageProgress {
 impl Slices {
     /// Slices that end where `is_over` says so. It is asked often, and should be quick.
     pub fn new(is_over: impl Fn() -> bool + 'static) -> Self {
+        Self::told(is_over, |_| {})
+    }
+
+    /// The same. `entered` hears of each stage when it begins.
+    pub fn told(is_over: impl Fn() -> bool + 'static, entered: impl Fn(Stage) + 'static) -> Self {
         Self(Some(Rc::new(Shared {
             is_over: Box::new(is_over),
+            entered: Box::new(entered),
             progress: Cell::default(),
         })))
     }
@@ -108,6 +130,9 @@ impl Slices {
     /// [`pause`](Self::pause), and tells how much of a stage is done.
     pub fn pause_at(&self, stage: Stage, done: usize, total: usize) -> Pause {
         if let Some(shared) = &self.0 {
+            if shared.progress.get().stage != stage {
+                (shared.entered)(stage);
+            }
             shared.progress.set(StageProgress { stage, done, total });
         }
         self.pause()

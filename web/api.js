@@ -4,7 +4,7 @@ import { onlyJoins } from "./files.js";
 import { recordOf } from "./sources.js";
 
 /** What `state()` says before there is a viewer to ask. */
-const EMPTY = { backend: null, model: null, models: [], clip: null, timeSecs: 0, playing: false, undo: null, redo: null, framesRendered: 0, notices: [], book: null, error: null };
+const EMPTY = { backend: null, model: null, models: [], opening: null, timings: {}, clip: null, timeSecs: 0, playing: false, undo: null, redo: null, framesRendered: 0, notices: [], book: null, error: null };
 
 /** A failure of the viewer itself, in the shape that `state().error` has for a file. */
 const stopped = ({ message }) => ({ severity: "error", code: "viewer-stopped", message, expected: null, found: null, line: null, column: null, subject: null, count: 1, places: [], file: null });

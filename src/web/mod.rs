@@ -23,6 +23,7 @@ mod saving;
 mod shared;
 mod slice;
 mod state;
+mod timings;
 mod viewer;
 
 use js_sys::{Object, Promise, Reflect};

@@ -113,6 +113,7 @@ impl Shared {
         let shared = Rc::clone(self);
         promise(async move {
             let records = records_of(&files)?;
+            shared.timings.begin();
             let files = shared.read(records, replaces).await?;
             open(&mut shared.session.borrow_mut(), files);
             let mine = shared.session.borrow().openings();
@@ -150,6 +151,9 @@ impl Shared {
                     let beginnings = session.beginnings();
                     (session.advance_opening(), session.beginnings() != beginnings)
                 };
+                if !shared.session.borrow().is_opening() {
+                    shared.timings.draw();
+                }
                 if began_anew {
                     shared.follow_new_beginning();
                 }

@@ -236,7 +236,9 @@ impl eframe::App for Shell {
         if let Some(app) = self.app.borrow_mut().as_mut() {
             app.set_contrast(contrast());
             requests = app.ui(ui);
-            self.frames.set(app.frames_rendered());
+            if self.frames.replace(app.frames_rendered()) != app.frames_rendered() {
+                self.shared.timings.note_drawn();
+            }
         }
         for request in requests {
             match request {

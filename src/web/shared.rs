@@ -12,6 +12,7 @@ use super::contrast::ContrastWatch;
 use super::mirror::{self, MirrorLink};
 use super::picture::AppSlot;
 use super::slice::Slice;
+use super::timings::Timings;
 use super::{object, state};
 use crate::session::{ExportedFile, Session};
 use crate::ui::{UiState, view_in_words};
@@ -30,6 +31,8 @@ pub(super) struct Shared {
     pub(super) names_changed: Cell<bool>,
     /// The slice of an opening.
     pub(super) slice: Slice,
+    /// Of the last opening.
+    pub(super) timings: Rc<Timings>,
     /// Whether tasks go on with an opening.
     pub(super) is_opening: Cell<bool>,
 }
@@ -71,9 +74,11 @@ impl Running {
 impl Shared {
     pub(super) fn new(mut session: Session, listener: Function) -> Self {
         let slice = Slice::default();
-        slice.give_to(&mut session);
+        let timings = Rc::new(Timings::default());
+        slice.give_to(&mut session, &timings);
         Self {
             slice,
+            timings,
             is_opening: Cell::default(),
             mirror: MirrorLink::default(),
             session: Rc::new(RefCell::new(session)),

@@ -4,6 +4,7 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use super::now_secs;
+use super::timings::Timings;
 use crate::session::Session;
 use crate::slices::Slices;
 
@@ -20,8 +21,9 @@ impl Slice {
     }
 
     /// Has a session open in such slices.
-    pub(super) fn give_to(&self, session: &mut Session) {
-        let ends_secs = Rc::clone(&self.0);
-        session.open_in(&Slices::new(move || now_secs() >= ends_secs.get()));
+    pub(super) fn give_to(&self, session: &mut Session, timings: &Rc<Timings>) {
+        let (ends_secs, timings) = (Rc::clone(&self.0), Rc::clone(timings));
+        let is_over = move || now_secs() >= ends_secs.get();
+        session.open_in(&Slices::told(is_over, move |stage| timings.enter(stage.as_str())));
     }
 }

@@ -10,7 +10,7 @@ use wasm_bindgen::{JsCast as _, JsValue};
 use crate::scene::{Detail, FrameCost, Pass, Theme, TimedPass};
 use crate::session::summary::{self, Books, Finding};
 use crate::session::{
-    AppearanceState, Checklist, CrowdState, Event, LoadError, PlaybackState, Quality, Session, ViewState,
+    AppearanceState, BeingOpened, Checklist, CrowdState, Event, LoadError, PlaybackState, Quality, Session, ViewState,
 };
 
 /// `bindpose.state()`.
@@ -21,6 +21,10 @@ pub(super) struct State<'a> {
     model: Option<Model<'a>>,
     /// Paths of all models that are open, in the order of opening.
     models: Vec<&'a str>,
+    /// What is being opened.
+    opening: Option<Opening<'a>>,
+    /// Milliseconds of each stage of the last opening.
+    timings: BTreeMap<&'static str, f64>,
     textures: Textures<'a>,
     blend: Option<Blend>,
     time_secs: f32,
@@ -42,6 +46,14 @@ pub(super) struct State<'a> {
     notices: Vec<Finding<'a>>,
     book: Option<Books<'a>>,
     error: Option<FileError<'a>>,
+}
+
+/// What is being opened, and how far that is.
+#[derive(Serialize)]
+struct Opening<'a> {
+    name: &'a str,
+    stage: &'static str,
+    percent: usize,
 }
 
 #[derive(Serialize)]
@@ -153,6 +165,7 @@ impl<'a> State<'a> {
         adapter: Option<&'a str>,
         frames_rendered: u64,
         theme: Option<Theme>,
+        timings: BTreeMap<&'static str, f64>,
     ) -> Self {
         let ViewState {
             camera,
@@ -171,6 +184,12 @@ impl<'a> State<'a> {
             adapter,
             model: model(session),
             models: session.models().into_iter().map(|file| &*file.path).collect(),
+            opening: session.being_opened().map(|BeingOpened { name, progress }| Opening {
+                name,
+                stage: progress.stage.as_str(),
+                percent: progress.percent(),
+            }),
+            timings,
             textures: Textures {
                 named: *named,
                 missing,

@@ -183,6 +183,7 @@ impl Shared {
             running.map(|running| running.adapter.as_str()),
             running.map_or(0, |running| running.frames_rendered.get()),
             self.ui.borrow().theme,
+            self.timings.millis(),
         ))
     }
 
