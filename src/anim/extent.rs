@@ -45,7 +45,7 @@ impl Extent {
         let all = job.times_left();
         loop {
             slices.pause_at(Stage::Measuring, all - job.times_left(), all).await;
-            if !job.step(model, groups, clip) {
+            if !job.step(model, groups, clip, slices).await {
                 return job.extent;
             }
         }
@@ -102,7 +102,13 @@ impl ExtentJob {
     }
 
     /// Looks at one time more. False when all is done.
-    fn step(&mut self, model: &Model, groups: &VertexGroups, clip: Option<&CompiledClip>) -> bool {
+    async fn step(
+        &mut self,
+        model: &Model,
+        groups: &VertexGroups,
+        clip: Option<&CompiledClip>,
+        slices: &Slices,
+    ) -> bool {
         let mesh = &model.mesh;
         let clip = clip.filter(|_| !mesh.influences.is_empty());
         // The points come first: the box then grows by their vertices at each time before it is asked which groups lie inside.
@@ -114,7 +120,7 @@ impl ExtentJob {
             self.buffers.evaluate(&model.skeleton, clip, time_secs);
         }
         if points_time_secs.is_none() {
-            self.grow_bounds(mesh, groups);
+            self.grow_bounds(mesh, groups, slices).await;
             return true;
         }
         // Vertices of a model in its bind pose are not moved.
@@ -123,7 +129,7 @@ impl ExtentJob {
             mesh,
             palette: (!is_bound).then_some(&self.buffers.palette),
         };
-        self.extremes.look(&pose, groups, self.stride);
+        self.extremes.look(&pose, groups, self.stride, slices).await;
         self.extremes.append(&pose, &mut self.extent.points);
         if clip.is_none() {
             self.extent.bounds = pose.bounds();
@@ -131,7 +137,7 @@ impl ExtentJob {
         true
     }
 
-    fn grow_bounds(&mut self, mesh: &Mesh, groups: &VertexGroups) {
+    async fn grow_bounds(&mut self, mesh: &Mesh, groups: &VertexGroups, slices: &Slices) {
         let (palette, bounds) = (&self.buffers.palette, &mut self.extent.bounds);
         if let Some(groups) = &self.by_joint {
             *bounds = groups
@@ -145,7 +151,8 @@ impl ExtentJob {
         };
         let farthest = self.extremes.last.iter();
         *bounds = farthest.fold(*bounds, |bounds, &vertex| bounds.include(pose.place(vertex)));
-        for (vertices, moved) in groups.iter() {
+        for (turn, (vertices, moved)) in groups.iter().enumerate() {
+            slices.pause_every(turn).await;
             let moved = moved.narrow_in_pose(palette);
             if !(moved.min.cmpge(bounds.min).all() && moved.max.cmple(bounds.max).all()) {
                 *bounds = vertices
@@ -217,7 +224,7 @@ impl Extremes {
     }
 
     /// Finds those of a pose. Of each group every n-th vertex counts.
-    fn look(&mut self, pose: &Pose<'_>, groups: &VertexGroups, stride: usize) {
+    async fn look(&mut self, pose: &Pose<'_>, groups: &VertexGroups, stride: usize, slices: &Slices) {
         for lanes in &mut self.lanes {
             (lanes.greatest, lanes.least) = (Vec4::NEG_INFINITY, Vec4::INFINITY);
             lanes.vertices = [[u32::MAX; 2]; 4];
@@ -226,7 +233,8 @@ impl Extremes {
             self.take(vertex, pose.place(vertex));
         }
         let bound = Palette::default();
-        for (vertices, moved) in groups.iter() {
+        for (turn, (vertices, moved)) in groups.iter().enumerate() {
+            slices.pause_every(turn).await;
             let reached = self.may_reach_out(&moved.narrow_in_pose(pose.palette.unwrap_or(&bound)));
             if reached != 0 {
                 for &vertex in vertices.iter().step_by(stride) {

@@ -7,6 +7,7 @@ use super::stream::{Stream, Trouble};
 use crate::diagnostic::Entry;
 use crate::format::quick;
 use crate::format::{AnimationClip, BoneAnimation, Dialect, Document, Keyframe, Material, Reflectance, Subset, Vertex};
+use crate::slices::{Slices, at_once};
 
 /// What a loader made of a file.
 #[derive(Clone, Debug)]
@@ -70,11 +71,20 @@ const MATERIAL: [&str; 13] = [
 ];
 const KEY: [&str; 4] = ["Time", "Pos", "Scale", "Quat"];
 
+/// So many rows are taken over between two places at which that can stop.
+const ROWS_A_PIECE: usize = 1 << 14;
+
 /// Reads a file as a book's loader does. Makes room only for what is there. Rows of which is known that it reads them as they are meant are
 /// taken over.
 pub fn read(book: Book, bytes: &[u8], known: &Known<'_>) -> Reading {
+    at_once(read_in(book, bytes, known, &Slices::ENDLESS))
+}
+
+/// [`read`] in slices.
+pub(super) async fn read_in(book: Book, bytes: &[u8], known: &Known<'_>, slices: &Slices) -> Reading {
     let mut loader = Loader {
         stream: Stream::new(bytes),
+        slices,
         document: Document {
             dialect: match book {
                 Book::D3d11 => Dialect::D3d11,
@@ -84,16 +94,16 @@ pub fn read(book: Book, bytes: &[u8], known: &Known<'_>) -> Reading {
         },
     };
     let counts = loader.header();
-    loader.materials(counts.materials);
-    loader.subsets(counts.materials);
-    loader.vertices(counts.vertices, counts.bones, known);
-    loader.triangles(counts.triangles, counts.vertices, known);
+    loader.materials(counts.materials).await;
+    loader.subsets(counts.materials).await;
+    loader.vertices(counts.vertices, counts.bones, known).await;
+    loader.triangles(counts.triangles, counts.vertices, known).await;
     if counts.bones > 0 {
-        loader.offsets(counts.bones);
-        loader.hierarchy(counts.bones);
-        loader.clips(counts.clips, counts.bones, known);
+        loader.offsets(counts.bones).await;
+        loader.hierarchy(counts.bones).await;
+        loader.clips(counts.clips, counts.bones, known).await;
     }
-    let Loader { stream, document } = loader;
+    let Loader { stream, document, .. } = loader;
     let (stop, mistake) = stream.into_troubles();
     Reading {
         document,
@@ -105,6 +115,7 @@ pub fn read(book: Book, bytes: &[u8], known: &Known<'_>) -> Reading {
 
 struct Loader<'a> {
     stream: Stream<'a>,
+    slices: &'a Slices,
     document: Document,
 }
 
@@ -126,7 +137,7 @@ impl Loader<'_> {
     }
 
     /// Reads entries until one fails, and keeps those that were read whole.
-    fn entries<T>(
+    async fn entries<T>(
         &mut self,
         count: u32,
         entry: impl Fn(u32) -> Entry,
@@ -134,6 +145,7 @@ impl Loader<'_> {
         list: impl Fn(&mut Document) -> &mut Vec<T>,
     ) {
         for index in 0..count {
+            self.slices.pause_every(index as usize).await;
             self.stream.entry = entry(index);
             let value = read(&mut self.stream, self.document.dialect);
             if self.stream.has_failed() {
@@ -143,24 +155,26 @@ impl Loader<'_> {
         }
     }
 
-    fn materials(&mut self, count: u32) {
+    async fn materials(&mut self, count: u32) {
         self.stream.ruler("the materials");
         self.entries(count, Entry::Material, read_material, |document| {
             &mut document.materials
-        });
+        })
+        .await;
     }
 
-    fn subsets(&mut self, count: u32) {
+    async fn subsets(&mut self, count: u32) {
         self.stream.ruler("the subsets");
         self.entries(
             count,
             Entry::Subset,
             |stream, _| read_subset(stream),
             |document| &mut document.subsets,
-        );
+        )
+        .await;
     }
 
-    fn vertices(&mut self, count: u32, bones: u32, known: &Known<'_>) {
+    async fn vertices(&mut self, count: u32, bones: u32, known: &Known<'_>) {
         self.stream.ruler("the vertices");
         if let Some((document, quick)) = known.rows()
             && document.vertices.len() == count as usize
@@ -168,17 +182,21 @@ impl Loader<'_> {
             && let (Some(last), Some(rows)) = (count.checked_sub(1), &quick.vertices)
             && self.stream.pass_over(rows, Entry::Vertex(last))
         {
-            self.document.vertices.clone_from(&document.vertices);
+            for rows in document.vertices.chunks(ROWS_A_PIECE) {
+                self.slices.pause().await;
+                self.document.vertices.extend_from_slice(rows);
+            }
             return;
         }
         let read = |stream: &mut Stream<'_>, _| {
             let quick = stream.quick(|cursor| quick::vertex::<false>(cursor, bones));
             quick.map_or_else(|| read_vertex(stream, bones > 0), |(vertex, _)| vertex)
         };
-        self.entries(count, Entry::Vertex, read, |document| &mut document.vertices);
+        self.entries(count, Entry::Vertex, read, |document| &mut document.vertices)
+            .await;
     }
 
-    fn triangles(&mut self, count: u32, vertices: u32, known: &Known<'_>) {
+    async fn triangles(&mut self, count: u32, vertices: u32, known: &Known<'_>) {
         self.stream.ruler("the triangles");
         // Of a `USHORT`, and of vertices that are there, as nearly all are.
         let end = vertices.min(1 << 16);
@@ -198,28 +216,31 @@ impl Loader<'_> {
                 |(triangle, _)| triangle,
             )
         };
-        self.entries(count, Entry::Triangle, read, |document| &mut document.triangles);
+        self.entries(count, Entry::Triangle, read, |document| &mut document.triangles)
+            .await;
     }
 
-    fn offsets(&mut self, count: u32) {
+    async fn offsets(&mut self, count: u32) {
         self.stream.ruler("the bone offsets");
         let read = |stream: &mut Stream<'_>, _| {
             stream.label("BoneOffset", &[]);
             stream.quick(quick::offset).unwrap_or_else(|| stream.floats("a number"))
         };
-        self.entries(count, Entry::Offset, read, |document| &mut document.bone_offsets);
+        self.entries(count, Entry::Offset, read, |document| &mut document.bone_offsets)
+            .await;
     }
 
-    fn hierarchy(&mut self, count: u32) {
+    async fn hierarchy(&mut self, count: u32) {
         self.stream.ruler("the bone hierarchy");
         let read = |stream: &mut Stream<'_>, _| {
             stream.label("ParentIndexOfBone", &[]);
             stream.int("the number")
         };
-        self.entries(count, Entry::Bone, read, |document| &mut document.bone_parents);
+        self.entries(count, Entry::Bone, read, |document| &mut document.bone_parents)
+            .await;
     }
 
-    fn clips(&mut self, count: u32, bones: u32, known: &Known<'_>) {
+    async fn clips(&mut self, count: u32, bones: u32, known: &Known<'_>) {
         self.stream.ruler("the clips");
         for clip in 0..count {
             let stream = &mut self.stream;
@@ -233,6 +254,7 @@ impl Loader<'_> {
             });
             stream.skip();
             for bone in 0..bones {
+                self.slices.pause().await;
                 stream.entry = Entry::Track { clip, bone };
                 stream.label("Bone", &[]);
                 stream.skip();
@@ -252,6 +274,7 @@ impl Loader<'_> {
                     keyframes.extend_from_slice(track);
                 }
                 for key in keyframes.len() as u32..keys {
+                    self.slices.pause_every(key as usize).await;
                     stream.entry = Entry::Key { clip, bone, key };
                     let keyframe = match stream.quick(quick::keyframe) {
                         Some((keyframe, _)) => keyframe,

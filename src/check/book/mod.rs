@@ -20,6 +20,7 @@ pub use stream::{Stream, Trouble};
 pub use crate::diagnostic::limits::{MOST_BONES, MOST_MATERIALS, MOST_VERTICES};
 use crate::diagnostic::{Diagnostic, Position, codes};
 use crate::format::Dialect;
+use crate::slices::{Slices, at_once};
 
 /// What a book's program makes of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -86,7 +87,13 @@ pub fn converted_in_words(limits: &[Limit]) -> String {
 
 /// Reads a file as a book's program does.
 pub fn verdict(book: Book, bytes: &[u8], known: &Known<'_>) -> Verdict {
-    let reading = read(book, bytes, known);
+    at_once(verdict_in(book, bytes, known, &Slices::ENDLESS))
+}
+
+/// [`verdict`] in slices.
+pub async fn verdict_in(book: Book, bytes: &[u8], known: &Known<'_>, slices: &Slices) -> Verdict {
+    let reading = loader::read_in(book, bytes, known, slices).await;
+    slices.pause().await;
     let trouble = trouble(&reading);
     let document = known.document.or(trouble.is_none().then_some(&reading.document));
     let limits = limits::limits(book, document, &reading.document, known);

@@ -64,7 +64,7 @@ async fn of_books(open: &OpenModel, maps: &Maps, slices: &Slices) -> Vec<Verdict
     let mut verdicts = Vec::new();
     for (done, book) in Book::ALL.into_iter().enumerate() {
         slices.pause_at(Stage::Judging, done, Book::ALL.len()).await;
-        verdicts.push(book::verdict(book, bytes, &known));
+        verdicts.push(book::verdict_in(book, bytes, &known, slices).await);
     }
     verdicts
 }
