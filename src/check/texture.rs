@@ -56,7 +56,9 @@ pub(super) async fn note_tangent_signs(
     slices: &Slices,
 ) {
     let mut against = Tally::default();
-    against_in(model, slices).await.for_each(|vertex| against.add(vertex));
+    for vertex in against_in(model, slices).await {
+        against.add(vertex);
+    }
     if against.count > 0 {
         diagnostics.add(
             &codes::TANGENT_SIGN_AGAINST_UV,
@@ -76,10 +78,10 @@ pub(super) async fn note_tangent_signs(
 ///
 /// One triangle that agrees clears its vertices, and the others around these are not asked.
 pub(crate) fn tangents_against(model: &Model) -> impl Iterator<Item = u32> {
-    at_once(against_in(model, &Slices::ENDLESS))
+    at_once(against_in(model, &Slices::ENDLESS)).into_iter()
 }
 
-async fn against_in(model: &Model, slices: &Slices) -> impl Iterator<Item = u32> + use<> {
+async fn against_in(model: &Model, slices: &Slices) -> Vec<u32> {
     let mesh = &model.mesh;
     let greens = match model.front {
         Front::Negative => Vec::new(),
@@ -119,5 +121,6 @@ async fn against_in(model: &Model, slices: &Slices) -> impl Iterator<Item = u32>
     }
     accused.sort_unstable();
     accused.dedup();
-    accused.into_iter().filter(move |&vertex| !cleared[vertex as usize])
+    accused.retain(|&vertex: &u32| !cleared[vertex as usize]);
+    accused
 }
