@@ -189,13 +189,21 @@ impl Shared {
         let largest = records.iter().max_by_key(|record| record.size());
         let name = largest.map_or("", |record| record.base_name()).to_owned();
         let mine = self.session.borrow_mut().begin_fetching(name, total, replaces);
+        let read = self.read_unless_overtaken(records, mine).await;
+        if self.session.borrow().openings() == mine {
+            self.session.borrow_mut().end_fetching();
+        }
+        read
+    }
+
+    async fn read_unless_overtaken(&self, records: Vec<Record>, openings: u64) -> Result<Vec<File>, JsValue> {
         let (mut files, mut told_secs) = (Vec::new(), now_secs());
         for record in records {
             let mut bytes = Vec::with_capacity(record.size());
             while bytes.len() < record.size() && !record.is_refused_by(&bytes) {
                 let piece = record.piece(bytes.len()).await?;
                 append(&mut bytes, &piece);
-                self.check_not_overtaken(mine)?;
+                self.check_not_overtaken(openings)?;
                 self.session.borrow_mut().note_fetched(piece.length() as usize);
                 if now_secs() - told_secs > TOLD_EVERY_SECS {
                     told_secs = now_secs();
@@ -204,7 +212,6 @@ impl Shared {
             }
             files.push(File::new(&record.name, bytes));
         }
-        self.session.borrow_mut().end_fetching();
         Ok(files)
     }
 }

@@ -441,12 +441,14 @@ test("what cannot be read or is too much is told in words, and a file of another
     });
     return {
       gone: await open("gone.m3d", blob(9, () => blob(9))),
+      opening: bindpose.state().opening,
       much: await open("much.m3d", blob(600 << 20)),
       film: await open("film.m3d", watched),
       pieces,
     };
   });
   assert.equal(told.gone, "gone.m3d could not be read: not all at once");
+  assert.equal(told.opening, null, "nothing is being opened any more");
   assert.equal(told.much, "These files have 600 MiB together; up to 512 MiB can be opened at once.");
   assert.match(told.film, /binary/);
   assert.deepEqual(told.pieces, [64 << 10]);
