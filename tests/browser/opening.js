@@ -392,7 +392,7 @@ const large = (times) => {
   return head.replace(/(#Vertices )(\d+)/, (_, label, count) => label + times * count) + Array(times).fill(vertices).join("\n") + rest;
 };
 
-test("while a large file opens the page goes on, tells how far it is, and Esc gives it up", {}, async (page) => {
+test("while a large file opens the page goes on, tells how far it is, and Esc gives it up", { own: true }, async (page) => {
   const { folder } = copyOfSample("small.m3d");
   const path = join(folder, "large.m3d");
   writeFileSync(path, large(90));
