@@ -1,5 +1,6 @@
 //! From JSON text to the document, or to what is wrong with it.
 
+use super::places::pointer_at;
 use super::{Container, Fault, Root, fault};
 use crate::diagnostic::{Diagnostic, Position, codes};
 
@@ -27,12 +28,9 @@ pub fn parse(container: &Container<'_>) -> Result<Root, Fault> {
             let message = format!("The JSON cannot be read: {}.", words(&error));
             return Box::new(placed(codes::GLTF_NOT_JSON.says(message), &error, container));
         }
-        // Only now the slower reader that knows where it is.
-        let mut deserializer = serde_json::Deserializer::from_slice(container.json);
-        let pointer = match serde_path_to_error::deserialize::<_, Root>(&mut deserializer) {
-            Ok(_) => String::new(),
-            Err(error) => pointer(error.path()),
-        };
+        // serde tells it behind the value, or in front of a list or an object that should be something else.
+        let offset = line_start(&error, container) + error.column();
+        let pointer = pointer_at(container.json, offset);
         let words = words(&error);
         let value = ["invalid type: ", "invalid value: "].map(|start| words.strip_prefix(start));
         let message = match (value, words.strip_prefix("duplicate field ")) {
@@ -126,12 +124,7 @@ fn placed(diagnostic: Diagnostic, error: &serde_json::Error, container: &Contain
         return diagnostic;
     }
     if container.is_binary {
-        let lines = memchr::memchr_iter(b'\n', container.json).map(|end| end + 1);
-        let start = std::iter::once(0)
-            .chain(lines)
-            .nth(error.line() - 1)
-            .unwrap_or_default();
-        let offset = container.json_offset + start + error.column().saturating_sub(1);
+        let offset = container.json_offset + line_start(error, container) + error.column().saturating_sub(1);
         return Diagnostic {
             byte_offset: Some(offset as u64),
             ..diagnostic
@@ -150,23 +143,15 @@ fn placed(diagnostic: Diagnostic, error: &serde_json::Error, container: &Contain
     }
 }
 
+/// Where the line of an error begins in the JSON.
+fn line_start(error: &serde_json::Error, container: &Container<'_>) -> usize {
+    let ends = memchr::memchr_iter(b'\n', container.json);
+    let starts = std::iter::once(0).chain(ends.map(|end| end + 1));
+    starts.take(error.line()).last().unwrap_or_default()
+}
+
 /// serde's words without the place, which is told apart.
 fn words(error: &serde_json::Error) -> String {
     let words = error.to_string();
     words.split(" at line ").next().unwrap_or(&words).to_owned()
-}
-
-fn pointer(path: &serde_path_to_error::Path) -> String {
-    use serde_path_to_error::Segment;
-    let part = |segment: &Segment| match segment {
-        Segment::Seq { index } => Some(format!("/{index}")),
-        Segment::Map { key } => Some(format!("/{}", escaped(key))),
-        Segment::Enum { .. } | Segment::Unknown => None,
-    };
-    path.iter().filter_map(part).collect()
-}
-
-/// A key as a JSON pointer has it.
-pub(super) fn escaped(key: &str) -> String {
-    key.replace('~', "~0").replace('/', "~1")
 }

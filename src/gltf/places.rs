@@ -1,4 +1,4 @@
-//! Where a JSON pointer's value stands in the text.
+//! Where a JSON pointer's value stands in the text, and which value stands at a place.
 
 use crate::diagnostic::Position;
 
@@ -10,7 +10,7 @@ pub fn position_of(json: &[u8], pointer: &str) -> Option<Position> {
     let mut found = scanner.at;
     for part in pointer.split('/').skip(1) {
         let key = part.replace("~1", "/").replace("~0", "~");
-        if !scanner.enter(&key)? {
+        if scanner.enter(Wanted::Key(&key))?.is_none() {
             break;
         }
         found = scanner.at;
@@ -22,6 +22,32 @@ pub fn position_of(json: &[u8], pointer: &str) -> Option<Position> {
         line: u32::try_from(line).ok()?,
         column: u32::try_from(found - line_start + 1).ok()?,
     })
+}
+
+/// The pointer of the value that serde_json was at when it had read `offset` bytes: the innermost that ends there or goes on, or the list or
+/// object that begins there. Of other values it reads at least a byte before it complains.
+pub(super) fn pointer_at(json: &[u8], offset: usize) -> String {
+    let mut scanner = Scanner { json, at: 0 };
+    scanner.skip_blanks();
+    let mut pointer = String::new();
+    while let Some(Some(key)) = scanner.enter(Wanted::At(offset)) {
+        pointer.push('/');
+        pointer.push_str(&escaped(&key));
+    }
+    pointer
+}
+
+/// A key as a JSON pointer has it.
+pub(super) fn escaped(key: &str) -> String {
+    key.replace('~', "~0").replace('/', "~1")
+}
+
+/// Which value of an object or a list is wanted.
+#[derive(Clone, Copy)]
+enum Wanted<'a> {
+    Key(&'a str),
+    /// See [`pointer_at`].
+    At(usize),
 }
 
 struct Scanner<'a> {
@@ -40,12 +66,12 @@ impl Scanner<'_> {
         }
     }
 
-    /// Goes from the start of an object or a list to the start of one of its values. Whether it is there.
-    fn enter(&mut self, key: &str) -> Option<bool> {
+    /// Goes from the start of an object or a list to the start of the value that is wanted. Its key, if it is there.
+    fn enter(&mut self, wanted: Wanted<'_>) -> Option<Option<String>> {
         let is_object = match self.peek()? {
             b'{' => true,
             b'[' => false,
-            _ => return Some(false),
+            _ => return Some(None),
         };
         let start = self.at;
         self.at += 1;
@@ -54,19 +80,31 @@ impl Scanner<'_> {
             if matches!(self.peek()?, b'}' | b']') {
                 break;
             }
-            let is_wanted = if is_object {
-                let name = self.string()?;
-                let is_wanted = serde_json::from_slice::<String>(name).is_ok_and(|name| name == key);
+            let key = if is_object {
+                let name = serde_json::from_slice::<String>(self.string()?).ok();
                 self.skip_blanks();
                 self.at += 1;
                 self.skip_blanks();
-                is_wanted
+                name
             } else {
-                key.parse() == Ok(index)
+                None
+            };
+            let value = self.at;
+            let is_wanted = match (wanted, &key) {
+                (Wanted::Key(wanted), Some(key)) => wanted == key,
+                (Wanted::Key(wanted), None) => !is_object && wanted.parse() == Ok(index),
+                (Wanted::At(offset), _) => {
+                    let is_list_or_object = matches!(self.peek()?, b'[' | b'{');
+                    let begins = value < offset || (value == offset && is_list_or_object);
+                    // A text that ends too early ends within its last value.
+                    begins && self.skip_value().is_none_or(|()| offset <= self.at)
+                }
             };
             if is_wanted {
-                return Some(true);
+                self.at = value;
+                return Some(Some(key.unwrap_or_else(|| index.to_string())));
             }
+            self.at = value;
             self.skip_value()?;
             self.skip_blanks();
             if self.peek()? == b',' {
@@ -74,7 +112,7 @@ impl Scanner<'_> {
             }
         }
         self.at = start;
-        Some(false)
+        Some(None)
     }
 
     /// The text of a string with its quotes.

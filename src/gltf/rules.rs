@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashSet};
 
 use super::buffers::subject;
 use super::json::{Accessor, Index, Primitive, Root};
-use super::parse::escaped;
+use super::places::escaped;
 use super::{Fit, Interpolation, Path, Wanted};
 use crate::diagnostic::codes;
 use crate::diagnostic::collect::{Diagnostics, Place};

@@ -413,6 +413,27 @@ fn a_key_that_stands_just_behind_a_jump_stays() {
 }
 
 #[test]
+fn what_is_of_a_wrong_kind_has_its_pointer_wherever_serde_tells_it() {
+    let document = |rest: &str| format!(r#"{{ "asset": {{ "version": "2.0" }}, {rest} }}"#);
+    for (rest, pointer) in [
+        // Behind a string and a number, in front of a list and an object, at the end of an object that lacks something.
+        (r#""nodes": [{}, { "mesh": "a" }]"#, "/nodes/1/mesh"),
+        (r#""nodes": [{ "children": [1, 2, -3, 4] }]"#, "/nodes/0/children/2"),
+        (r#""nodes": [{ "name": "a\"]" }, 7]"#, "/nodes/1"),
+        (r#""nodes": [{ "mesh": [1] }]"#, "/nodes/0/mesh"),
+        (r#""nodes": [{ "mesh": { "a/b~": [] } }]"#, "/nodes/0/mesh"),
+        (r#""skins": [{ "joints": [0] }, { "name": "b" }]"#, "/skins/1"),
+    ] {
+        let told = refused(document(rest).as_bytes());
+        assert_eq!(
+            (told.code, told.pointer.as_deref()),
+            ("gltf-wrong-type", Some(pointer)),
+            "{rest}"
+        );
+    }
+}
+
+#[test]
 fn a_key_of_the_json_that_stands_twice_is_named() {
     let told = refused(br#"{ "asset": { "version": "2.0" }, "nodes": [], "nodes": [] }"#);
     assert_eq!(
