@@ -28,7 +28,7 @@ pub fn parse(container: &Container<'_>) -> Result<Root, Fault> {
             let message = format!("The JSON cannot be read: {}.", words(&error));
             return Box::new(placed(codes::GLTF_NOT_JSON.says(message), &error, container));
         }
-        // serde tells it behind the value, or in front of a list or an object that should be something else.
+        // A column counts the bytes of its line that were read.
         let offset = line_start(&error, container) + error.column();
         let pointer = pointer_at(container.json, offset);
         let words = words(&error);

@@ -10,7 +10,7 @@ pub fn position_of(json: &[u8], pointer: &str) -> Option<Position> {
     let mut found = scanner.at;
     for part in pointer.split('/').skip(1) {
         let key = part.replace("~1", "/").replace("~0", "~");
-        if scanner.enter(Wanted::Key(&key))?.is_none() {
+        if scanner.enter(Target::Key(&key))?.is_none() {
             break;
         }
         found = scanner.at;
@@ -30,7 +30,7 @@ pub(super) fn pointer_at(json: &[u8], offset: usize) -> String {
     let mut scanner = Scanner { json, at: 0 };
     scanner.skip_blanks();
     let mut pointer = String::new();
-    while let Some(Some(key)) = scanner.enter(Wanted::At(offset)) {
+    while let Some(Some(key)) = scanner.enter(Target::Offset(offset)) {
         pointer.push('/');
         pointer.push_str(&escaped(&key));
     }
@@ -42,12 +42,13 @@ pub(super) fn escaped(key: &str) -> String {
     key.replace('~', "~0").replace('/', "~1")
 }
 
-/// Which value of an object or a list is wanted.
+/// Which value of an object or a list is looked for.
 #[derive(Clone, Copy)]
-enum Wanted<'a> {
+enum Target<'a> {
+    /// The one of a key, or with a number in a list.
     Key(&'a str),
-    /// See [`pointer_at`].
-    At(usize),
+    /// The one at an offset; see [`pointer_at`].
+    Offset(usize),
 }
 
 struct Scanner<'a> {
@@ -66,8 +67,9 @@ impl Scanner<'_> {
         }
     }
 
-    /// Goes from the start of an object or a list to the start of the value that is wanted. Its key, if it is there.
-    fn enter(&mut self, wanted: Wanted<'_>) -> Option<Option<String>> {
+    /// Goes from the start of an object or a list to the start of one of its values, and gives its key; stays where it is and gives no key
+    /// when that value is not there. `None` for text that is no JSON that far.
+    fn enter(&mut self, target: Target<'_>) -> Option<Option<String>> {
         let is_object = match self.peek()? {
             b'{' => true,
             b'[' => false,
@@ -90,22 +92,22 @@ impl Scanner<'_> {
                 None
             };
             let value = self.at;
-            let is_wanted = match (wanted, &key) {
-                (Wanted::Key(wanted), Some(key)) => wanted == key,
-                (Wanted::Key(wanted), None) => !is_object && wanted.parse() == Ok(index),
-                (Wanted::At(offset), _) => {
-                    let is_list_or_object = matches!(self.peek()?, b'[' | b'{');
-                    let begins = value < offset || (value == offset && is_list_or_object);
-                    // A text that ends too early ends within its last value.
-                    begins && self.skip_value().is_none_or(|()| offset <= self.at)
+            let skipped = self.skip_value();
+            let is_found = match (target, &key) {
+                (Target::Key(wanted), Some(key)) => wanted == key,
+                (Target::Key(wanted), None) => !is_object && wanted.parse() == Ok(index),
+                (Target::Offset(offset), _) => {
+                    let is_list_or_object = matches!(self.json.get(value), Some(b'[' | b'{'));
+                    let begins_in_time = value < offset || (value == offset && is_list_or_object);
+                    // A value that is cut off goes on to the end of the text.
+                    begins_in_time && skipped.is_none_or(|()| offset <= self.at)
                 }
             };
-            if is_wanted {
+            if is_found {
                 self.at = value;
                 return Some(Some(key.unwrap_or_else(|| index.to_string())));
             }
-            self.at = value;
-            self.skip_value()?;
+            skipped?;
             self.skip_blanks();
             if self.peek()? == b',' {
                 self.at += 1;

@@ -414,15 +414,30 @@ fn a_key_that_stands_just_behind_a_jump_stays() {
 
 #[test]
 fn what_is_of_a_wrong_kind_has_its_pointer_wherever_serde_tells_it() {
-    let document = |rest: &str| format!(r#"{{ "asset": {{ "version": "2.0" }}, {rest} }}"#);
+    let document = |rest: &str| format!("{{\n \"asset\": {{ \"version\": \"2.0\" }},\n {rest}\n}}");
     for (rest, pointer) in [
-        // Behind a string and a number, in front of a list and an object, at the end of an object that lacks something.
+        // Values that serde has read when it tells of them.
         (r#""nodes": [{}, { "mesh": "a" }]"#, "/nodes/1/mesh"),
         (r#""nodes": [{ "children": [1, 2, -3, 4] }]"#, "/nodes/0/children/2"),
         (r#""nodes": [{ "name": "a\"]" }, 7]"#, "/nodes/1"),
+        (r#""nodes": [null]"#, "/nodes/0"),
+        (r#""nodes": 5"#, "/nodes"),
+        // Lists and objects of which it has read the bracket, and some of which it has read nothing.
         (r#""nodes": [{ "mesh": [1] }]"#, "/nodes/0/mesh"),
         (r#""nodes": [{ "mesh": { "a/b~": [] } }]"#, "/nodes/0/mesh"),
+        (r#""nodes": [{ "name": [1] }]"#, "/nodes/0/name"),
+        (r#""nodes": [{ "children": {} }]"#, "/nodes/0/children"),
+        (r#""extensionsUsed": [[1]]"#, "/extensionsUsed/0"),
+        // Keys that need other letters in a pointer.
+        (
+            r#""meshes": [{ "primitives": [{ "attributes": { "a/b~": "x" } }] }]"#,
+            "/meshes/0/primitives/0/attributes/a~1b~0",
+        ),
+        // Objects that lack something, or have it twice.
         (r#""skins": [{ "joints": [0] }, { "name": "b" }]"#, "/skins/1"),
+        (r#""skins": [{ "joints": [0], "joints": [0] }]"#, "/skins/0"),
+        // What follows is no JSON any more.
+        (r#""nodes": [{ "mesh": "a", "#, "/nodes/0/mesh"),
     ] {
         let told = refused(document(rest).as_bytes());
         assert_eq!(
@@ -440,6 +455,7 @@ fn a_key_of_the_json_that_stands_twice_is_named() {
         (told.code, told.message.as_str()),
         ("gltf-wrong-type", "The key `nodes` stands twice.")
     );
+    assert_eq!(told.pointer.as_deref(), Some(""));
 }
 
 #[test]
