@@ -14,6 +14,7 @@ use crate::process::Line;
 use crate::second_tries;
 use crate::serve;
 use crate::site::Site;
+use crate::sizes;
 use crate::wasm::{self, Profile};
 
 /// The environment variable that says how many times as many cases a property is tried with, and how many `--long` takes.
@@ -82,6 +83,7 @@ pub(crate) fn pictures() -> Result<(), Failure> {
 /// Builds the page, serves it and brings what drives the browsers. Gives its address.
 fn page(steps: &mut Steps) -> Result<String, Failure> {
     let pkg = steps.step("The wasm", || wasm::build(Profile::Dev))?;
+    steps.step("How large it is", || sizes::of_development(&pkg))?;
     let page = format!("http://{}/", serve::start(serve::listen(0)?, Site::new(pkg))?);
     steps.step("What drives the browsers", || {
         Line::new(prerequisites::NPM)

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use crate::compress::{Coding, Effort};
 use crate::failure::{Doing as _, Failure};
 use crate::site::Site;
+use crate::sizes::{self, Size};
 use crate::wasm::{self, Profile};
 
 /// The viewer's page. Others lead back to it, so it comes last; pages keep their names.
@@ -18,7 +19,7 @@ const PAGE: &str = "index.html";
 /// Files that are text and may refer to others.
 const REFERRING: [&str; 4] = [".html", ".js", ".css", ".webmanifest"];
 
-/// Builds `dist/`.
+/// Builds `dist/`, and fails where a file is larger than it may be: then `dist/` is there all the same, to be looked at.
 pub(crate) fn run() -> Result<(), Failure> {
     let site = Site::new(wasm::build(Profile::Dist)?);
     let mut sources = BTreeMap::new();
@@ -33,7 +34,7 @@ pub(crate) fn run() -> Result<(), Failure> {
         fs::remove_dir_all(&dist).doing("removing dist/")?;
     }
     println!("{:>10} {:>10} {:>10}  dist/", "raw", "gzip", "brotli");
-    let mut totals = [0; 3];
+    let (mut totals, mut made) = ([0; 3], Vec::new());
     for (name, bytes) in hashed(&sources)? {
         let sizes = write(&dist, &name, &bytes)?;
         println!(
@@ -45,6 +46,7 @@ pub(crate) fn run() -> Result<(), Failure> {
         for (total, size) in totals.iter_mut().zip(sizes) {
             *total += size;
         }
+        made.push(Size::new(&name, sizes[0], sizes[2]));
     }
     println!(
         "{:>10} {:>10} {:>10}  in all",
@@ -52,7 +54,7 @@ pub(crate) fn run() -> Result<(), Failure> {
         grouped(totals[1]),
         grouped(totals[2])
     );
-    Ok(())
+    sizes::compare(Profile::Dist, &made)
 }
 
 /// Writes a file and its compressed twins; gives the three sizes.
@@ -178,7 +180,7 @@ fn fnv1a(bytes: &[u8]) -> u64 {
 }
 
 /// The number with its thousands grouped.
-fn grouped(number: usize) -> String {
+pub(crate) fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut out = String::new();
     for (index, digit) in digits.chars().enumerate() {
@@ -188,6 +190,30 @@ fn grouped(number: usize) -> String {
         out.push(digit);
     }
     out
+}
+
+/// The files of the real page, with others in place of those that are not built in a test.
+#[cfg(test)]
+fn page() -> BTreeMap<String, Vec<u8>> {
+    let built = [
+        ("pkg/bindpose.js", b"1".to_vec()),
+        ("pkg/bindpose_bg.wasm", b"2".to_vec()),
+    ];
+    let mut files = BTreeMap::from(built.map(|(address, bytes)| (address.to_owned(), bytes)));
+    // The folder of what is built: any other will do.
+    let site = Site::new(crate::root().join("web"));
+    for address in site.addresses().expect("the site lists") {
+        if let Some(path) = site.locate(&address).filter(|_| !address.starts_with("pkg/")) {
+            files.insert(address, fs::read(path).expect("a listed file"));
+        }
+    }
+    files
+}
+
+/// The same under the names that `dist` gives them.
+#[cfg(test)]
+pub(crate) fn of_the_page() -> BTreeMap<String, Vec<u8>> {
+    hashed(&page()).expect("no circle")
 }
 
 #[cfg(test)]
@@ -239,14 +265,7 @@ mod tests {
 
     #[test]
     fn no_file_of_the_real_page_refers_to_a_name_that_is_gone() {
-        let mut files = sources(&[("pkg/bindpose.js", "1"), ("pkg/bindpose_bg.wasm", "2")]);
-        // The bound wasm is not built in a test; any folder stands in for it.
-        let site = Site::new(crate::root().join("web"));
-        for address in site.addresses().expect("the site lists") {
-            if let Some(path) = site.locate(&address).filter(|_| !address.starts_with("pkg/")) {
-                files.insert(address, fs::read(path).expect("a listed file"));
-            }
-        }
+        let files = page();
         let built = hashed(&files).expect("no circle");
         assert_eq!(built.len(), files.len());
         for (name, bytes) in built

@@ -17,6 +17,7 @@
 //! | [`absent`] | which real files the tests could not look at |
 //! | [`second_tries`] | which browser tests had to be tried again |
 //! | [`dist`] | the static site: hashed names, compressed twice |
+//! | [`sizes`] | the most bytes that files of the site may have: `xtask/sizes.txt` |
 //! | [`fuzz`] | files that a fuzzer makes up, read and written |
 
 mod absent;
@@ -34,6 +35,7 @@ mod process;
 mod second_tries;
 mod serve;
 mod site;
+mod sizes;
 mod wasm;
 mod watch;
 

@@ -115,7 +115,6 @@ pub(crate) fn media_type(address: &str) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compress::{Coding, Effort};
 
     fn site() -> Site {
         // No wasm is needed to look at the page, so any folder will do for it.
@@ -166,34 +165,5 @@ mod tests {
             );
             assert!(!tag.starts_with("<script") || tag.contains("src="), "{tag}");
         }
-    }
-
-    /// The shell must be there long before the wasm is, on any line. Browsers take Brotli wherever a page is served as it should be.
-    #[test]
-    fn the_shell_stays_small() {
-        const PAINTED: [&str; 3] = ["index.html", "web/style.css", "web/icon.svg"];
-        const LIMIT: usize = 25_000;
-        let addresses = site().addresses().expect("the site lists");
-        // The page of codes is another page.
-        let others = ["pkg/", "web/sample/", "web/codes."];
-        let shell = |address: &&String| !others.iter().any(|other| address.starts_with(other));
-        let (mut painted, mut transferred) = (0, 0);
-        for address in addresses.iter().filter(shell) {
-            let bytes = fs::read(crate::root().join(address)).expect("a listed file");
-            transferred += Coding::Brotli.encode(&bytes, Effort::Best).len();
-            painted += if PAINTED.contains(&address.as_str()) {
-                bytes.len()
-            } else {
-                0
-            };
-        }
-        assert!(
-            painted > 0 && painted <= LIMIT,
-            "{painted} bytes until the first paint, {LIMIT} allowed"
-        );
-        assert!(
-            transferred <= LIMIT,
-            "{transferred} bytes of shell over the line, {LIMIT} allowed"
-        );
     }
 }
