@@ -1,4 +1,6 @@
 //! Four joints side by side, and the blend between four and four.
+//!
+//! Loops over lanes and `map` of an array are written out: where the compiler keeps the program small it leaves them as they are.
 
 use glam::{Affine3A, DQuat, Mat3A, Quat, Vec3, Vec4};
 
@@ -72,13 +74,12 @@ impl JointLanes {
         let part = Vec4::splat(fraction);
         let rest = Vec4::ONE - part;
         let [from_weight, to_weight] = arc.weights(part);
-        for i in 0..4 {
-            self.rotation[i] = from.rotation[i] * from_weight + to.rotation[i] * to_weight;
-        }
-        for i in 0..3 {
-            self.translation[i] = from.translation[i] * rest + to.translation[i] * part;
-            self.scale[i] = from.scale[i] * rest + to.scale[i] * part;
-        }
+        let turned = |i: usize| from.rotation[i] * from_weight + to.rotation[i] * to_weight;
+        let moved = |i: usize| from.translation[i] * rest + to.translation[i] * part;
+        let scaled = |i: usize| from.scale[i] * rest + to.scale[i] * part;
+        self.rotation = [turned(0), turned(1), turned(2), turned(3)];
+        self.translation = [moved(0), moved(1), moved(2)];
+        self.scale = [scaled(0), scaled(1), scaled(2)];
     }
 
     /// The parts of each joint as one matrix: [`LocalJoint::parent_from_joint`] of all four.
@@ -92,10 +93,10 @@ impl JointLanes {
         let [scale_x, scale_y, scale_z] = self.scale;
         let one = Vec4::ONE;
         MatrixLanes {
-            x_axis: [one - (yy + zz), xy + wz, xz - wy].map(|lanes| (lanes * scale_x).to_array()),
-            y_axis: [xy - wz, one - (xx + zz), yz + wx].map(|lanes| (lanes * scale_y).to_array()),
-            z_axis: [xz + wy, yz - wx, one - (xx + yy)].map(|lanes| (lanes * scale_z).to_array()),
-            translation: self.translation.map(|lanes| lanes.to_array()),
+            x_axis: numbers([(one - (yy + zz)) * scale_x, (xy + wz) * scale_x, (xz - wy) * scale_x]),
+            y_axis: numbers([(xy - wz) * scale_y, (one - (xx + zz)) * scale_y, (yz + wx) * scale_y]),
+            z_axis: numbers([(xz + wy) * scale_z, (yz - wx) * scale_z, (one - (xx + yy)) * scale_z]),
+            translation: numbers(self.translation),
         }
     }
 }
@@ -169,7 +170,6 @@ impl ArcLanes {
     #[inline]
     fn weights(&self, part: Vec4) -> [Vec4; 2] {
         let weight = |part| part * sine_over_angle(self.angle_squared * part * part) * self.angle_over_sine;
-        // No `map` of an array: it is not inlined.
         [weight(Vec4::ONE - part), weight(part)]
     }
 }
@@ -187,18 +187,16 @@ pub(super) fn turn_between(from: DQuat, to: DQuat) -> f64 {
     2.0 * angle_between(from, to)
 }
 
+#[inline]
+fn numbers([x, y, z]: [Vec4; 3]) -> [[f32; 4]; 3] {
+    [x.to_array(), y.to_array(), z.to_array()]
+}
+
 /// sin(x) / x of x², for x in 0…π/2: the Taylor polynomial whose first left-out term is below 4e-8 there.
 #[inline]
 fn sine_over_angle(angle_squared: Vec4) -> Vec4 {
+    let x = angle_squared;
     // From the highest power down.
-    const TERMS: [f32; 6] = [
-        -1.0 / 39_916_800.0,
-        1.0 / 362_880.0,
-        -1.0 / 5_040.0,
-        1.0 / 120.0,
-        -1.0 / 6.0,
-        1.0,
-    ];
-    let [highest, lower @ ..] = TERMS.map(Vec4::splat);
-    lower.into_iter().fold(highest, |sum, term| sum * angle_squared + term)
+    let sum = (x * (-1.0 / 39_916_800.0) + 1.0 / 362_880.0) * x - 1.0 / 5_040.0;
+    ((sum * x + 1.0 / 120.0) * x - 1.0 / 6.0) * x + 1.0
 }

@@ -55,14 +55,12 @@ pub fn skin(mesh: &Mesh, palette: &Palette, out: &mut SkinnedVertices) {
         let linear = LinearLanes::new(&linear);
         let cofactor = linear.cofactor();
         let side = linear.side(&cofactor);
-        let [x, y, z, _] = lanes(four(&mesh.normals, first).map(|normal| normal.extend(0.0)));
-        let normal = cofactor.times([x, y, z]).map(|moved| moved * side);
-        let [x, y, z] = direction_or(normal, [x, y, z]);
-        put(
-            lanes([x, y, z, Vec4::ZERO]).map(Vec4::truncate),
-            first,
-            &mut out.normals,
-        );
+        let [a, b, c, d] = four(&mesh.normals, first);
+        let [x, y, z, _] = lanes([a.extend(0.0), b.extend(0.0), c.extend(0.0), d.extend(0.0)]);
+        let [x, y, z] = direction_or(times(cofactor.times([x, y, z]), side), [x, y, z]);
+        let [a, b, c, d] = lanes([x, y, z, Vec4::ZERO]);
+        let normals = [a.truncate(), b.truncate(), c.truncate(), d.truncate()];
+        put(normals, first, &mut out.normals);
         if first < tangent_count {
             let [x, y, z, w] = lanes(four(&mesh.tangents, first));
             let [x, y, z] = direction_or(linear.times([x, y, z]), [x, y, z]);
@@ -133,12 +131,17 @@ struct LinearLanes {
 impl LinearLanes {
     #[inline]
     fn new(matrices: &[Mat3A; LANES]) -> Self {
-        let column = |of: fn(&Mat3A) -> Vec3A| {
-            let [x, y, z, _] = lanes([0, 1, 2, 3].map(|lane| of(&matrices[lane]).extend(0.0)));
+        let column = |a: Vec3A, b: Vec3A, c: Vec3A, d: Vec3A| {
+            let [x, y, z, _] = lanes([a.extend(0.0), b.extend(0.0), c.extend(0.0), d.extend(0.0)]);
             [x, y, z]
         };
+        let [a, b, c, d] = matrices;
         Self {
-            columns: [column(|m| m.x_axis), column(|m| m.y_axis), column(|m| m.z_axis)],
+            columns: [
+                column(a.x_axis, b.x_axis, c.x_axis, d.x_axis),
+                column(a.y_axis, b.y_axis, c.y_axis, d.y_axis),
+                column(a.z_axis, b.z_axis, c.z_axis, d.z_axis),
+            ],
         }
     }
 
@@ -162,7 +165,8 @@ impl LinearLanes {
     #[inline]
     fn times(&self, vectors: [Vec4; 3]) -> [Vec4; 3] {
         let [x_axis, y_axis, z_axis] = self.columns;
-        [0, 1, 2].map(|row| dot([x_axis[row], y_axis[row], z_axis[row]], vectors))
+        let row = |row: usize| dot([x_axis[row], y_axis[row], z_axis[row]], vectors);
+        [row(0), row(1), row(2)]
     }
 }
 
@@ -176,12 +180,17 @@ fn dot([ax, ay, az]: [Vec4; 3], [bx, by, bz]: [Vec4; 3]) -> Vec4 {
     ax * bx + ay * by + az * bz
 }
 
+#[inline]
+fn times([x, y, z]: [Vec4; 3], factor: Vec4) -> [Vec4; 3] {
+    [x * factor, y * factor, z * factor]
+}
+
 /// The vectors at unit length, or others where they have no length.
 #[inline]
 fn direction_or(vectors: [Vec4; 3], otherwise: [Vec4; 3]) -> [Vec4; 3] {
     let per_length = dot(vectors, vectors).sqrt().recip();
     let has_length = per_length.cmpgt(Vec4::ZERO) & per_length.cmplt(Vec4::INFINITY);
-    let [x, y, z] = vectors.map(|vector| vector * per_length);
+    let [x, y, z] = times(vectors, per_length);
     if has_length.all() {
         return [x, y, z];
     }
@@ -209,11 +218,12 @@ fn lanes([a, b, c, d]: [Vec4; LANES]) -> [Vec4; 4] {
 #[inline]
 fn four<T: Copy + Default>(values: &[T], first: usize) -> [T; LANES] {
     let rest = &values[first..];
-    rest.first_chunk().copied().unwrap_or_else(|| {
-        let mut four = [T::default(); LANES];
-        four[..rest.len()].copy_from_slice(rest);
-        four
-    })
+    if let Some(&[a, b, c, d]) = rest.first_chunk() {
+        return [a, b, c, d];
+    }
+    let mut four = [T::default(); LANES];
+    four[..rest.len()].copy_from_slice(rest);
+    four
 }
 
 /// Puts four values where the first belongs; what would be behind the last is left out.

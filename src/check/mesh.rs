@@ -47,10 +47,10 @@ impl Flatness {
     /// Whether a triangle has no area.
     #[inline]
     fn is_flat(&self, mesh: &Mesh, corners: [u32; 3]) -> bool {
-        let corners = corners.map(|vertex| mesh.positions[vertex as usize]);
-        let [a, b, c] = corners;
+        let place = |corner: usize| mesh.positions[corners[corner] as usize];
+        let (a, b, c) = (place(0), place(1), place(2));
         let has_area = (b - a).cross(c - a).length_squared() > self.surely;
-        !has_area && is_flat(corners.map(|corner| corner.as_dvec3()), self.least_height)
+        !has_area && is_flat([a.as_dvec3(), b.as_dvec3(), c.as_dvec3()], self.least_height)
     }
 }
 

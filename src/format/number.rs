@@ -100,24 +100,17 @@ fn whole_part(window: &[u8; WINDOW], start: usize) -> Option<(u64, usize)> {
     (1..8).contains(&count).then_some((whole, start + count))
 }
 
-/// Reads `N` whole numbers of up to seven digits with one blank between them, and gives them with the place behind them,
-/// where a blank or a line end is. They must fit into 32 bytes.
+/// Reads a whole number of up to seven digits, below `limit`, that begins at `start`, and gives it with the place behind the blank or line
+/// end behind it. Of numbers one behind the other up to four fit into the window.
 #[inline(always)]
-pub(super) fn plain_wholes<const N: usize>(window: &[u8; WINDOW]) -> Option<([u32; N], usize)> {
-    const { assert!(N <= 4) };
-    let mut numbers = [0; N];
-    let mut start = 0;
-    for number in &mut numbers {
-        let (value, count) = leading_digits(eight(window, start));
-        // At most seven digits, so that the value fits, and a blank behind them.
-        let end = start + count;
-        if count == 0 || count == 8 || window[end & INSIDE] > b' ' {
-            return None;
-        }
-        *number = value as u32;
-        start = end + 1;
+pub(super) fn plain_whole(window: &[u8; WINDOW], start: usize, limit: u32) -> Option<(u32, usize)> {
+    let (value, count) = leading_digits(eight(window, start));
+    // At most seven digits, so that the value fits, and a blank behind them.
+    let end = start + count;
+    if count == 0 || count == 8 || window[end & INSIDE] > b' ' || value as u32 >= limit {
+        return None;
     }
-    Some((numbers, start - 1))
+    Some((value as u32, end + 1))
 }
 
 /// The place of the first blank or line end behind `window[1]`, for tokens of up to 15 bytes.
@@ -172,23 +165,9 @@ fn leading_digits(chunk: u64) -> (u64, usize) {
 }
 
 /// Powers that join two runs of digits; a run has at most eight.
+#[rustfmt::skip]
 const TEN_TO: [u64; 16] = [
-    1,
-    10,
-    100,
-    1_000,
-    10_000,
-    100_000,
-    1_000_000,
-    10_000_000,
-    100_000_000,
-    0,
-    0,
-    0,
-    0,
-    0,
-    0,
-    0,
+    1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000, 0, 0, 0, 0, 0, 0, 0,
 ];
 
 /// What a unit is worth behind as many digits of a fraction.

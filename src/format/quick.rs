@@ -105,7 +105,7 @@ pub(crate) fn vertex<const SHORT_LABELS: bool>(cursor: &mut Cursor<'_>, bones: u
         vertex.blend_weights = ahead.four()?;
         ahead.line_end()?;
         ahead.label(blend_indices)?;
-        vertex.blend_indices = ahead.indices_below(bones)?;
+        vertex.blend_indices = ahead.four_below(bones)?;
         ahead.line_end()?;
     }
     *cursor = ahead;
@@ -117,7 +117,7 @@ pub(crate) fn vertex<const SHORT_LABELS: bool>(cursor: &mut Cursor<'_>, bones: u
 pub(crate) fn triangle(cursor: &mut Cursor<'_>, vertices: u32) -> Option<([u32; 3], u32)> {
     let mut ahead = *cursor;
     let line = ahead.line;
-    let triangle = ahead.indices_below(vertices)?;
+    let triangle = ahead.three_below(vertices)?;
     ahead.line_end()?;
     *cursor = ahead;
     Some((triangle, line))
@@ -218,11 +218,24 @@ impl Cursor<'_> {
 
     /// Whole numbers of up to seven digits, below `end`, with one blank between them.
     #[inline(always)]
-    fn indices_below<const N: usize>(&mut self, end: u32) -> Option<[u32; N]> {
+    fn three_below(&mut self, end: u32) -> Option<[u32; 3]> {
         self.blanks();
-        let (indices, length) = number::plain_wholes(self.bytes.get(self.at..)?.first_chunk()?)?;
-        self.at += length;
-        indices.iter().all(|&index| index < end).then_some(indices)
+        let window = self.bytes.get(self.at..)?.first_chunk()?;
+        let (a, next) = number::plain_whole(window, 0, end)?;
+        let (b, next) = number::plain_whole(window, next, end)?;
+        let (c, next) = number::plain_whole(window, next, end)?;
+        self.at += next - 1;
+        Some([a, b, c])
+    }
+
+    /// The same, four of them.
+    #[inline(always)]
+    fn four_below(&mut self, end: u32) -> Option<[u32; 4]> {
+        let [a, b, c] = self.three_below(end)?;
+        let window = self.bytes.get(self.at + 1..)?.first_chunk()?;
+        let (d, next) = number::plain_whole(window, 0, end)?;
+        self.at += next;
+        Some([a, b, c, d])
     }
 
     #[inline(always)]

@@ -213,10 +213,8 @@ impl Coding {
             Self::Srgb => {
                 let srgb = Srgb::tables();
                 append_bytes(data, texels, |texel| {
-                    let weight = texel.w;
-                    let [r, g, b] = srgb.bytes(texel / weight);
-                    let alpha = (weight - CLEAR_WEIGHT) / (1.0 - CLEAR_WEIGHT);
-                    [r, g, b, bytes(Vec4::splat(alpha))[3]]
+                    let [r, g, b] = srgb.bytes(texel / texel.w);
+                    [r, g, b, bytes((texel - CLEAR_WEIGHT) / (1.0 - CLEAR_WEIGHT))[3]]
                 });
             }
             Self::Direction { two_channels } => append_bytes(data, texels, |texel| {
@@ -260,9 +258,10 @@ fn bytes(numbers: Vec4) -> [u8; 4] {
     let scaled = numbers.max(Vec4::ZERO).min(Vec4::ONE) * 255.0;
     // `f32::round` is a call for each number. This rounds a half to the even neighbour, which is mended.
     let nearest = scaled + WHOLE;
-    let is_half_below = (scaled - (nearest - WHOLE)).cmpge(Vec4::splat(0.5));
+    let is_half_below = (scaled - (nearest - WHOLE)).cmpge(const { Vec4::splat(0.5) });
     let nearest = nearest + Vec4::select(is_half_below, Vec4::ONE, Vec4::ZERO);
-    nearest.to_array().map(|number| number.to_bits() as u8)
+    let byte = |number: f32| number.to_bits() as u8;
+    [byte(nearest.x), byte(nearest.y), byte(nearest.z), byte(nearest.w)]
 }
 
 fn append_bytes(data: &mut Vec<u8>, texels: &[Texel], write: impl Fn(Texel) -> [u8; 4]) {

@@ -94,8 +94,8 @@ pub(super) async fn handedness_of(mesh: &Mesh, diagnostics: &mut Diagnostics, sl
     let (mut agree, mut disagree) = (0u32, 0u32);
     for (turn, &corners) in mesh.indices.as_chunks::<3>().0.iter().enumerate() {
         slices.pause_every(turn).await;
-        let [a, b, c] = corners.map(|vertex| mesh.normals[vertex as usize].as_dvec3());
-        let side = mesh.side_of(corners).dot(a + b + c);
+        let normal = |corner: usize| mesh.normals[corners[corner] as usize].as_dvec3();
+        let side = mesh.side_of(corners).dot(normal(0) + normal(1) + normal(2));
         agree += u32::from(side > 0.0);
         disagree += u32::from(side < 0.0);
     }

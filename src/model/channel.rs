@@ -365,6 +365,7 @@ impl<T: ChannelValue> Channel<T> {
 
 /// The rotation at unit length; `None` when it has no direction. One that is as near to it as numbers are stays, so that a second
 /// time changes nothing.
+#[inline]
 pub(crate) fn unit(rotation: Quat) -> Option<Quat> {
     let exact = rotation.as_dquat();
     let length = exact.length();

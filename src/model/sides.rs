@@ -24,15 +24,17 @@ impl Material {
 impl Mesh {
     /// cross(b − a, c − a) of three vertices: twice the area of their triangle, along the side from which they run clockwise in a
     /// left-handed space. In f64, since the square of a large coordinate may not fit an f32.
+    #[inline]
     pub(crate) fn side_of(&self, corners: [u32; 3]) -> DVec3 {
-        let [a, b, c] = corners.map(|vertex| self.positions[vertex as usize].as_dvec3());
-        (b - a).cross(c - a)
+        let place = |corner: usize| self.positions[corners[corner] as usize].as_dvec3();
+        (place(1) - place(0)).cross(place(2) - place(0))
     }
 
     /// More than 0 where that side is the one to which the normals of a triangle point, less where it is the other.
     pub(crate) fn side_by_normals(&self, corners: [u32; 3]) -> f64 {
-        let normals = corners.map(|vertex| self.normals.get(vertex as usize).copied().unwrap_or_default());
-        self.side_of(corners).dot(normals.into_iter().sum::<Vec3>().as_dvec3())
+        let normal = |corner: usize| self.normals.get(corners[corner] as usize).copied().unwrap_or_default();
+        self.side_of(corners)
+            .dot((normal(0) + normal(1) + normal(2)).as_dvec3())
     }
 
     pub(crate) fn turn_triangles(&mut self) {

@@ -64,20 +64,16 @@ impl TextureAxes {
 /// the texture are skipped, and those of which the mesh lacks a corner.
 async fn texture_axes(mesh: &Mesh, is_asked: impl Fn(usize) -> bool, slices: &Slices) -> Vec<TextureAxes> {
     let mut axes = vec![TextureAxes::default(); mesh.vertex_count()];
-    for (turn, corners) in mesh.indices.chunks_exact(3).enumerate() {
+    let corner = |at: usize| Some((mesh.positions.get(at)?.as_dvec3(), mesh.tex_coords.get(at)?.as_dvec2()));
+    for (turn, &[a, b, c]) in mesh.indices.as_chunks().0.iter().enumerate() {
         slices.pause_every(turn).await;
-        let [a, b, c] = [0, 1, 2].map(|corner| corners[corner] as usize);
+        let (a, b, c) = (a as usize, b as usize, c as usize);
         if !(is_asked(a) || is_asked(b) || is_asked(c)) {
             continue;
         }
-        let positions = [a, b, c].map(|vertex| mesh.positions.get(vertex));
-        let tex_coords = [a, b, c].map(|vertex| mesh.tex_coords.get(vertex));
-        let ([Some(at_a), Some(at_b), Some(at_c)], [Some(on_a), Some(on_b), Some(on_c)]) = (positions, tex_coords)
-        else {
+        let (Some((at_a, on_a)), Some((at_b, on_b)), Some((at_c, on_c))) = (corner(a), corner(b), corner(c)) else {
             continue;
         };
-        let [at_a, at_b, at_c] = [at_a, at_b, at_c].map(|at| at.as_dvec3());
-        let [on_a, on_b, on_c] = [on_a, on_b, on_c].map(|on| on.as_dvec2());
         let (edge_1, edge_2) = (at_b - at_a, at_c - at_a);
         let (step_1, step_2) = (on_b - on_a, on_c - on_a);
         let texture_area = step_1.perp_dot(step_2);

@@ -39,6 +39,7 @@ pub fn pick(
     let ray_from_model = ray.ray_from_world() * world_from_model;
     sides.clear();
     sides.extend(positions.iter().map(|&position| sides_of(position, &ray_from_model)));
+    let sides = sides.as_slice();
     let side = |corner: u32| sides.get(corner as usize).copied().unwrap_or(0);
     let mut nearest: Option<Hit> = None;
     for (submesh, range) in mesh.submeshes.iter().enumerate() {

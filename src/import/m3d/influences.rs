@@ -62,8 +62,8 @@ fn normalized(index: u32, stored: [f32; 4], mended: &mut Mended) -> [f32; 4] {
     }
     let usable = usable.to_array();
     // In f64: four great weights must not overflow to infinity and divide to zero.
-    let [first, second, third, fourth] = usable.map(f64::from);
-    let sum = first + second + third + fourth;
+    let wide = |slot: usize| f64::from(usable[slot]);
+    let sum = wide(0) + wide(1) + wide(2) + wide(3);
     if sum <= 0.0 {
         mended.unweighted.add(index);
         return [0.0; 4];

@@ -1,5 +1,8 @@
 //! Instructions that the core's work takes, as callgrind counts them: the same in every run, whatever else the machine does.
 //!
+//! It is built as the program is, in the profile `dist`: `cargo run --profile dist --package counts`. What that makes small and not fast is
+//! counted as it is.
+//!
 //! `counts` runs each work under valgrind and compares with `limits.txt`; a count above its limit ends with an error.
 //! `counts WORK MODEL` does one work, and prints a number that shows that it was done right. A work is prepared, then done once
 //! without being counted, so that tables that are made at first use are there.
@@ -68,6 +71,12 @@ fn one(run: fn(&[u8]) -> u64, input: &[u8]) -> Result<(), String> {
 
 /// Counts each line of `limits.txt`: a work, a file beside the repository or in it, the most instructions in millions.
 fn compare() -> Result<(), String> {
+    let program = std::env::current_exe().map_err(|error| error.to_string())?;
+    if program.parent().is_none_or(|folder| !folder.ends_with("dist")) {
+        return Err(
+            "the limits are of the program as it is shipped: cargo run --profile dist --package counts".to_owned(),
+        );
+    }
     let limits = include_str!("../limits.txt").lines();
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let mut above = 0;
@@ -83,7 +92,7 @@ fn compare() -> Result<(), String> {
             println!("{:>10} {limit:>10}  {work}, {model} (not here)", "-");
             continue;
         }
-        let counted = count(work, &input)? as f64 / 1e6;
+        let counted = count(&program, work, &input)? as f64 / 1e6;
         let word = if counted > limit * TOLERANCE { "  ABOVE" } else { "" };
         above += usize::from(!word.is_empty());
         println!("{counted:>10.3} {limit:>10}  {work}, {model}{word}");
@@ -97,8 +106,7 @@ fn compare() -> Result<(), String> {
 }
 
 /// Runs this program under callgrind, which counts inside [`counted`] alone.
-fn count(work: &str, input: &Path) -> Result<u64, String> {
-    let program = std::env::current_exe().map_err(|error| error.to_string())?;
+fn count(program: &Path, work: &str, input: &Path) -> Result<u64, String> {
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--toggle-collect=counts::counted"])
         .arg("--callgrind-out-file=/dev/null")
