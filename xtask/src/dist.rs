@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use crate::compress::{Coding, Effort};
 use crate::failure::{Doing as _, Failure};
 use crate::site::Site;
-use crate::wasm::{self, Profile};
+use crate::wasm::{self, Profile, Program};
 
 /// The viewer's page. Others lead back to it, so it comes last; pages keep their names.
 const PAGE: &str = "index.html";
@@ -20,7 +20,8 @@ const REFERRING: [&str; 4] = [".html", ".js", ".css", ".webmanifest"];
 
 /// Builds `dist/`.
 pub(crate) fn run() -> Result<(), Failure> {
-    let site = Site::new(wasm::build(Profile::Dist)?);
+    let program = |program| wasm::build(Profile::Dist, program);
+    let site = Site::new(program(Program::Full)?, Some(program(Program::WebGpu)?));
     let mut sources = BTreeMap::new();
     for address in site.addresses()? {
         if let Some(path) = site.locate(&address) {
@@ -239,9 +240,14 @@ mod tests {
 
     #[test]
     fn no_file_of_the_real_page_refers_to_a_name_that_is_gone() {
-        let mut files = sources(&[("pkg/bindpose.js", "1"), ("pkg/bindpose_bg.wasm", "2")]);
+        let mut files = sources(&[
+            ("pkg/bindpose.js", "1"),
+            ("pkg/bindpose_bg.wasm", "2"),
+            ("pkg/webgpu/bindpose.js", "3"),
+            ("pkg/webgpu/bindpose_bg.wasm", "4"),
+        ]);
         // The bound wasm is not built in a test; any folder stands in for it.
-        let site = Site::new(crate::root().join("web"));
+        let site = Site::new(crate::root().join("web"), None);
         for address in site.addresses().expect("the site lists") {
             if let Some(path) = site.locate(&address).filter(|_| !address.starts_with("pkg/")) {
                 files.insert(address, fs::read(path).expect("a listed file"));
@@ -249,6 +255,13 @@ mod tests {
         }
         let built = hashed(&files).expect("no circle");
         assert_eq!(built.len(), files.len());
+        let choice = text_of(&built, "web/program.").1;
+        for folder in ["pkg/bindpose", "pkg/webgpu/bindpose"] {
+            for end in [".", "_bg."] {
+                let name = text_of(&built, &format!("{folder}{end}")).0;
+                assert!(choice.contains(&format!("\"../{name}\"")), "{name} in {choice}");
+            }
+        }
         for (name, bytes) in built
             .iter()
             .filter(|(name, _)| REFERRING.iter().any(|end| name.ends_with(end)))
