@@ -9,7 +9,7 @@ const EMPTY = { backend: null, model: null, models: [], opening: null, timings: 
 /** A failure of the viewer itself, in the shape that `state().error` has for a file. */
 const stopped = ({ message }) => ({ severity: "error", code: "viewer-stopped", message, expected: null, found: null, line: null, column: null, subject: null, count: 1, places: [], file: null });
 
-/** Commands that are handed on to the viewer as they are, and return what it returns; nothing while there is no viewer. */
+/** Commands that are handed on to the viewer as they are; nothing is returned while there is none. */
 const COMMANDS = [
   "seek", "play", "pause", "selectClip", "stepFrames", "nextKey", "previousKey", "seekStart", "seekEnd",
   "setRangeStart", "setRangeEnd", "clearRange", "setSpeed", "setLoop", "setWrap", "setPass", "setRenderScale", "setQuality", "setCrowd",
@@ -17,10 +17,8 @@ const COMMANDS = [
 ];
 
 /**
- * Makes the object that programs see, and beside it what only the page may do with it:
- * `give(files, how)` for what a person opens, `attach(viewer)` when the viewer runs, `fail(error)` when it never will again, `emit(type, detail)` for its events.
- *
- * Once it has failed, the viewer is not called again: `state().error` says why, promises are rejected, and commands do nothing.
+ * Makes the object that programs see, and what only the page may do: `give(files, how)` for what a person opens, `attach(viewer)` when it runs,
+ * `fail(error)` when it never will again, `emit(type, detail)`. After a failure the viewer is not called: `state().error` says why, promises are rejected.
  */
 export function createApi() {
   let viewer = null;

@@ -1,5 +1,5 @@
-// The page: its elements, and the one viewer on it. Fetches the program with its progress shown, starts the viewer on the canvas, hands it
-// what the person opens, and shows what it cannot say itself.
+// The page: its elements, and the one viewer on it. Starts the viewer on the canvas, hands it what the person opens, and shows what it cannot
+// say itself.
 
 import { createApi } from "./api.js";
 import { takeChoices, takeDrops } from "./drop.js";
@@ -8,6 +8,7 @@ import {
 } from "./fault.js";
 import { greeting, keep, kept } from "./kept.js";
 import { mirrorOf } from "./mirror.js";
+import { backend, fetchProgram, first, options } from "./program.js";
 import { keepOnCanvas } from "./restart.js";
 import { fetchFile, readAgain, rememberSources } from "./sources.js";
 
@@ -24,13 +25,8 @@ const SAMPLE = {
   "visor_norm.png": "sample/visor_norm.png",
 };
 
-/** A program that loads and drops a vector of 128 bits: the least that needs SIMD. */
-const SIMD_PROGRAM = [
-  0x00, 0x61, 0x73, 0x6d, 1, 0, 0, 0, // "\0asm", version 1
-  1, 4, 1, 0x60, 0, 0, // a type: nothing in, nothing out
-  3, 2, 1, 0, // a function of that type
-  10, 23, 1, 21, 0, 0xfd, 12, ...new Array(16).fill(0), 0x1a, 0x0b, // v128.const 0, drop, end
-];
+/** "\0asm", version 1, and the type of a function that gives a vector of 128 bits: the least that needs SIMD. */
+const SIMD_PROGRAM = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123];
 
 /** The browser may take this long to begin a download. */
 const DOWNLOAD_KEPT_MS = 60_000;
@@ -40,8 +36,6 @@ const SPOKEN_AFTER_MS = 60;
 
 const element = (id) => document.getElementById(id);
 const view = element("view");
-/** What the address asks for, before the `#` or after it. */
-const options = new URLSearchParams(`${location.search.slice(1)}&${location.hash.slice(1)}`);
 const { bindpose, wasUsed, give, attach, fail, hasFailed, emit } = createApi();
 globalThis.bindpose = bindpose;
 
@@ -73,10 +67,7 @@ const refuse = (words) => showNotice("Some files could not be read", words);
 /** Tells of a failed opening, but not of one that gave way to another. */
 const refuseError = (error) => error.name === "AbortError" || refuse(wordsOf(error));
 
-/**
- * Has a screen reader speak. The words are put in anew, since the same ones would not be spoken again; what comes close together is
- * spoken together.
- */
+/** Has a screen reader speak. Words are put in anew, since the same ones are not spoken again; what comes close together is spoken together. */
 const say = (words, region = "spoken") => {
   const { textContent: spoken, dataset } = element(region);
   if (dataset.next === undefined) {
@@ -148,39 +139,44 @@ async function boot() {
     showOldBrowser();
     return;
   }
-  const program = load();
+  const program = load(first);
   // Pictures of the sample wait until the program is here: on a slow line they would take its place.
   const opensAtOnce = fetchOpening(program.catch(() => {}));
-  const backend = wantedBackend();
   const displaySecs = watchDisplay();
-  addEventListener("error", ({ error }) => isPanic(error) && onPanic(wordsOf(error)));
-  addEventListener("unhandledrejection", ({ reason }) => isPanic(reason) && onPanic(wordsOf(reason)));
-  try {
-    const { Viewer } = await program;
-    const { theme, light, split } = kept();
-    const wanted = { renderScale: addressedScale(), quality: addressedQuality(), displaySecs: displaySecs(), theme, light, split };
-    viewer = new Viewer(wanted, onEvent);
-    addEventListener("storage", ({ key }) => key?.startsWith("bindpose.names.") && !hasFailed() && viewer.readNames());
-    choices = choicesNow();
-    addEventListener("pagehide", keepVisit);
-    addEventListener("visibilitychange", keepVisit);
-    greet();
-  } catch (error) {
-    fail(error);
-    showDownloadFailure(error);
-    return;
-  }
+  addEventListener("error", ({ error }) => onPanic(error));
+  addEventListener("unhandledrejection", ({ reason }) => onPanic(reason));
+  addEventListener("storage", ({ key }) => key?.startsWith("bindpose.names.") && !hasFailed() && viewer?.readNames());
+  addEventListener("pagehide", keepVisit);
+  addEventListener("visibilitychange", keepVisit);
   // A restart comes here too, when the GPU goes away during the first start.
   bindpose.ready.then(async () => {
+    greet();
     hideShell();
     const files = await opensAtOnce;
     if (!files || wasUsed() || received) return;
     // A crowd is of what is open.
     await give(files, "open").then(() => bindpose.setCrowd(addressedCrowd()), refuseError);
   }, () => {});
+  await start(program, backend, displaySecs);
+}
+
+/** Starts a viewer of a program on the page's canvas. What is asked of it meanwhile waits. */
+async function start(program, wanted, displaySecs) {
+  let loaded;
+  try {
+    loaded = await program;
+    viewer = new loaded.module.Viewer({ ...kept(), renderScale: addressedScale(), quality: addressedQuality(), displaySecs: displaySecs() }, onEvent);
+    choices = choicesNow();
+  } catch (error) {
+    fail(error);
+    showDownloadFailure(error);
+    return;
+  }
   onCanvas = keepOnCanvas(viewer, {
     canvas: element("canvas"),
-    backend,
+    backend: wanted,
+    // The plainer way, unless one was asked for.
+    lastBackend: wanted === "auto" && loaded.name === "full" ? "webgl2" : wanted,
     isOver: hasFailed,
     putAside,
     onStart() {
@@ -190,11 +186,19 @@ async function boot() {
       attach(viewer);
     },
     onEnd(error, gpu) {
+      keepVisit();
       fail(error);
       showGpuLoss(error, gpu);
     },
   });
   await onCanvas.start().catch((error) => {
+    if (error.name === "WebGl2Missing") {
+      // Nothing is open yet, nor drawn.
+      console.info(wordsOf(error));
+      viewer.free();
+      viewer = null;
+      return start(load(fetchProgram("full")), "webgl2", displaySecs);
+    }
     fail(error);
     showGpuFailure(error, backend);
   });
@@ -231,12 +235,10 @@ function takeUnclaimedKeys() {
   });
 }
 
-/** Fetches and compiles the program while it arrives. */
-async function load() {
-  const link = element("wasm");
-  const [module, response] = await Promise.all([import("../pkg/bindpose.js"), fetch(link.href)]);
-  if (!response.ok) throw new Error(`The server answered ${response.status} for ${link.href}`);
-  const total = Number(link.dataset.bytes);
+/** Compiles a program while it arrives. */
+async function load(fetching) {
+  const program = await fetching;
+  const { module, response, total } = program;
   let arrived = 0;
   const counted = response.body.pipeThrough(
     new TransformStream({
@@ -249,11 +251,11 @@ async function load() {
   );
   const headers = { "Content-Type": "application/wasm" };
   await module.default({ module_or_path: new Response(counted, { headers }) });
-  return module;
+  return program;
 }
 
 function showProgress(arrived, total) {
-  const part = total ? Math.min(arrived / total, 1) : 0;
+  const part = Math.min(arrived / total, 1);
   element("bar").setAttribute("aria-valuenow", Math.round(part * 100));
   element("bar-fill").style.transform = `scaleX(${part})`;
   if (!wasUsed() && !received) {
@@ -297,10 +299,7 @@ function addressedCrowd() {
   return { count, seed };
 }
 
-/**
- * Watches how often the display shows a picture, while nothing is drawn yet. Returns a function that ends it and tells the seconds
- * between two, or nothing when it saw too few: in a hidden tab none comes.
- */
+/** Watches the display while nothing is drawn. Returns a function that ends it and tells the seconds between two pictures, if it saw enough. */
 function watchDisplay() {
   const intervals = [];
   let last;
@@ -317,13 +316,7 @@ function watchDisplay() {
   };
 }
 
-function wantedBackend() {
-  const named = options.get("backend");
-  return ["webgpu", "webgl2"].includes(named) ? named : "auto";
-}
-
 function onEvent(type, detail) {
-  // What was under way when the viewer failed may still end.
   if (hasFailed()) return;
   if (type === "mirror") return showMirror(detail);
   if (type === "announce") return sayUnlessHeard(detail);
@@ -354,9 +347,9 @@ function choicesNow() {
   return { theme, light, split, quality };
 }
 
-/** Keeps for the next visit what the person chose, which model was theirs, and how many of its bones have names. */
+/** Keeps for the next visit what the person chose, and which model was theirs. */
 function keepVisit() {
-  if (hasFailed()) return;
+  if (!viewer || hasFailed()) return;
   const chosen = Object.entries(choicesNow()).filter(([name, value]) => value !== choices[name]);
   if (chosen.length) keep(Object.fromEntries(chosen));
   const state = viewer.state();
@@ -378,17 +371,14 @@ function sayUnlessHeard({ text, assertive }) {
   else if (view.getRootNode().activeElement?.type !== "range") say(text);
 }
 
-/** A panic is reported with its words; the error that ends the program follows, and comes alone in old browsers. */
-function isPanic(error) {
-  return error?.name === "Panic" || error instanceof WebAssembly.RuntimeError;
+/** A panic is reported with its words; the error that ends the program follows, alone in old browsers. */
+function onPanic(error) {
+  if (error?.name !== "Panic" && !(error instanceof WebAssembly.RuntimeError)) return;
+  fail(new Error(wordsOf(error)));
+  showPanic(wordsOf(error));
 }
 
-function onPanic(message) {
-  fail(new Error(message));
-  showPanic(message);
-}
-
-/** Opens what is open, or what the error shown is about, once more, as it is on disk or on the server now. */
+/** Opens what is open, or what could not be opened, once more, as it is now. */
 async function readSourcesAgain() {
   const state = bindpose.state();
   const refused = state.error && sources.refused();
@@ -405,7 +395,7 @@ async function readSourcesAgain() {
   }
 }
 
-/** What the page opens by itself: the files that the address names, else the sample, with its maps once `program` has come. */
+/** What the page opens by itself: what the address names, else the sample, with its maps once `program` has come. */
 async function fetchOpening(program) {
   const named = ["src", "tex"].flatMap((key) => options.getAll(key));
   try {
@@ -424,7 +414,7 @@ async function fetchOpening(program) {
   }
 }
 
-/** Saves a picture where the person chooses, if asked to and the browser can, else as a download. */
+/** Saves a picture where the person chooses, or as a download. */
 async function savePicture({ name, bytes, choosesPlace }) {
   if (!choosesPlace || !globalThis.showSaveFilePicker) return saveFile(name, bytes, "image/png");
   try {
@@ -450,10 +440,7 @@ function saveFile(name, contents, type) {
 /** Pixels. */
 const LONGEST_PRINTED_SIDE = 2400;
 
-/**
- * Prints the view with a line of facts, without the interface: for Ctrl+P a picture made for paper, for a print of the browser's menu, which
- * cannot wait for one, a copy of `canvas()`.
- */
+/** Prints the view with a line of facts: for Ctrl+P a picture made for paper, for the browser's menu, which cannot wait, a copy of `canvas()`. */
 function printView(bindpose, canvas) {
   const sheet = document.createElement("section");
   sheet.id = "print";

@@ -6,11 +6,10 @@ import { CLIP_FILES, isUseful, onlyJoins } from "./files.js";
 const MAX_ENTRIES = 20_000;
 
 /**
- * Takes every drop on `area`: an element of one viewer among several, or `window` for the only one of its page. `receive(files, addsClips)`
- * gets `{name, file}` records, name being the path inside what was dropped, and whether only their clips are wanted, as Shift says;
- * `refuse(words)` hears what could not be read; `openModel()` names the model that a drop would replace, if any; `show({title, what})` says
- * while files are over the area what a drop would do, and `show(null)` that none are. A folder that is listed after a newer drop was received
- * is not; `gaveWay(name)` hears of it.
+ * Takes every drop on `area`: an element of one viewer among several, or `window`. `receive(files, addsClips)` gets `{name, file}` records, name being
+ * the path inside what was dropped, and whether Shift asks for their clips only; `refuse(words)` hears what could not be read; `openModel()` names the model
+ * that a drop would replace; `show({title, what})` says while files are over the area what a drop would do, then `show(null)`. A folder that is listed
+ * after a newer drop was received is not; `gaveWay(name)` hears of it.
  */
 export function takeDrops(area, { receive, refuse, openModel, show, gaveWay = () => {} }) {
   let drops = 0;

@@ -18,16 +18,21 @@ export function clearNotice() {
 }
 
 /** Replaces the page by what happened. The first fault stays: what follows are its echoes. */
-function showFault(title, words, details, actions) {
+function showFault(title, words, details, links = backendLinks()) {
   if (!element("fault").hidden) return;
   element("shell").hidden = true;
   element("view").inert = true;
   element("fault-title").textContent = title;
   element("fault-words").textContent = words;
   element("fault-details").textContent = details;
-  element("fault-actions").replaceChildren(...actions);
+  const again = document.createElement("button");
+  again.type = "button";
+  again.className = "primary";
+  again.textContent = "Reload";
+  again.addEventListener("click", () => location.reload());
+  element("fault-actions").replaceChildren(again, ...links);
   element("fault").hidden = false;
-  actions[0].focus();
+  again.focus();
 }
 
 /** The program ended in a way it did not expect. */
@@ -36,7 +41,6 @@ export function showPanic(message) {
     "Bindpose stopped",
     "It came upon something that it did not expect. That is a mistake in the program, not in your file. Reload the page to go on.",
     message,
-    [reload("Reload"), ...backendLinks()],
   );
 }
 
@@ -48,18 +52,16 @@ export function showGpuFailure(error, backend) {
       ? `${BACKENDS[backend]} was asked for and did not work. The other way to draw may.`
       : "Neither WebGPU nor WebGL2 worked. A newer browser or graphics driver, or hardware acceleration turned on in the browser's settings, helps most often.",
     wordsOf(error),
-    [reload("Try again"), ...backendLinks()],
   );
 }
 
-/** The GPU went away and did not come back. `gpu` is the `{backend, adapter}` that it was, or null when no start had come to its end. */
+/** The GPU went away and did not come back. `gpu` is what it was, or null when no start had come to its end. */
 export function showGpuLoss(error, gpu) {
   const lost = gpu ? `${BACKENDS[gpu.backend]} on ${gpu.adapter} was lost` : "The GPU was lost while it started";
   showFault(
     "The graphics went away",
     `${lost} and could not be started again. The other way to draw may last.`,
     wordsOf(error),
-    [reload("Try again"), ...backendLinks()],
   );
 }
 
@@ -77,7 +79,7 @@ export function showOldBrowser() {
     "This browser is too old",
     "Bindpose needs WebAssembly with SIMD: Chrome or Edge 91, Firefox 89, Safari 16.4, or a newer one.",
     navigator.userAgent,
-    [reload("Try again")],
+    [],
   );
 }
 
@@ -87,22 +89,13 @@ export function showDownloadFailure(error) {
     "The viewer could not be loaded",
     "A part of this page did not arrive, or this browser cannot run it. Bindpose needs WebAssembly.",
     wordsOf(error),
-    [reload("Try again")],
+    [],
   );
 }
 
 /** The message of what was thrown, which need not be an `Error`. */
 export function wordsOf(error) {
   return error?.message ?? String(error);
-}
-
-function reload(words) {
-  const button = document.createElement("button");
-  button.type = "button";
-  button.className = "primary";
-  button.textContent = words;
-  button.addEventListener("click", () => location.reload());
-  return button;
 }
 
 function backendLinks() {

@@ -1,7 +1,7 @@
 // The viewer's controls as elements of the page, for screen readers and for Tab: a canvas has only pixels.
 // They lie where the controls are drawn, unseen and out of the pointer's way; the viewer draws the focus ring.
 
-/** What says by which attribute that it is on or chosen; others say it by `aria-selected`. */
+/** What says by which attribute that it is on; others say it by `aria-selected`. */
 const ON = {
   button: "aria-pressed", checkbox: "aria-checked", switch: "aria-checked", radio: "aria-checked",
   menuitemcheckbox: "aria-checked", menuitemradio: "aria-checked",
@@ -27,9 +27,9 @@ const KEYS_OUT_OF_FIELD = new Set(["Enter", "Escape", "ArrowUp", "ArrowDown"]);
 
 /** The canvas is not called otherwise more often than this. */
 const LABEL_EVERY_MS = 1000;
-/** How long the viewer has to say where the focus is when its element is gone. */
+/** So long the viewer may take to say where the focus is when its element is gone. */
 const HEIR_AFTER_MS = 400;
-/** A focused slider's value is read out when it has stood still for so long, unless the person moved it. */
+/** A focused slider's value is read out when it has stood still for so long. */
 const RESTS_MS = 600;
 /** What the viewer tells this long after the person moved a slider is what came of it. */
 const ANSWERS_MS = 1000;
@@ -39,10 +39,7 @@ const MOST_ANSWERS = 4;
 /** Ids of elements hold for the whole page. */
 let mirrors = 0;
 
-/**
- * Mirrors the controls of `viewer` behind the canvas that it runs on. `pick(what)` opens the dialog for
- * "files" or "clips", within the click. Gives what takes the viewer's `mirror` events, and `remove()`.
- */
+/** Mirrors the controls of `viewer` behind its canvas. `pick(what)` opens a dialog within the click. `take()` is for the viewer's `mirror` events. */
 export function mirrorOf(viewer, canvas, pick) {
   const prefix = `mirror${++mirrors}-`;
   const root = document.createElement("div");
@@ -66,15 +63,14 @@ export function mirrorOf(viewer, canvas, pick) {
   let focus = null; // What has the focus in the viewer.
   let start = null; // What was clicked last on the canvas, while nothing has the focus.
   let follows = false; // The viewer's focus is being followed, and need not be told of it.
-  /** What the viewer was asked to focus, until it says so; `undefined` when nothing is asked. What it says meanwhile is of before. */
-  let asked;
+  let asked; // What the viewer was asked to focus, until it says so.
   let answers = 0;
-  let lost = null; // The element with the focus is gone, and it is not known yet which one has it next.
-  let returning = 0; // The timer after which the viewer is told where the focus of the page is.
+  let lost = null; // The element with the focus is gone.
+  let returning = 0; // After this timer the viewer is told where the focus is.
   let tabbing = false; // Tab went down, and moves the focus.
-  let pressing = false; // A pointer went down on the canvas, and takes the focus there by itself.
-  const held = new Set(); // Keys that the viewer was told of and that are not up again.
-  const turned = new Set(); // Keys that are down and that the browser turns into clicks and values.
+  let pressing = false; // A pointer went down on the canvas, and takes the focus.
+  const held = new Set(); // Keys that the viewer was told of.
+  const turned = new Set(); // Keys that the browser turns into clicks and values.
   let left = false; // The focus went from an element to something else.
 
   const idOf = (element) => element?.closest?.("[data-mirror]")?.dataset.mirror;
@@ -101,9 +97,7 @@ export function mirrorOf(viewer, canvas, pick) {
     const element = document.createElement(tagOf(record));
     element.dataset.mirror = record.id;
     element.id = prefix + record.id;
-    element.style.position = "absolute";
-    element.style.margin = element.style.padding = "0";
-    element.style.border = "0";
+    Object.assign(element.style, { position: "absolute", margin: "0", padding: "0", border: "0" });
     if (element.localName === "button") {
       element.type = "button";
       if (record.role !== "button") element.setAttribute("role", record.role);
@@ -187,7 +181,7 @@ export function mirrorOf(viewer, canvas, pick) {
     if (entry.typed === undefined && element.value !== value) element.value = value;
   };
 
-  /** Puts these children in this order, and moves only those that stand elsewhere: what is moved loses the focus. */
+  /** Puts these children in order, and moves only those that stand elsewhere: what is moved loses the focus. */
   const arrange = (parent, ids) => {
     let next = null;
     for (const id of ids.toReversed()) {
@@ -291,7 +285,7 @@ export function mirrorOf(viewer, canvas, pick) {
     }, LABEL_EVERY_MS);
   };
 
-  /** The viewer makes one step to undo of what a key does until it is up, however often it repeats. */
+  /** The viewer makes one step to undo of what a key does until it is up. */
   const release = () => {
     if (turned.size) viewer.act({ action: "release" });
     turned.clear();
@@ -322,7 +316,7 @@ export function mirrorOf(viewer, canvas, pick) {
     const { record } = mirrored.get(idOf(target)) ?? {};
     if (!record?.clickable || record.disabled) return;
     if (pick && PICKED[record.control]) return pick(PICKED[record.control]);
-    // From here on the viewer says where the focus is: what opens may take it before the viewer has told that it was here.
+    // From here on the viewer says where the focus is: what opens may take it.
     asked = undefined;
     act(target, "click");
   });
@@ -384,7 +378,7 @@ export function mirrorOf(viewer, canvas, pick) {
     if (turned.has(event.code)) release();
   });
 
-  // Tab leaves the canvas for the element that the viewer's focus is at, or that was clicked last, and goes on from there.
+  // Tab leaves the canvas from where the viewer's focus is, or what was clicked last.
   const onTab = (event) => {
     if (event.key !== "Tab") return;
     tabbing = true;
@@ -407,7 +401,7 @@ export function mirrorOf(viewer, canvas, pick) {
     setTimeout(() => (pressing = false));
   };
   const leavesForCanvas = () => {
-    // The keyboard came here from a control, perhaps by way of the browser's own, and the viewer still has it in its focus.
+    // The keyboard came here from a control, which the viewer still has in its focus.
     if (!pressing && left) askFocus(null);
     left = false;
     outline(tabbing);

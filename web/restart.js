@@ -14,12 +14,11 @@ const MOST_EARLY_LOSSES = 3;
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 
 /**
- * Keeps `viewer` on a canvas that was never drawn on. `backend` is "webgpu", "webgl2" or "auto". `onStart({backend, adapter})` hears of
- * every start that worked; `onEnd(error, gpu)` that the GPU did not come back, and what the last start that worked gave. `putAside()` closes what is
- * open, with which the GPU did not last, and says whether there was something; then the next start is without it. `isOver()` says that the viewer is
- * not to be called any more.
+ * Keeps `viewer` on a canvas that was never drawn on; `lastBackend` is for the last try to get a lost GPU back. `onStart(gpu)` hears of each start that
+ * worked, `onEnd(error, gpu)` that the GPU did not come back, and which it was. `putAside()` closes what is open, with which the GPU did not last, and says
+ * whether there was something. `isOver()` says that the viewer is not to be called any more.
  */
-export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, putAside = () => false, isOver }) {
+export function keepOnCanvas(viewer, { canvas, backend, lastBackend = backend, onStart, onEnd, putAside = () => false, isOver }) {
   let gpu = null; // {backend, adapter} of the last start that worked.
   let starts = 0;
   let startedAt = -Infinity; // By `performance.now()`.
@@ -65,10 +64,7 @@ export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, putAside
     canvas = fresh;
   };
 
-  /**
-   * The GPU went away: what is open lives on in the viewer, so a fresh canvas and a new start bring all of it back, however often, unless no start
-   * lasts with it.
-   */
+  /** What is open lives on in the viewer, so a fresh canvas and a new start bring it back, however often, unless no start lasts with it. */
   const restart = async (reason) => {
     if (isOver()) return;
     if (restarting) {
@@ -88,8 +84,7 @@ export function keepOnCanvas(viewer, { canvas, backend, onStart, onEnd, putAside
         endEarlyLosses(reason);
         replaceCanvas();
         try {
-          // The last try takes the plainer way, unless one was asked for.
-          await start(failures === MOST_FAILURES - 1 && backend === "auto" ? "webgl2" : backend);
+          await start(failures === MOST_FAILURES - 1 ? lastBackend : backend);
           if (hadFocus) canvas.focus();
           if (!lostMeanwhile) return;
           reason = lostMeanwhile;

@@ -3,10 +3,7 @@
 /** Whether it is a `Blob` or a `File`, also one of another window. */
 const isBlob = (item) => typeof item?.arrayBuffer === "function";
 
-/**
- * A file with its relative path, from a `File`, a `{name, file}` of drop.js or a `{name, bytes}`: `{name, bytes}` with bytes as `Uint8Array`, or as
- * `Blob`, which the viewer reads piece by piece.
- */
+/** `{name, bytes}` with a relative path from a `File`, a `{name, file}` of drop.js or a `{name, bytes}`; a `Blob` is read piece by piece. */
 export function recordOf(item) {
   const name = item?.webkitRelativePath || item?.name;
   if (typeof name !== "string") throw new TypeError("a file to open is a File or {name, bytes}");
@@ -18,7 +15,7 @@ export function recordOf(item) {
   return { name, bytes };
 }
 
-/** The file at an address, with the last part of its path as name unless it is given another one. */
+/** The file at an address. */
 export async function fetchFile(address, name = decodeURIComponent(new URL(address, location.href).pathname.split("/").pop())) {
   const response = await fetch(address);
   if (!response.ok) throw new Error(`The server answered ${response.status} for ${address}`);
@@ -35,10 +32,7 @@ const joined = (before, files) => {
 export const readAgain = (files) =>
   Promise.all(files.map(async (item) => ({ ...item, file: item.again ? await item.again() : item.file })));
 
-/**
- * Remembers the files that the person opened, for another reading: they may have changed on disk. What a drop was, the states around it say:
- * `state.model.opening` is the number of the opening that brought the model on screen.
- */
+/** Remembers the files that the person opened, for another reading. `state.model.opening` is the number of the opening that brought the model on screen. */
 export function rememberSources() {
   let all = new Map(); // By that number: `files` that brought the model, `beside` maps and skies that came later, `clips` that were added.
   let refused = null; // What came last, if it could not be opened: it may be mended on disk.
@@ -65,7 +59,7 @@ export function rememberSources() {
     forget: () => ([all, refused] = [new Map(), null]),
     refused: () => refused,
     hasModel: (state) => Boolean(of(state)?.files),
-    /** All that belongs to the model on screen, read again: `files` to open and `clips` to add. Without a file of the person's `own()` gives the page's. */
+    /** All that belongs to the model on screen, read again. Without a file of the person's `own()` gives the page's. */
     async again(state, own) {
       const { files, beside, clips } = of(state) ?? { files: null, beside: [], clips: [] };
       const opened = files ? await readAgain(files) : await own();

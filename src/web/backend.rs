@@ -1,8 +1,10 @@
-//! WebGPU when it is there and draws right, else WebGL2. The decision falls before the canvas is claimed, since a canvas
+//! WebGPU when it is there and draws right, else WebGL2, in a program that has it (feature `webgl`). The decision falls before the canvas is claimed, since a canvas
 //! that once had a WebGPU context can never have another.
 
 use egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew, WgpuSetupExisting};
+use wasm_bindgen::JsValue;
 
+use super::named_error;
 use crate::render::device;
 
 /// What the address or the page asks for.
@@ -65,19 +67,26 @@ impl Chosen {
 /// Chooses a backend.
 ///
 /// # Errors
-/// Only when WebGPU was asked for by name and cannot be used, with the reason. A missing WebGL2 shows when the canvas is claimed.
-pub(super) async fn choose(preference: Preference) -> Result<Chosen, String> {
+/// When WebGPU was asked for by name and cannot be used, with the reason; and with the name `WebGl2Missing` when WebGL2 is left and this
+/// program is the one without it. A browser without WebGL2 shows when the canvas is claimed.
+pub(super) async fn choose(preference: Preference) -> Result<Chosen, JsValue> {
     if preference == Preference::WebGl2 {
-        return Ok(Chosen::WebGl2);
+        return web_gl2("it was asked for");
     }
     match web_gpu(preference == Preference::WebGpu).await {
         Ok(setup) => Ok(Chosen::WebGpu(Box::new(setup))),
-        Err(reason) if preference == Preference::WebGpu => Err(format!("WebGPU: {reason}")),
-        Err(reason) => {
-            web_sys::console::info_1(&format!("WebGL2 is used, since WebGPU is not to be had: {reason}").into());
-            Ok(Chosen::WebGl2)
-        }
+        Err(reason) if preference == Preference::WebGpu => Err(named_error("Error", &format!("WebGPU: {reason}"))),
+        Err(reason) => web_gl2(&format!("WebGPU is not to be had: {reason}")),
     }
+}
+
+fn web_gl2(reason: &str) -> Result<Chosen, JsValue> {
+    if !cfg!(feature = "webgl") {
+        let message = format!("WebGL2, which this program lacks, is needed, since {reason}");
+        return Err(named_error("WebGl2Missing", &message));
+    }
+    web_sys::console::info_1(&format!("WebGL2 is used, since {reason}").into());
+    Ok(Chosen::WebGl2)
 }
 
 async fn web_gpu(software_allowed: bool) -> Result<WgpuSetupExisting, String> {

@@ -36,8 +36,13 @@ fn promise<E: Into<JsValue>>(work: impl Future<Output = Result<JsValue, E>> + 's
 
 /// The error of what was ended because something newer took its place, with the name that browsers give it.
 fn abort_error(message: &str) -> JsValue {
+    named_error("AbortError", message)
+}
+
+/// An error that is told from others by its name.
+fn named_error(name: &str, message: &str) -> JsValue {
     let error = js_sys::Error::new(message);
-    error.set_name("AbortError");
+    error.set_name(name);
     error.into()
 }
 

@@ -28,20 +28,18 @@ pub(super) async fn start(
     shared: Rc<Shared>,
     canvas: HtmlCanvasElement,
     preference: Preference,
-) -> Result<JsValue, JsError> {
+) -> Result<JsValue, JsValue> {
     shared.stop();
     let mine = shared.starts.get();
     let is_overtaken = || shared.starts.get() != mine;
-    let chosen = backend::choose(preference)
-        .await
-        .map_err(|reasons| JsError::new(&reasons))?;
+    let chosen = backend::choose(preference).await?;
     if is_overtaken() {
-        return Err(JsError::new(OVERTAKEN));
+        return Err(JsError::new(OVERTAKEN).into());
     }
     let running = run(canvas, chosen, &shared, mine).await?;
     if is_overtaken() {
         running.give_back();
-        return Err(JsError::new(OVERTAKEN));
+        return Err(JsError::new(OVERTAKEN).into());
     }
     let started = object([
         ("backend", running.backend.into()),

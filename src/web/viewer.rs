@@ -80,7 +80,8 @@ impl Viewer {
     /// Starts on a canvas that was never drawn on, instead of the canvas that it has. What is open stays.
     ///
     /// `options`: `{backend: "auto" | "webgpu" | "webgl2"}`. Resolves with `{backend, adapter}` when the first frame was drawn. Rejects when no
-    /// backend works, with the reasons of each that was tried, and when another start or a stop came meanwhile.
+    /// backend works, with the reasons of each that was tried, and when another start or a stop came meanwhile. The error is called `WebGl2Missing`
+    /// where WebGL2 would be next and this program is the one without it; the canvas was not drawn on then.
     pub fn start(&self, canvas: HtmlCanvasElement, options: &JsValue) -> Promise {
         let preference = Preference::from_name(&field(options, "backend").as_string().unwrap_or_default());
         promise(run::start(Rc::clone(&self.shared), canvas, preference))

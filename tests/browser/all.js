@@ -16,3 +16,4 @@ import "./fingers.js";
 import "./several.js";
 import "./lasting.js";
 import "./visits.js";
+import "./programs.js";

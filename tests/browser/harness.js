@@ -39,6 +39,10 @@ const GPU_FLAGS = {
 };
 assert.ok(BACKEND in GPU_FLAGS, `BACKEND is webgpu or webgl2, not ${BACKEND}`);
 
+/** Where the two programs are on the server, and the one of them that draws with the backend under test where that is asked for by name. */
+export const FOLDERS = { webgpu: "/pkg/webgpu/", full: "/pkg/" };
+export const FOLDER = BACKEND === "webgpu" ? FOLDERS.webgpu : FOLDERS.full;
+
 // A browser that asks nobody anything.
 const QUIET_FLAGS = [
   "--disable-background-networking",
@@ -237,12 +241,15 @@ export function test(name, options, body) {
   );
 }
 
+/** The scripts of the programs, for a route. */
+export const SCRIPTS = "**/bindpose.js";
+
 /**
  * For `prepare`: the page gets the real program, but for members of its class `Viewer` that are written anew. In them `super` is the real
  * viewer and `this.onEvent` the page's callback.
  */
 export const withViewer = (members) => (page) =>
-  page.route("**/pkg/bindpose.js", async (route) => {
+  page.route(SCRIPTS, async (route) => {
     const script = await (await route.fetch()).text();
     assert.match(script, /^export class Viewer /m);
     const body = `${script.replace(/^export class Viewer /m, "class Viewer ")}
@@ -266,11 +273,18 @@ export const panicAtStart = withViewer(`
     return gpu;
   }`);
 
-/** Waits until the viewer runs, shows a model and has drawn its panels, and makes sure that it draws with the backend under test. */
+/** The folders of the programs that a page has fetched, in order. */
+export async function programs(page) {
+  const paths = await page.evaluate(() => performance.getEntriesByType("resource").map(({ name }) => new URL(name).pathname));
+  return paths.filter((path) => path.endsWith(".wasm")).map((path) => path.replace(/[^/]*$/, ""));
+}
+
+/** Waits until the viewer runs, shows a model and has drawn its panels, and makes sure that it is the program and the backend under test. */
 export async function running(page) {
   await page.waitForFunction(() => !document.getElementById("fault").hidden || globalThis.bindpose?.state().model);
   assert.equal(await page.textContent("#fault-title"), "", await page.textContent("#fault-details"));
   assert.equal((await state(page)).backend, BACKEND, "the backend that is really in use");
+  assert.deepEqual(await programs(page), [FOLDER], "the program that was fetched");
   await page.waitForFunction(() => document.getElementById("shell").hidden);
 }
 

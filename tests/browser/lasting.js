@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { existsSync, readFileSync, statSync } from "node:fs";
-import { BACKEND, CENTRE, SAMPLE, SHARED, atRest, call, dropAndWait, keep, settled, state, test, until, withViewer } from "./harness.js";
+import { BACKEND, CENTRE, FOLDER, SAMPLE, SHARED, atRest, call, dropAndWait, keep, settled, state, test, until, withViewer } from "./harness.js";
 import { coloursOnScreen, difference, picture } from "./picture.js";
 
 /** Keeps what the page asks the browser for, so that a test can take it away again. */
@@ -92,10 +92,10 @@ async function held(page) {
   await browser.detach();
   const [status] = processInfo.filter(({ type }) => type === "GPU").map(({ id }) => `/proc/${id}/status`).filter(existsSync);
   const gpuMB = status && Number(/VmRSS:\s*(\d+)/.exec(readFileSync(status, "utf8"))[1]) / 1e3;
-  const wasm = await page.evaluate(async () => {
-    const { default: init } = await import("/pkg/bindpose.js");
+  const wasm = await page.evaluate(async (folder) => {
+    const { default: init } = await import(`${folder}bindpose.js`);
     return (await init()).memory.buffer.byteLength;
-  });
+  }, FOLDER);
   return { ...objects, jsEventListeners, scriptMB: usedSize / 1e6, wasmMB: wasm / 1e6, gpuMB };
 }
 
@@ -246,10 +246,10 @@ test("thirty loads in a row do not grow the memory", { own: true }, async (page)
   const path = existsSync(soldier) ? soldier : SAMPLE;
   await call(page, "pause");
   const megabytes = () =>
-    page.evaluate(async () => {
-      const { default: init } = await import("/pkg/bindpose.js");
+    page.evaluate(async (folder) => {
+      const { default: init } = await import(`${folder}bindpose.js`);
       return (await init()).memory.buffer.byteLength / 1e6;
-    });
+    }, FOLDER);
   const sizes = [];
   for (let load = 0; load < 30; load += 1) {
     // Two models by turns: the same one again is a reload, which could be cheaper.

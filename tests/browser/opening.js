@@ -11,7 +11,7 @@ import { assertDrawn, difference, picture } from "./picture.js";
 import { GROUND, click } from "./widgets.js";
 
 /** A copy of the sample under another name, in a folder of its own. */
-function copyOfSample(...parts) {
+export function copyOfSample(...parts) {
   const folder = mkdtempSync(join(tmpdir(), "bindpose-"));
   const path = join(folder, ...parts);
   mkdirSync(join(path, ".."), { recursive: true });

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
-import { BACKEND, CENTRE, LARGE, OUT, PAGE, atRest, call, keep, panicAtStart, settled, state, test, until } from "./harness.js";
+import { BACKEND, CENTRE, FOLDER, FOLDERS, LARGE, OUT, PAGE, SCRIPTS, atRest, call, keep, panicAtStart, programs, settled, state, test, until } from "./harness.js";
 import { assertDrawn, coloursOnScreen, contactSheet, decoded, difference, picture } from "./picture.js";
 
 test("the page opens the sample, draws it and logs no error", { draws: true, viewport: LARGE, own: true, fine: true, passes: true, motion: true }, async (page) => {
@@ -69,6 +69,7 @@ test("without a wish the page takes a backend by itself", { draws: true, query: 
   const { backend } = await state(page);
   // WebGPU on a GPU of software is taken only where it was asked for, and the browser under test has no other.
   assert.equal(backend, "webgl2");
+  assert.deepEqual(await programs(page), [FOLDERS.full], "the adapter says that it is software, so nothing else was fetched before");
   assertDrawn(await picture(page));
 });
 
@@ -278,6 +279,7 @@ test("a browser without graphics is told which other way there is", {
   const links = await page.$$eval("#fault-actions a", (links) => links.map(({ href }) => href));
   assert.deepEqual(links, [`${PAGE}?backend=webgl2`, `${PAGE}?backend=webgpu`]);
   assert.notEqual(await page.textContent("#fault-details"), "");
+  assert.deepEqual(await programs(page), [FOLDER]);
 });
 
 test("a panic shows what happened and a way on", {
@@ -289,7 +291,7 @@ test("a panic shows what happened and a way on", {
   assert.match(await page.textContent("#fault-title"), /stopped/);
   assert.equal(await page.textContent("#fault-details"), "index out of bounds");
   await keep(page, "fault-panic");
-  await page.unroute("**/pkg/bindpose.js");
+  await page.unroute(SCRIPTS);
   await page.click("#fault-actions button");
   await until(page, ({ model }) => model !== null);
 });

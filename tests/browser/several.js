@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { BACKEND, FIXTURES, SAMPLE, call, drop, keep, settled, state, test, until } from "./harness.js";
+import { BACKEND, FIXTURES, FOLDER, SAMPLE, call, drop, keep, settled, state, test, until } from "./harness.js";
 import { assertDrawn, decoded, difference, picture } from "./picture.js";
 
 const PAGE_OF_TWO = `<!doctype html><title>Two viewers</title>
@@ -46,11 +46,11 @@ async function pageOfTwo(page) {
 
 /** Makes the two viewers; `viewers[n]` has the handle, its `bindpose` and what it told of. */
 function makeViewers(page) {
-  return page.evaluate(async (backend) => {
+  return page.evaluate(async ([backend, folder]) => {
     const [{ default: init, Viewer }, { createApi }, { takeDrops }] = await Promise.all(
-      ["/pkg/bindpose.js", "/web/api.js", "/web/drop.js"].map((address) => import(address)),
+      [`${folder}bindpose.js`, "/web/api.js", "/web/drop.js"].map((address) => import(address)),
     );
-    await init({ module_or_path: fetch("/pkg/bindpose_bg.wasm") });
+    await init({ module_or_path: fetch(`${folder}bindpose_bg.wasm`) });
     globalThis.viewers = [];
     for (const section of document.querySelectorAll("section")) {
       const { bindpose, attach, give, emit } = createApi();
@@ -60,7 +60,7 @@ function makeViewers(page) {
       attach(handle);
       globalThis.viewers.push({ handle, bindpose, attach });
     }
-  }, BACKEND);
+  }, [BACKEND, FOLDER]);
 }
 
 /** Has the harness ask this viewer from now on. */

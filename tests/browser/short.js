@@ -73,6 +73,8 @@ const check = (name, body) =>
 check("the page starts, opens the sample and plays it", async () => {
   const { backend, model, textures } = await until(({ model }) => model !== null);
   assert.equal(backend, "webgl2");
+  const fetched = await page.evaluate(() => performance.getEntriesByType("resource").map(({ name }) => new URL(name).pathname).filter((path) => path.endsWith(".wasm")));
+  assert.deepEqual(fetched, ["/pkg/bindpose_bg.wasm"], "the program that has WebGL2");
   assert.equal(model.name, "figure.m3d");
   assert.deepEqual(textures, { named: 8, missing: [], unreadable: [] });
   const { timeSecs } = await until(({ playing }) => playing);

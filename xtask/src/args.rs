@@ -9,7 +9,7 @@ pub(crate) const HELP: &str = "\
 Bindpose's own commands. Each does its set-up itself.
 
     cargo xtask serve [--port N] [--open] [--release] [--watch]
-        Build the viewer for the browser and serve it on this machine.
+        Build the viewer for the browser and serve it on this machine, the full program alone.
         --port N    the port, 8080 unless given; 0 takes any free one
         --open      open the page in the default browser
         --release   optimised, slower to build

@@ -15,7 +15,7 @@ use crate::second_tries;
 use crate::serve;
 use crate::site::Site;
 use crate::sizes;
-use crate::wasm::{self, Profile};
+use crate::wasm::{self, Profile, Program};
 
 /// The environment variable that says how many times as many cases a property is tried with, and how many `--long` takes.
 const CASES: &str = "BINDPOSE_CASES";
@@ -37,7 +37,7 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     if !options.browser_alone {
         native(&mut steps, &absent, options.long)?;
     }
-    let page = page(&mut steps)?;
+    let page = page(&mut steps, &options.browsers)?;
     if !options.browser_alone {
         steps.step("The page's scripts alone", || {
             Line::new("node")
@@ -74,17 +74,21 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
 pub(crate) fn pictures() -> Result<(), Failure> {
     let mut steps = Steps::new();
     steps.step("What the pictures are drawn with", prerequisites::ensure)?;
-    let page = page(&mut steps)?;
     let run = RUNS[1];
+    let page = page(&mut steps, &[run])?;
     let tests = "tests/browser/readme.js";
     steps.step("The pictures", || node(run, None, tests, &page).run())
 }
 
-/// Builds the page, serves it and brings what drives the browsers. Gives its address.
-fn page(steps: &mut Steps) -> Result<String, Failure> {
-    let pkg = steps.step("The wasm", || wasm::build(Profile::Dev))?;
-    steps.step("How large it is", || sizes::of_development(&pkg))?;
-    let page = format!("http://{}/", serve::start(serve::listen(0)?, Site::new(pkg))?);
+/// Builds the page for these runs, serves it and brings what drives the browsers. Gives its address.
+fn page(steps: &mut Steps, runs: &[BrowserRun]) -> Result<String, Failure> {
+    let full = steps.step("The wasm", || wasm::build(Profile::Dev, Program::Full))?;
+    steps.step("How large it is", || sizes::of_development(&full))?;
+    let on_web_gpu = runs.iter().any(|run| run.backend == "webgpu");
+    let build = || wasm::build(Profile::Dev, Program::WebGpu);
+    let web_gpu = on_web_gpu.then(|| steps.step("The wasm for WebGPU alone", build));
+    let site = Site::new(full, web_gpu.transpose()?);
+    let page = format!("http://{}/", serve::start(serve::listen(0)?, site)?);
     steps.step("What drives the browsers", || {
         Line::new(prerequisites::NPM)
             .args(["ci", "--no-progress", "--prefix", BROWSER_TESTS])
@@ -108,7 +112,7 @@ fn native(steps: &mut Steps, absent: &List, long: bool) -> Result<(), Failure> {
             "wasm32-unknown-unknown",
             "--no-default-features",
             "--features",
-            "viewer",
+            Program::Full.features(),
         ])
     })?;
     steps.step("Documentation", || {

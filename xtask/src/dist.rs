@@ -11,7 +11,7 @@ use crate::compress::{Coding, Effort};
 use crate::failure::{Doing as _, Failure};
 use crate::site::Site;
 use crate::sizes::{self, Size};
-use crate::wasm::{self, Profile};
+use crate::wasm::{self, Profile, Program};
 
 /// The viewer's page. Others lead back to it, so it comes last; pages keep their names.
 const PAGE: &str = "index.html";
@@ -21,7 +21,8 @@ const REFERRING: [&str; 4] = [".html", ".js", ".css", ".webmanifest"];
 
 /// Builds `dist/`, and fails where a file is larger than it may be: then `dist/` is there all the same, to be looked at.
 pub(crate) fn run() -> Result<(), Failure> {
-    let site = Site::new(wasm::build(Profile::Dist)?);
+    let program = |program| wasm::build(Profile::Dist, program);
+    let site = Site::new(program(Program::Full)?, Some(program(Program::WebGpu)?));
     let mut sources = BTreeMap::new();
     for address in site.addresses()? {
         if let Some(path) = site.locate(&address) {
@@ -198,10 +199,12 @@ fn page() -> BTreeMap<String, Vec<u8>> {
     let built = [
         ("pkg/bindpose.js", b"1".to_vec()),
         ("pkg/bindpose_bg.wasm", b"2".to_vec()),
+        ("pkg/webgpu/bindpose.js", b"3".to_vec()),
+        ("pkg/webgpu/bindpose_bg.wasm", b"4".to_vec()),
     ];
     let mut files = BTreeMap::from(built.map(|(address, bytes)| (address.to_owned(), bytes)));
     // The folder of what is built: any other will do.
-    let site = Site::new(crate::root().join("web"));
+    let site = Site::new(crate::root().join("web"), None);
     for address in site.addresses().expect("the site lists") {
         if let Some(path) = site.locate(&address).filter(|_| !address.starts_with("pkg/")) {
             files.insert(address, fs::read(path).expect("a listed file"));
@@ -268,6 +271,13 @@ mod tests {
         let files = page();
         let built = hashed(&files).expect("no circle");
         assert_eq!(built.len(), files.len());
+        let choice = text_of(&built, "web/program.").1;
+        for folder in ["pkg/bindpose", "pkg/webgpu/bindpose"] {
+            for end in [".", "_bg."] {
+                let name = text_of(&built, &format!("{folder}{end}")).0;
+                assert!(choice.contains(&format!("\"../{name}\"")), "{name} in {choice}");
+            }
+        }
         for (name, bytes) in built
             .iter()
             .filter(|(name, _)| REFERRING.iter().any(|end| name.ends_with(end)))

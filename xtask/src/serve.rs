@@ -13,7 +13,7 @@ use crate::failure::{Doing as _, Failure};
 use crate::http::{self, Body, Request, Response};
 use crate::process::Line;
 use crate::site::{self, Site};
-use crate::wasm::{self, Profile};
+use crate::wasm::{self, Profile, Program};
 use crate::watch::Watch;
 
 /// Below this a compressed answer saves nothing.
@@ -29,7 +29,8 @@ pub(crate) fn run(options: &ServeOptions) -> Result<(), Failure> {
         Profile::Dev
     };
     let mut watch = Watch::new();
-    let site = Site::new(wasm::build(profile)?);
+    // The full program at both addresses: one build shows a change on either way to draw.
+    let site = Site::new(wasm::build(profile, Program::Full)?, None);
     let address = start(listener, site)?;
     let page = format!("http://{address}/");
     println!("\n  Bindpose is at {page}\n  Drop a .m3d on the page. Ctrl+C ends it.\n");
@@ -42,7 +43,7 @@ pub(crate) fn run(options: &ServeOptions) -> Result<(), Failure> {
             continue;
         }
         watch.wait();
-        match wasm::build(profile) {
+        match wasm::build(profile, Program::Full) {
             Ok(_) => println!("  built; reload {page}"),
             Err(failure) => eprintln!("{failure}"),
         }
@@ -119,7 +120,7 @@ impl Answers {
     fn file(&self, request: &Request, address: &str, file: &Path) -> Result<Response, Failure> {
         let coding = request.field("Accept-Encoding").and_then(Coding::accepted);
         if matches!(address, "" | "index.html") {
-            // It carries the size of the wasm, so it changes when its own file does not: made anew each time.
+            // It carries the sizes of the programs, so it changes when its own file does not: made anew each time.
             let bytes = self.site.read(address, file)?;
             return Ok(match coding {
                 None => respond(200, address, Body::Bytes(bytes.into())),
@@ -242,7 +243,7 @@ mod tests {
     #[test]
     fn a_file_is_sent_as_it_is_and_a_header_alone_has_its_length() {
         // No wasm is needed to look at the page, so any folder will do for it.
-        let site = Site::new(crate::root().join("web"));
+        let site = Site::new(crate::root().join("web"), None);
         let address = start(listen(0).expect("a port"), site).expect("it serves");
         let file = fs::read(crate::root().join("web/sample/figure.m3d")).expect("the sample");
         let (got, sent) = asked(address, "GET /web/sample/figure.m3d");

@@ -1,7 +1,7 @@
 //! Which files make the site, what types they have and the policy they run under.
 //!
-//! The addresses are those of the repository: `index.html`, `web/…` and, out of the build folder, `pkg/…`. All
-//! references are relative, so the site works under any path.
+//! The addresses are those of the repository: `index.html`, `web/…` and, out of the build folders, `pkg/…` for the full program and
+//! `pkg/webgpu/…` for the one that draws on WebGPU alone. All references are relative, so the site works under any path.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,21 +16,23 @@ pub(crate) const CONTENT_SECURITY_POLICY: &str = "default-src 'self'; script-src
 /// Who may show the page in a frame. Only a header can say it.
 pub(crate) const FRAME_ANCESTORS: &str = "frame-ancestors 'self'";
 
-/// The address of the wasm.
-const WASM: &str = "pkg/bindpose_bg.wasm";
-
 /// The site as it lies on the disk.
 #[derive(Clone, Debug)]
 pub(crate) struct Site {
     root: PathBuf,
+    /// The full program.
     pkg: PathBuf,
+    /// The one for WebGPU alone.
+    web_gpu: PathBuf,
 }
 
 impl Site {
-    /// The site of this repository with the bound wasm from `pkg`.
-    pub(crate) fn new(pkg: PathBuf) -> Self {
+    /// The site of this repository with the bound programs from `pkg` and `web_gpu`. Without that one the full program stands in for it, which
+    /// draws on WebGPU too.
+    pub(crate) fn new(pkg: PathBuf, web_gpu: Option<PathBuf>) -> Self {
         Self {
             root: crate::root(),
+            web_gpu: web_gpu.unwrap_or_else(|| pkg.clone()),
             pkg,
         }
     }
@@ -47,31 +49,37 @@ impl Site {
         let path = match address.split_once('/') {
             None if address == "index.html" => self.root.join(address),
             Some(("web", _)) => self.root.join(address),
-            Some(("pkg", name)) => self.pkg.join(name),
+            Some(("pkg", name)) => match name.strip_prefix("webgpu/") {
+                Some(name) => self.web_gpu.join(name),
+                None => self.pkg.join(name),
+            },
             _ => return None,
         };
         path.is_file().then_some(path)
     }
 
-    /// What is sent for an address: the file's bytes, with the size of the wasm written into the page.
+    /// What is sent for an address: the file's bytes, with the sizes of the programs written into the page.
     pub(crate) fn read(&self, address: &str, path: &Path) -> Result<Vec<u8>, Failure> {
         let bytes = fs::read(path).doing(format!("reading {}", path.display()))?;
         if !matches!(address, "" | "index.html") {
             return Ok(bytes);
         }
-        let wasm = self.pkg.join(WASM.trim_start_matches("pkg/"));
-        let length = fs::metadata(&wasm).doing(format!("reading {}", wasm.display()))?.len();
-        let text = String::from_utf8_lossy(&bytes);
+        let mut page = String::from_utf8_lossy(&bytes).into_owned();
         // A compressed response does not say how long it will be, so the page is told.
-        let page = text.replacen("data-bytes=\"0\"", &format!("data-bytes=\"{length}\""), 1);
+        for (name, pkg) in [("full", &self.pkg), ("webgpu", &self.web_gpu)] {
+            let wasm = pkg.join("bindpose_bg.wasm");
+            let length = fs::metadata(&wasm).doing(format!("reading {}", wasm.display()))?.len();
+            page = page.replacen(&format!("data-{name}=\"0\""), &format!("data-{name}=\"{length}\""), 1);
+        }
         Ok(page.into_bytes())
     }
 
     /// Every address of the site, sorted.
     pub(crate) fn addresses(&self) -> Result<Vec<String>, Failure> {
         let mut addresses = vec!["index.html".to_owned()];
-        for (prefix, dir) in [("web", self.root.join("web")), ("pkg", self.pkg.clone())] {
-            list(prefix, &dir, &mut addresses)?;
+        let web = self.root.join("web");
+        for (prefix, dir) in [("web", &web), ("pkg", &self.pkg), ("pkg/webgpu", &self.web_gpu)] {
+            list(prefix, dir, &mut addresses)?;
         }
         addresses.sort();
         Ok(addresses)
@@ -118,7 +126,36 @@ mod tests {
 
     fn site() -> Site {
         // No wasm is needed to look at the page, so any folder will do for it.
-        Site::new(crate::root().join("web"))
+        Site::new(crate::root().join("web"), None)
+    }
+
+    #[test]
+    fn each_program_has_its_folder_and_the_page_is_told_both_sizes() {
+        let dir = crate::target_dir().join("tmp/site-of-two-programs");
+        let pkgs = ["full", "webgpu"].map(|name| dir.join(name));
+        for (pkg, bytes) in pkgs.iter().zip(["four", "one"]) {
+            fs::create_dir_all(pkg).expect("a folder");
+            fs::write(pkg.join("bindpose_bg.wasm"), bytes).expect("a file");
+        }
+        let [full, web_gpu] = pkgs;
+        let both = Site::new(full.clone(), Some(web_gpu.clone()));
+        let wasm = |folder: &str| format!("pkg/{folder}bindpose_bg.wasm");
+        let located = |site: &Site, folder| site.locate(&wasm(folder)).expect("it is there");
+        assert_eq!(located(&both, ""), full.join("bindpose_bg.wasm"));
+        assert_eq!(located(&both, "webgpu/"), web_gpu.join("bindpose_bg.wasm"));
+        let addresses = both.addresses().expect("the site lists");
+        for folder in ["", "webgpu/"] {
+            assert_eq!(addresses.iter().filter(|address| **address == wasm(folder)).count(), 1);
+        }
+        let index = both.locate("").expect("index.html");
+        let page = String::from_utf8(both.read("", &index).expect("it reads")).expect("text");
+        assert!(page.contains(r#" data-full="4" data-webgpu="3""#), "{page}");
+        let one = Site::new(full.clone(), None);
+        assert_eq!(
+            located(&one, "webgpu/"),
+            full.join("bindpose_bg.wasm"),
+            "the full one stands in"
+        );
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! The library built for the browser and bound to JavaScript: `pkg/bindpose.js` and `pkg/bindpose_bg.wasm`.
+//! The library built for the browser and bound to JavaScript, as two programs: `bindpose.js` and `bindpose_bg.wasm` of each.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -39,8 +39,35 @@ impl Profile {
     }
 }
 
-/// The arguments that build the library for the browser.
-pub(crate) fn build_args(profile: Profile) -> Vec<&'static str> {
+/// What the library is built into. The page chooses one before it fetches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Program {
+    /// Draws on WebGPU and on WebGL2.
+    Full,
+    /// Draws on WebGPU alone, and is smaller.
+    WebGpu,
+}
+
+impl Program {
+    /// Where it is below `pkg/`, with a slash at the end, and below the folder that cargo builds into: a folder of its own, since programs of one name
+    /// would be linked anew in turns.
+    pub(crate) fn folder(self) -> &'static str {
+        match self {
+            Self::Full => "",
+            Self::WebGpu => "webgpu/",
+        }
+    }
+
+    pub(crate) fn features(self) -> &'static str {
+        match self {
+            Self::Full => "viewer,webgl",
+            Self::WebGpu => "viewer",
+        }
+    }
+}
+
+/// The arguments that build a program.
+pub(crate) fn build_args(profile: Profile, program: Program) -> Vec<&'static str> {
     // Natively nobody needs the library in this shape, so the manifest does not ask for it.
     let mut args = vec![
         "rustc",
@@ -51,21 +78,22 @@ pub(crate) fn build_args(profile: Profile) -> Vec<&'static str> {
         TARGET,
         "--no-default-features",
         "--features",
-        "viewer",
+        program.features(),
     ];
     args.extend(["--profile", profile.name()]);
     args
 }
 
-/// Builds and binds. Gives the folder with `bindpose.js` and `bindpose_bg.wasm`.
-pub(crate) fn build(profile: Profile) -> Result<PathBuf, Failure> {
+/// Builds and binds a program. Gives the folder with `bindpose.js` and `bindpose_bg.wasm`.
+pub(crate) fn build(profile: Profile, program: Program) -> Result<PathBuf, Failure> {
     ensure_target()?;
-    Line::cargo().args(build_args(profile)).run()?;
-    let wasm = crate::target_dir()
-        .join(TARGET)
-        .join(profile.folder())
-        .join("bindpose.wasm");
-    let pkg = crate::target_dir().join("site").join(profile.folder()).join("pkg");
+    let target = crate::target_dir().join(program.folder());
+    Line::cargo()
+        .env("CARGO_TARGET_DIR", &target)
+        .args(build_args(profile, program))
+        .run()?;
+    let wasm = target.join(TARGET).join(profile.folder()).join("bindpose.wasm");
+    let pkg = target.join("site").join(profile.folder()).join("pkg");
     if !is_newer(&pkg.join("bindpose_bg.wasm"), &wasm) {
         bind(&wasm, &pkg, profile)?;
     }
@@ -135,5 +163,26 @@ fn is_newer(made: &Path, from: &Path) -> bool {
     match (modified(made), modified(from)) {
         (Some(made), Some(from)) => made > from,
         _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_programs_are_built_with_and_without_webgl_and_into_different_folders() {
+        let features = |program| {
+            let args = build_args(Profile::Dist, program);
+            let at = args.iter().position(|arg| *arg == "--features").expect("features");
+            assert!(
+                args.contains(&"--no-default-features") && args.ends_with(&["--profile", "dist"]),
+                "{args:?}"
+            );
+            args[at + 1].split(',').collect::<Vec<_>>()
+        };
+        assert_eq!(features(Program::Full), ["viewer", "webgl"]);
+        assert_eq!(features(Program::WebGpu), ["viewer"]);
+        assert_ne!(Program::Full.folder(), Program::WebGpu.folder());
     }
 }

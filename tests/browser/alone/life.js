@@ -86,6 +86,41 @@ test("losses that are not in a row do not add up", async () => {
   assert.deepEqual(log, new Array(10).fill("with"));
 });
 
+test("the last try to get a lost GPU back takes another way to draw, where the program has one", async () => {
+  const later = globalThis.setTimeout;
+  globalThis.setTimeout = (work) => setImmediate(work);
+  const asked = async (lastBackend) => {
+    const canvas = { parentElement: { contains: () => false }, cloneNode: () => canvas, removeAttribute() {}, replaceWith() {}, getRootNode: () => document };
+    globalThis.document = { activeElement: null };
+    globalThis.requestAnimationFrame = () => {};
+    const tried = [];
+    const viewer = {
+      stop() {},
+      async start(_canvas, { backend }) {
+        tried.push(backend);
+        if (tried.length > 1) throw new Error("no device any more");
+        return { backend: "webgpu", adapter: "stand-in" };
+      },
+    };
+    const words = await new Promise((done) => {
+      const onCanvas = keepOnCanvas(viewer, {
+        canvas, backend: "auto", lastBackend, isOver: () => false, putAside: () => true,
+        onStart: () => setImmediate(() => onCanvas.restart("the driver hung")),
+        onEnd: ({ message }) => done(message),
+      });
+      onCanvas.start();
+    });
+    assert.equal(words, "The GPU did not come back in 6 starts: no device any more");
+    return tried;
+  };
+  try {
+    assert.deepEqual(await asked("webgl2"), [...new Array(6).fill("auto"), "webgl2"]);
+    assert.deepEqual(await asked(undefined), new Array(7).fill("auto"));
+  } finally {
+    globalThis.setTimeout = later;
+  }
+});
+
 test("in a hidden tab, where nothing is drawn, nothing is put aside", async () => {
   const { log, ended } = page((start) => (start === 6 ? null : 0), { hidden: true });
   assert.equal(await ended, "lasts");

@@ -1,0 +1,31 @@
+// Which program the page fetches: the smaller one draws on WebGPU alone. It begins before the rest of the page is here.
+
+/** What the address asks for, before the `#` or after it. */
+export const options = new URLSearchParams(`${location.search.slice(1)}&${location.hash.slice(1)}`);
+const named = options.get("backend");
+/** The way to draw that it asks for. */
+export const backend = ["webgpu", "webgl2"].includes(named) ? named : "auto";
+
+/** Of each program its script and its bytes. */
+const PROGRAMS = {
+  full: [() => import("../pkg/bindpose.js"), "../pkg/bindpose_bg.wasm"],
+  webgpu: [() => import("../pkg/webgpu/bindpose.js"), "../pkg/webgpu/bindpose_bg.wasm"],
+};
+
+/** Whether WebGPU draws on hardware, as far as the browser tells. The program knows more software by its name, and then asks for the full one. */
+async function hasGpu() {
+  const adapter = await navigator.gpu?.requestAdapter({ powerPreference: "high-performance" });
+  return adapter && !adapter.info.isFallbackAdapter;
+}
+
+/** A program's script, the response with its bytes, and how many they will be: a compressed response does not tell. */
+export async function fetchProgram(name) {
+  const [script, address] = PROGRAMS[name];
+  const [module, response] = await Promise.all([script(), fetch(new URL(address, import.meta.url))]);
+  if (!response.ok) throw new Error(`The server answered ${response.status} for ${response.url}`);
+  return { name, module, response, total: Number(document.getElementById("program").dataset[name]) };
+}
+
+const chosen = backend === "auto" ? hasGpu().catch(() => false) : Promise.resolve(backend === "webgpu");
+export const first = chosen.then((alone) => fetchProgram(alone ? "webgpu" : "full"));
+first.catch(() => {}); // boot.js reports it.
