@@ -4,7 +4,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::absent;
-use crate::args::TestOptions;
+use crate::args::{BenchOptions, TestOptions};
 use crate::browsers::{Browser, BrowserRun, RUNS};
 use crate::failure::Failure;
 use crate::fuzz::{self, FuzzOptions};
@@ -36,7 +36,7 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     if !options.browser_alone {
         native(&mut steps, &absent, options.long)?;
     }
-    let page = page(&mut steps)?;
+    let page = page(&mut steps, Profile::Dev)?;
     if !options.browser_alone {
         steps.step("The page's scripts alone", || {
             Line::new("node")
@@ -73,15 +73,46 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
 pub(crate) fn pictures() -> Result<(), Failure> {
     let mut steps = Steps::new();
     steps.step("What the pictures are drawn with", prerequisites::ensure)?;
-    let page = page(&mut steps)?;
+    let page = page(&mut steps, Profile::Dev)?;
     let run = RUNS[1];
     let tests = "tests/browser/readme.js";
     steps.step("The pictures", || node(run, None, tests, &page).run())
 }
 
+/// Measures what is asked for, and prints it.
+pub(crate) fn bench(options: &BenchOptions) -> Result<(), Failure> {
+    let mut steps = Steps::new();
+    if options.counts {
+        counts(&mut steps)?;
+    }
+    if !options.browser {
+        return Ok(());
+    }
+    steps.step("What the page is measured with", prerequisites::ensure)?;
+    let profile = if options.dist { Profile::Dist } else { Profile::Release };
+    let page = page(&mut steps, profile)?;
+    steps.step("The page in numbers", || {
+        // Both backends in one run: the script starts itself for each.
+        Line::new("node")
+            .args(["tests/browser/bench.js"])
+            .args(options.model.as_deref())
+            .env("PROGRAM", prerequisites::program(Browser::Chromium).unwrap_or_default())
+            .env("PAGE", page)
+            .run()
+    })
+}
+
+/// Holds the instructions of the core's work against their limits.
+fn counts(steps: &mut Steps) -> Result<(), Failure> {
+    steps.step("What counts instructions", prerequisites::ensure_counter)?;
+    steps.step("Instructions of the core's work", || {
+        Line::cargo().args(["run", "--release", "--package", "counts"]).run()
+    })
+}
+
 /// Builds the page, serves it and brings what drives the browsers. Gives its address.
-fn page(steps: &mut Steps) -> Result<String, Failure> {
-    let pkg = steps.step("The wasm", || wasm::build(Profile::Dev))?;
+fn page(steps: &mut Steps, profile: Profile) -> Result<String, Failure> {
+    let pkg = steps.step("The wasm", || wasm::build(profile))?;
     let page = format!("http://{}/", serve::start(serve::listen(0)?, Site::new(pkg))?);
     steps.step("What drives the browsers", || {
         Line::new(prerequisites::NPM)
@@ -138,6 +169,7 @@ fn native(steps: &mut Steps, absent: &List, long: bool) -> Result<(), Failure> {
     })?;
     if long {
         steps.step("Fuzzing", || fuzz::run(&FuzzOptions::of_the_checks()))?;
+        counts(steps)?;
     }
     Ok(())
 }
