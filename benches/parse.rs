@@ -23,6 +23,7 @@ use bindpose::session::{File, FileSet, load, load_job};
 use bindpose::slices::Slices;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
+#[expect(clippy::print_stdout, reason = "what was read belongs to how long it took")]
 fn parsing(criterion: &mut Criterion) {
     let (name, bytes) = input();
     let parsed = parse(&bytes).expect("the input is sound");
@@ -30,6 +31,14 @@ fn parsing(criterion: &mut Criterion) {
         parsed.document,
         Textbook::document(&bytes),
         "product and textbook must agree"
+    );
+    let Document {
+        vertices, triangles, ..
+    } = &parsed.document;
+    println!(
+        "parse/{name}: {} vertices and {} triangles, the same as the textbook's",
+        vertices.len(),
+        triangles.len()
     );
 
     let mut group = criterion.benchmark_group(format!("parse/{name}"));

@@ -25,6 +25,7 @@ fn posing(criterion: &mut Criterion) {
     let (skeleton, clip) = (&model.skeleton, &CompiledClip::new(&model.clips[0]));
     let mut buffers = PoseBuffers::for_skeleton(skeleton);
     for (order, times_secs) in forward_and_random_times(&model.clips[0]) {
+        let mut sums = [0.0; 2];
         for &time_secs in &times_secs {
             buffers.evaluate(skeleton, clip, time_secs);
             let expected = textbook.palette(time_secs);
@@ -34,8 +35,12 @@ fn posing(criterion: &mut Criterion) {
                     ours.abs_diff_eq(theirs, TOLERANCE),
                     "bone {bone} at {time_secs} s: {ours} {theirs}"
                 );
+                for (sum, matrix) in sums.iter_mut().zip([theirs, ours]) {
+                    *sum += f64::from(matrix.to_cols_array().iter().sum::<f32>());
+                }
             }
         }
+        input::report_check(&format!("pose/{name}/{order}"), sums);
 
         let mut group = criterion.benchmark_group(format!("pose/{name}/{order}"));
         group.throughput(Throughput::Elements(skeleton.joint_count() as u64));

@@ -30,6 +30,10 @@ fn skinning(criterion: &mut Criterion) {
     skin(mesh, palette, &mut ours);
     textbook(mesh, &matrices, &mut theirs);
     assert_same(&ours, &theirs, palette);
+    input::report_check(
+        &format!("skin/{name}"),
+        [&theirs, &ours].map(|moved| sum(&moved.positions)),
+    );
 
     let mut group = criterion.benchmark_group(format!("skin/{name}"));
     group.throughput(Throughput::Elements(mesh.vertex_count() as u64));
@@ -46,6 +50,10 @@ fn skinning(criterion: &mut Criterion) {
         || textbook(black_box(mesh), &matrices, &mut theirs),
         || skin(black_box(mesh), palette, &mut ours),
     );
+}
+
+fn sum(positions: &[Vec3]) -> f64 {
+    positions.iter().map(|position| f64::from(position.element_sum())).sum()
 }
 
 fn textbook(mesh: &Mesh, matrices: &[Mat4], out: &mut SkinnedVertices) {

@@ -96,6 +96,12 @@ fn soldier_sized() -> Document {
     }
 }
 
+/// What came of both, so that two runs can be seen to have done the same: the sum of all numbers.
+#[expect(clippy::print_stdout, reason = "it belongs to the ratio")]
+pub(crate) fn report_check(name: &str, [textbook, product]: [f64; 2]) {
+    println!("{name}, numbers sum to {product:.3}, in the textbook to {textbook:.3}");
+}
+
 /// Both in turn, so that what else the machine does falls on both: median, least and greatest ratio of one round.
 #[expect(clippy::print_stdout, reason = "the ratio is what the benchmark is for")]
 pub(crate) fn report_ratio(name: &str, mut textbook: impl FnMut(), mut product: impl FnMut()) {

@@ -101,15 +101,13 @@ pub fn ghost_times(clip: &Clip, time_secs: f32, plan: GhostPlan, times_secs: &mu
     times_secs.extend(times.filter(|time| (clip.start_secs..=clip.end_secs).contains(time)));
 }
 
-/// A palette for each time, in the caller's buffers: palettes that are there are written over, those beyond the times go.
-/// `pose_at` puts the pose of a time into the buffer.
+/// A palette for each time, in the first palettes of the caller's. `pose_at` puts the pose of a time into the buffer.
 pub fn palettes_at(
     times_secs: &[f32],
     pose: &mut PoseBuffers,
-    palettes: &mut Vec<Palette>,
+    palettes: &mut [Palette],
     mut pose_at: impl FnMut(f32, &mut PoseBuffers),
 ) {
-    palettes.resize_with(times_secs.len(), Palette::default);
     for (&time_secs, palette) in times_secs.iter().zip(palettes) {
         pose_at(time_secs, pose);
         palette.0.clone_from(&pose.palette.0);

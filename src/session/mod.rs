@@ -335,7 +335,7 @@ impl Session {
 
     /// What happened since the last call, in order, each kind of a run once.
     pub fn take_events(&mut self) -> Vec<Event> {
-        std::mem::take(&mut self.events)
+        self.events.drain(..).collect()
     }
 
     /// What commands about files did out of sight since the last call, in order.

@@ -6,7 +6,7 @@ import { fileURLToPath } from "node:url";
 import { after, test as nodeTest } from "node:test";
 import { chromium } from "playwright-core";
 
-/** Given by `cargo xtask test`: where the page is, what draws it and Chromium's program. */
+/** Given by `cargo xtask test` and `bench`: where the page is, what draws it and Chromium's program. */
 export const PAGE = required("PAGE");
 export const BACKEND = required("BACKEND");
 const PROGRAM = process.env.PROGRAM ?? "/usr/bin/chromium";
@@ -53,7 +53,7 @@ const QUIET_FLAGS = [
 ];
 
 /** Small, for the sake of the software GPU, but wide enough for every panel. */
-const VIEWPORT = { width: 960, height: 600 };
+export const VIEWPORT = { width: 960, height: 600 };
 /** For pictures that people look at. */
 export const LARGE = { width: 1280, height: 800 };
 /** A place in the view that no panel covers. */
@@ -87,13 +87,16 @@ const browsers = new Map();
 const opened = new Map();
 after(() => Promise.all(Array.from(browsers.values(), (browser) => browser.close())));
 
+/** Starts a browser of a scale. */
+export function launch(scale) {
+  const rights = process.getuid?.() === 0 ? ["--no-sandbox"] : [];
+  const own = [`--force-device-scale-factor=${scale}`, "--renderer-process-limit=1"];
+  return chromium.launch({ executablePath: PROGRAM, args: [...GPU_FLAGS[BACKEND], ...QUIET_FLAGS, ...rights, ...own] });
+}
+
 /** The browser of a scale. */
 async function browserAt(scale) {
-  if (!browsers.has(scale)) {
-    const rights = process.getuid?.() === 0 ? ["--no-sandbox"] : [];
-    const own = [`--force-device-scale-factor=${scale}`, "--renderer-process-limit=1"];
-    browsers.set(scale, await chromium.launch({ executablePath: PROGRAM, args: [...GPU_FLAGS[BACKEND], ...QUIET_FLAGS, ...rights, ...own] }));
-  }
+  if (!browsers.has(scale)) browsers.set(scale, await launch(scale));
   return browsers.get(scale);
 }
 

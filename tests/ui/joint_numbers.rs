@@ -81,7 +81,7 @@ fn a_click_on_a_key_goes_there() {
     window.click("Keys: Euler");
     assert!(window.shows("Key 0, 0.000 s: 0.00 0.00 0.00"));
     window.click("Trail through the clip");
-    assert_eq!(window.session().look().trails, [JointIndex(1)]);
+    assert_eq!(window.session().look().trails[..], [JointIndex(1)]);
 }
 
 #[test]

@@ -242,7 +242,7 @@ fn bones_pose_ghosts_and_trails_are_among_the_overlays() {
     assert_eq!(window.session().look().ghosts, Some(plan));
     assert!(window.shows("Ghosts every frames"));
     window.click("Trail of Bone 3");
-    assert_eq!(window.session().look().trails, [JointIndex(3)]);
+    assert_eq!(window.session().look().trails[..], [JointIndex(3)]);
     window.click("Leave the trail of Bone 3");
     assert!(window.session().look().trails.is_empty());
 }

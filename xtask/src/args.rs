@@ -20,7 +20,7 @@ Bindpose's own commands. Each does its set-up itself.
         in Chromium on WebGPU, those that draw on WebGL2 too, a walk in Firefox and in WebKit. Stops at the first failure
         and prints the command that repeats it.
         --long      what takes longer too: every browser test on both backends, properties with ten times as many cases,
-                    a minute of fuzzing
+                    a minute of fuzzing, `bench --counts`
         --browser   the browser tests alone: all, or those in Chromium on one backend, or those in another browser
         --only      of these the tests whose name fits a regular expression
 
@@ -29,6 +29,13 @@ Bindpose's own commands. Each does its set-up itself.
 
     cargo xtask dist
         The static site in dist/: smallest download, hashed names, .br and .gz beside each file.
+
+    cargo xtask bench [--counts] [--browser [--dist] [--model FILE]]
+        What speed is: one of these at least.
+        --counts    instructions of the core's work, by valgrind, against tools/counts/limits.txt
+        --browser   times, tasks and memory of the page in Chromium on both backends, built as `serve --release` builds it
+        --dist      the page as `dist` builds it
+        --model     the .m3d file that is read and played, in place of the soldier, or of the sample where that is missing
 
     cargo xtask fuzz [--secs N] [--keep]
         Files that libFuzzer makes up are read, edited and written by the core, each target for N seconds, 60 unless told.
@@ -46,6 +53,7 @@ pub(crate) enum Task {
     Test(TestOptions),
     Pictures,
     Dist,
+    Bench(BenchOptions),
     Fuzz(FuzzOptions),
 }
 
@@ -72,6 +80,19 @@ pub(crate) struct TestOptions {
     pub(crate) only: Option<String>,
 }
 
+/// Options of `bench`.
+#[derive(Debug, Default, PartialEq)]
+pub(crate) struct BenchOptions {
+    /// Instructions of the core's work.
+    pub(crate) counts: bool,
+    /// The page in Chromium.
+    pub(crate) browser: bool,
+    /// The page as it is shipped.
+    pub(crate) dist: bool,
+    /// What is read and played.
+    pub(crate) model: Option<String>,
+}
+
 /// Reads the arguments after the program's name.
 pub(crate) fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, Failure> {
     let mut args = args.into_iter();
@@ -85,6 +106,7 @@ pub(crate) fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, Fail
         "test" => test_options(&rest).map(Task::Test),
         "pictures" => nothing_more("pictures", &rest).map(|()| Task::Pictures),
         "dist" => nothing_more("dist", &rest).map(|()| Task::Dist),
+        "bench" => bench_options(rest).map(Task::Bench),
         "fuzz" => fuzz_options(&rest).map(Task::Fuzz),
         other => Err(Failure::Usage(format!("there is no command `{other}`"))),
     }
@@ -127,6 +149,27 @@ fn test_options(rest: &[String]) -> Result<TestOptions, Failure> {
         },
         _ => Err(Failure::Usage(format!("`test` does not know `{}`", words.join(" ")))),
     }
+}
+
+fn bench_options(rest: Vec<String>) -> Result<BenchOptions, Failure> {
+    let mut options = BenchOptions::default();
+    let mut rest = rest.into_iter();
+    while let Some(arg) = rest.next() {
+        match arg.as_str() {
+            "--counts" => options.counts = true,
+            "--browser" => options.browser = true,
+            "--dist" if options.browser => options.dist = true,
+            "--model" if options.browser => {
+                let model = rest.next();
+                options.model = Some(model.ok_or_else(|| Failure::Usage("`--model` takes a file".to_owned()))?);
+            }
+            other => return Err(Failure::Usage(format!("`bench` does not know `{other}` here"))),
+        }
+    }
+    if !(options.counts || options.browser) {
+        return Err(Failure::Usage("`bench` takes --counts or --browser".to_owned()));
+    }
+    Ok(options)
 }
 
 fn fuzz_options(rest: &[String]) -> Result<FuzzOptions, Failure> {
@@ -231,6 +274,16 @@ mod tests {
         assert_eq!(parsed("test --long"), Ok(Task::Test(expected)));
         let expected = FuzzOptions { secs: 5, keep: true };
         assert_eq!(parsed("fuzz --keep --secs 5"), Ok(Task::Fuzz(expected)));
+        let expected = BenchOptions {
+            browser: true,
+            dist: true,
+            model: Some("a.m3d".to_owned()),
+            ..BenchOptions::default()
+        };
+        assert_eq!(
+            parsed("bench --browser --model a.m3d --dist"),
+            Ok(Task::Bench(expected))
+        );
         assert_eq!(parsed("dist --help"), Ok(Task::Help));
         assert_eq!(parsed(""), Ok(Task::Help));
     }
@@ -251,6 +304,9 @@ mod tests {
             ("test --browser metal", "but `metal` was given"),
             ("fuzz --secs 0", "`--secs` takes a number of seconds"),
             ("fuzz --fast", "`fuzz` has no option `--fast`"),
+            ("bench", "`bench` takes --counts or --browser"),
+            ("bench --dist", "`bench` does not know `--dist` here"),
+            ("bench --browser --model", "`--model` takes a file"),
             ("dist --fast", "`dist` takes no options, but `--fast` was given"),
         ] {
             let failure = parsed(line).expect_err(line);

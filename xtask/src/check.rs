@@ -4,7 +4,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::absent;
-use crate::args::TestOptions;
+use crate::args::{BenchOptions, TestOptions};
 use crate::browsers::{Browser, BrowserRun, RUNS};
 use crate::failure::Failure;
 use crate::fuzz::{self, FuzzOptions};
@@ -37,7 +37,7 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     if !options.browser_alone {
         native(&mut steps, &absent, options.long)?;
     }
-    let page = page(&mut steps, &options.browsers)?;
+    let page = page(&mut steps, Profile::Dev, &options.browsers)?;
     if !options.browser_alone {
         steps.step("The page's scripts alone", || {
             Line::new("node")
@@ -75,17 +75,50 @@ pub(crate) fn pictures() -> Result<(), Failure> {
     let mut steps = Steps::new();
     steps.step("What the pictures are drawn with", prerequisites::ensure)?;
     let run = RUNS[1];
-    let page = page(&mut steps, &[run])?;
+    let page = page(&mut steps, Profile::Dev, &[run])?;
     let tests = "tests/browser/readme.js";
     steps.step("The pictures", || node(run, None, tests, &page).run())
 }
 
+/// Measures what is asked for, and prints it.
+pub(crate) fn bench(options: &BenchOptions) -> Result<(), Failure> {
+    let mut steps = Steps::new();
+    if options.counts {
+        counts(&mut steps)?;
+    }
+    if !options.browser {
+        return Ok(());
+    }
+    steps.step("What the page is measured with", prerequisites::ensure)?;
+    let profile = if options.dist { Profile::Dist } else { Profile::Release };
+    let page = page(&mut steps, profile, &RUNS)?;
+    steps.step("The page in numbers", || {
+        // Both backends in one run: the script starts itself for each.
+        Line::new("node")
+            .args(["tests/browser/bench.js"])
+            .args(options.model.as_deref())
+            .env("PROGRAM", prerequisites::program(Browser::Chromium).unwrap_or_default())
+            .env("PAGE", page)
+            .run()
+    })
+}
+
+/// Holds the instructions of the core's work against their limits.
+fn counts(steps: &mut Steps) -> Result<(), Failure> {
+    steps.step("What counts instructions", prerequisites::ensure_counter)?;
+    steps.step("Instructions of the core's work", || {
+        Line::cargo().args(["run", "--profile", "dist", "--package", "counts"]).run()
+    })
+}
+
 /// Builds the page for these runs, serves it and brings what drives the browsers. Gives its address.
-fn page(steps: &mut Steps, runs: &[BrowserRun]) -> Result<String, Failure> {
-    let full = steps.step("The wasm", || wasm::build(Profile::Dev, Program::Full))?;
-    steps.step("How large it is", || sizes::of_development(&full))?;
+fn page(steps: &mut Steps, profile: Profile, runs: &[BrowserRun]) -> Result<String, Failure> {
+    let full = steps.step("The wasm", || wasm::build(profile, Program::Full))?;
+    if profile == Profile::Dev {
+        steps.step("How large it is", || sizes::of_development(&full))?;
+    }
     let on_web_gpu = runs.iter().any(|run| run.backend == "webgpu");
-    let build = || wasm::build(Profile::Dev, Program::WebGpu);
+    let build = || wasm::build(profile, Program::WebGpu);
     let web_gpu = on_web_gpu.then(|| steps.step("The wasm for WebGPU alone", build));
     let site = Site::new(full, web_gpu.transpose()?);
     let page = format!("http://{}/", serve::start(serve::listen(0)?, site)?);
@@ -144,6 +177,7 @@ fn native(steps: &mut Steps, absent: &List, long: bool) -> Result<(), Failure> {
     })?;
     if long {
         steps.step("Fuzzing", || fuzz::run(&FuzzOptions::of_the_checks()))?;
+        counts(steps)?;
     }
     Ok(())
 }

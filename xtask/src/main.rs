@@ -1,4 +1,4 @@
-//! The project's own commands, run as `cargo xtask serve | test | pictures | dist`.
+//! The project's own commands, run as `cargo xtask serve | test | pictures | dist | bench | fuzz`.
 //!
 //! Each does all of its set-up itself, so that a fresh machine with rustup needs nothing else: the wasm target is added,
 //! wasm-bindgen is a library here rather than a tool to install, and what the tests draw with is installed or named.
@@ -10,7 +10,7 @@
 //! | [`site`] | which files make the site, their types, the policy they run under |
 //! | [`serve`] | the site over HTTP on this machine alone |
 //! | [`http`] | as much of the protocol as that takes |
-//! | [`check`] | every check, in order |
+//! | [`check`] | every check, in order, and what is measured |
 //! | [`browsers`] | which browsers the page is tested in, and what they draw with |
 //! | [`prerequisites`] | what the checks need beside Rust |
 //! | [`list`] | what tests tell the checks |
@@ -55,6 +55,7 @@ fn main() -> ExitCode {
         Task::Test(options) => check::run(&options),
         Task::Pictures => check::pictures(),
         Task::Dist => dist::run(),
+        Task::Bench(options) => check::bench(&options),
         Task::Fuzz(options) => fuzz::run(&options),
     });
     match outcome {

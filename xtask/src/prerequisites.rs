@@ -90,6 +90,13 @@ const FUZZER_NEEDS: [Need; 1] = [Need {
     is_there: || on_path("c++").is_some(),
 }];
 
+/// What counting instructions needs.
+const COUNTER_NEEDS: [Need; 1] = [Need {
+    what: "valgrind, which counts instructions",
+    packages: &["valgrind"],
+    is_there: || on_path("valgrind").is_some(),
+}];
+
 /// Makes sure that everything is there that the checks need.
 pub(crate) fn ensure() -> Result<(), Failure> {
     ensure_all(&NEEDS)
@@ -98,6 +105,11 @@ pub(crate) fn ensure() -> Result<(), Failure> {
 /// Makes sure that a fuzzer can be built.
 pub(crate) fn ensure_fuzzer() -> Result<(), Failure> {
     ensure_all(&FUZZER_NEEDS)
+}
+
+/// Makes sure that instructions can be counted.
+pub(crate) fn ensure_counter() -> Result<(), Failure> {
+    ensure_all(&COUNTER_NEEDS)
 }
 
 fn ensure_all(needs: &[Need]) -> Result<(), Failure> {

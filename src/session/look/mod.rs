@@ -13,6 +13,7 @@ pub(super) mod sky;
 pub(super) mod view;
 
 use std::f32::consts::TAU;
+use std::sync::Arc;
 
 use crate::anim::{GhostPlan, SkinView};
 use crate::model::JointIndex;
@@ -61,7 +62,7 @@ pub struct Look {
     /// The property of the skin that is shown as colours.
     pub skin_view: Option<SkinView>,
     /// Joints whose path through the clip is drawn, in the order in which they were chosen.
-    pub trails: Vec<JointIndex>,
+    pub trails: Arc<Vec<JointIndex>>,
 }
 
 /// A command about the look.
@@ -155,11 +156,11 @@ impl Look {
             }
             LookCommand::SetSkinView(view) => self.skin_view = view,
             LookCommand::ToggleTrail(joint) => match self.trails.iter().position(|&other| other == joint) {
-                Some(place) => drop(self.trails.remove(place)),
-                None if joint.index() < joint_count => self.trails.push(joint),
+                Some(place) => drop(Arc::make_mut(&mut self.trails).remove(place)),
+                None if joint.index() < joint_count => Arc::make_mut(&mut self.trails).push(joint),
                 None => {}
             },
-            LookCommand::ClearTrails => self.trails.clear(),
+            LookCommand::ClearTrails => self.trails = Arc::default(),
         }
     }
 

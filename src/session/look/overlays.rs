@@ -2,6 +2,7 @@
 //! filled again only when what they show is different.
 
 use std::f32::consts::TAU;
+use std::sync::Arc;
 
 use glam::{Affine3A, Vec3};
 
@@ -38,9 +39,11 @@ pub(in crate::session) struct OverlayCache {
     geometry: OverlayGeometry,
     trails: Trails,
     trails_for: Option<TrailsKey>,
+    trail_colors: Vec<[u8; 4]>,
     colors_srgb: Vec<[u8; 4]>,
     colors_for: Option<SkinColorsKey>,
     colors_revision: u64,
+    /// At least one for each colour of a ghost.
     palettes: Vec<Palette>,
     ghost_colors_srgb: Vec<[u8; 4]>,
     ghosts_for: Option<GhostsKey>,
@@ -53,7 +56,7 @@ struct TrailsKey {
     clips_revision: u64,
     clip: Option<usize>,
     blend: Option<Blend>,
-    joints: Vec<JointIndex>,
+    joints: Arc<Vec<JointIndex>>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +82,7 @@ impl OverlayCache {
 
     pub(in crate::session) fn ghosts(&self) -> Ghosts<'_> {
         Ghosts {
-            palettes: &self.palettes,
+            palettes: &self.palettes[..self.ghost_colors_srgb.len()],
             colors_srgb: &self.ghost_colors_srgb,
         }
     }
@@ -116,34 +119,20 @@ impl OverlayCache {
     ) {
         self.geometry.clear();
         let bone_colors = BoneColors::of(theme);
+        let (bones, style, geometry) = (skeleton.bones(), look.bone_style, &mut self.geometry);
         if look.bones_visible {
-            append_bones(
-                skeleton.bones(),
-                look.bone_style,
-                marked,
-                bone_colors,
-                &mut self.geometry,
-            );
+            append_bones(bones, style, marked, bone_colors, geometry);
         } else if look.skin_view.is_none() {
             // Colours of the skin tell by themselves which bone they are of.
-            append_marked_bones(
-                skeleton.bones(),
-                look.bone_style,
-                marked,
-                bone_colors,
-                &mut self.geometry,
-            );
+            append_marked_bones(bones, style, marked, bone_colors, geometry);
         }
         let Some(open) = open else { return };
         if look.trails.is_empty() || actor.player.clip.is_none() {
             return;
         }
-        self.update_trails(open, actor, &look.trails, revisions);
-        let colors = joint_colors(&open.model.skeleton);
+        self.update_trails(open, actor, look, revisions);
         let radius = TRAIL_RADIUS * skeleton.bones().scene_radius();
-        for (joint, points) in look.trails.iter().zip(self.trails.polylines()) {
-            let color = colors.get(joint.index()).copied();
-            let [red, green, blue, _] = color.unwrap_or(bone_colors.plain);
+        for (&[red, green, blue, _], points) in self.trail_colors.iter().zip(self.trails.polylines()) {
             for step in points.windows(2) {
                 let [from, to] = [step[0], step[1]].map(|point| world_from_model.transform_point3(point));
                 self.geometry.line(from, to, [red, green, blue, 255]);
@@ -186,15 +175,21 @@ impl OverlayCache {
         }
         self.ghosts_for = Some(wanted);
         self.ghost_colors_srgb.clear();
-        self.palettes.clear();
+        self.times_secs.clear();
         let Some(open) = open else { return };
         let skeleton = &open.model.skeleton;
         let clip = actor.player.clip.and_then(|clip| open.clip(clip));
-        if let (Some(plan), Some((clip, compiled))) = (look.ghosts, clip) {
-            let now_secs = actor.player.playback.time_secs();
-            self.times_secs.clear();
+        let with_bind = look.bind_ghost && skeleton.joint_count() > 0;
+        let now_secs = actor.player.playback.time_secs();
+        if let (Some(plan), Some((clip, _))) = (look.ghosts, clip) {
             ghost_times(clip, now_secs, plan, &mut self.times_secs);
-            let (times_secs, mixer) = (&self.times_secs, &mut actor.mixer);
+        }
+        let times_secs = &self.times_secs;
+        let count = times_secs.len() + usize::from(with_bind);
+        self.palettes
+            .resize_with(count.max(self.palettes.len()), Palette::default);
+        if let Some((_, compiled)) = clip {
+            let mixer = &mut actor.mixer;
             palettes_at(times_secs, &mut self.scratch, &mut self.palettes, |time_secs, pose| {
                 mixer.pose_unfaded(open, compiled, time_secs, pose);
             });
@@ -202,26 +197,32 @@ impl OverlayCache {
             let colors = (0..times_secs.len()).map(|ghost| ghost_color(ghost, past, times_secs.len()));
             self.ghost_colors_srgb.extend(colors);
         }
-        if look.bind_ghost && skeleton.joint_count() > 0 {
+        if with_bind {
             self.scratch.set_bind_pose(skeleton);
-            self.palettes.push(self.scratch.palette.clone());
+            self.palettes[count - 1].0.clone_from(&self.scratch.palette.0);
             let [red, green, blue] = BIND_SRGB;
             self.ghost_colors_srgb.push([red, green, blue, GHOST_ALPHA[0]]);
         }
     }
 
     /// Finds the paths of joints through the clip and what is blended into it, unless they are those of the last call.
-    fn update_trails(&mut self, open: &OpenModel, actor: &mut Actor, joints: &[JointIndex], revisions: Revisions) {
+    fn update_trails(&mut self, open: &OpenModel, actor: &mut Actor, look: &Look, revisions: Revisions) {
+        let joints = &look.trails;
         let wanted = TrailsKey {
             clips_revision: revisions.clips,
             clip: actor.player.clip,
             blend: actor.mixer.blend(),
-            joints: joints.to_vec(),
+            joints: Arc::clone(joints),
         };
         if self.trails_for.as_ref() == Some(&wanted) {
             return;
         }
         self.trails_for = Some(wanted);
+        let colors = joint_colors(&open.model.skeleton);
+        self.trail_colors = joints
+            .iter()
+            .filter_map(|joint| colors.get(joint.index()).copied())
+            .collect();
         let mixer = &mut actor.mixer;
         match actor.player.clip.and_then(|clip| open.clip(clip)) {
             Some((clip, compiled)) => self.trails.follow(clip, joints, &mut self.scratch, |time_secs, pose| {

@@ -46,7 +46,7 @@ impl Session {
         self.clear_sky();
         let mut closed = Self::new(self.reduced_motion);
         closed.view.look.clone_from(&self.view.look);
-        closed.view.look.trails.clear();
+        closed.view.look.trails = Default::default();
         closed.quality.clone_from(&self.quality);
         closed
     }

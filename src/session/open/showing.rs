@@ -103,7 +103,7 @@ impl Session {
         let same_joints = self.selection.joints.reset_for_model(&open.model, again);
         let names = if same_joints { old.names } else { Arc::default() };
         if !same_joints {
-            self.view.look.trails.clear();
+            self.view.look.trails = Default::default();
         }
         let actor = if again {
             let others = &clips_before.others;

@@ -175,7 +175,7 @@ fn trails(ui: &mut Ui, cx: &mut Cx<'_, SkeletonState>) {
         cx.push(LookCommand::ClearTrails);
     }
     let colors = cx.session.open_model().map(|open| joint_colors(&open.model.skeleton));
-    for &joint in trails {
+    for &joint in trails.iter() {
         let name = cx.session.joint_label(joint);
         let side = control_size(ui);
         let mut row = Row::new(ui, side);
