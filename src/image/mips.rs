@@ -216,7 +216,7 @@ impl Coding {
                     let weight = texel.w;
                     let [r, g, b] = srgb.bytes(texel / weight);
                     let alpha = (weight - CLEAR_WEIGHT) / (1.0 - CLEAR_WEIGHT);
-                    [r, g, b, bytes(Vec4::splat(alpha))[3]]
+                    [r, g, b, nearest(Vec4::splat(alpha)).x.to_bits() as u8]
                 });
             }
             Self::Direction { two_channels } => append_bytes(data, texels, |texel| {
@@ -255,21 +255,29 @@ fn normalized(texel: Texel) -> Texel {
     }
 }
 
-/// The nearest bytes of numbers that are 0 … 1 and clamped to it; a half goes up.
+/// The nearest bytes of numbers that are 0 … 1 and clamped to it.
 fn bytes(numbers: Vec4) -> [u8; 4] {
+    nearest(numbers).to_array().map(|number| number.to_bits() as u8)
+}
+
+/// Numbers whose lowest bits are those bytes; a half goes up.
+#[inline(always)]
+fn nearest(numbers: Vec4) -> Vec4 {
     let scaled = numbers.max(Vec4::ZERO).min(Vec4::ONE) * 255.0;
     // `f32::round` is a call for each number. This rounds a half to the even neighbour, which is mended.
     let nearest = scaled + WHOLE;
     let is_half_below = (scaled - (nearest - WHOLE)).cmpge(Vec4::splat(0.5));
-    let nearest = nearest + Vec4::select(is_half_below, Vec4::ONE, Vec4::ZERO);
-    nearest.to_array().map(|number| number.to_bits() as u8)
+    nearest + Vec4::select(is_half_below, Vec4::ONE, Vec4::ZERO)
 }
 
 fn append_bytes(data: &mut Vec<u8>, texels: &[Texel], write: impl Fn(Texel) -> [u8; 4]) {
-    let start = data.len();
-    data.resize(start + 4 * texels.len(), 0);
-    for (bytes, &texel) in data[start..].as_chunks_mut().0.iter_mut().zip(texels) {
-        *bytes = write(texel);
+    // A few at a time: filling all their room before would cost as much again.
+    let mut few = [[0; 4]; 128];
+    for texels in texels.chunks(few.len()) {
+        for (bytes, &texel) in few.iter_mut().zip(texels) {
+            *bytes = write(texel);
+        }
+        data.extend_from_slice(few[..texels.len()].as_flattened());
     }
 }
 

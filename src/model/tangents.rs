@@ -64,17 +64,16 @@ impl TextureAxes {
 /// the texture are skipped, and those of which the mesh lacks a corner.
 async fn texture_axes(mesh: &Mesh, is_asked: impl Fn(usize) -> bool, slices: &Slices) -> Vec<TextureAxes> {
     let mut axes = vec![TextureAxes::default(); mesh.vertex_count()];
-    for (turn, corners) in mesh.indices.chunks_exact(3).enumerate() {
-        slices.pause_every(turn).await;
-        let [a, b, c] = [0, 1, 2].map(|corner| corners[corner] as usize);
+    let add = |corners: &[u32; 3]| {
+        let [a, b, c] = corners.map(|vertex| vertex as usize);
         if !(is_asked(a) || is_asked(b) || is_asked(c)) {
-            continue;
+            return;
         }
         let positions = [a, b, c].map(|vertex| mesh.positions.get(vertex));
         let tex_coords = [a, b, c].map(|vertex| mesh.tex_coords.get(vertex));
         let ([Some(at_a), Some(at_b), Some(at_c)], [Some(on_a), Some(on_b), Some(on_c)]) = (positions, tex_coords)
         else {
-            continue;
+            return;
         };
         let [at_a, at_b, at_c] = [at_a, at_b, at_c].map(|at| at.as_dvec3());
         let [on_a, on_b, on_c] = [on_a, on_b, on_c].map(|on| on.as_dvec2());
@@ -83,7 +82,7 @@ async fn texture_axes(mesh: &Mesh, is_asked: impl Fn(usize) -> bool, slices: &Sl
         let texture_area = step_1.perp_dot(step_2);
         let area = edge_1.cross(edge_2).length();
         if texture_area == 0.0 {
-            continue;
+            return;
         }
         let along_u = (edge_1 * step_2.y - edge_2 * step_1.y) * texture_area.signum();
         let along_v = (edge_2 * step_1.x - edge_1 * step_2.x) * texture_area.signum();
@@ -92,6 +91,7 @@ async fn texture_axes(mesh: &Mesh, is_asked: impl Fn(usize) -> bool, slices: &Sl
             axes[corner].along_u += along_u;
             axes[corner].along_v += along_v;
         }
-    }
+    };
+    slices.for_each(mesh.indices.as_chunks().0, add).await;
     axes
 }
