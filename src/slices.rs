@@ -10,8 +10,8 @@ use std::pin::{Pin, pin};
 use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
 
-/// Turns of a short loop between two places at which it can stop.
-const TURNS_A_PIECE: usize = 2048;
+/// Turns of a short loop between two places at which it can stop: less than a millisecond of work.
+pub(crate) const BLOCK: usize = 2048;
 
 /// When work has to stop for a while, and how far it is.
 #[derive(Clone, Default)]
@@ -119,11 +119,15 @@ impl Slices {
         }
     }
 
-    /// [`pause`](Self::pause) at some turns of a loop whose turns are short, so that what lies between takes less than a millisecond.
-    #[inline(always)]
-    pub async fn pause_every(&self, turn: usize) {
-        if turn.is_multiple_of(TURNS_A_PIECE) {
+    /// Works on each item, with a [`pause`](Self::pause) before each block of them. What works on a block is a plain function, of which a
+    /// compiler makes more than of a loop that can stop at each item.
+    pub async fn for_each<T>(&self, items: impl IntoIterator<Item = T>, mut work: impl FnMut(T)) {
+        let mut items = items.into_iter();
+        loop {
             self.pause().await;
+            if !work_on_block(&mut items, &mut work) {
+                return;
+            }
         }
     }
 
@@ -144,6 +148,19 @@ impl Slices {
             .as_ref()
             .map_or_else(StageProgress::default, |shared| shared.progress.get())
     }
+}
+
+/// Whether there may be more items.
+fn work_on_block<T>(items: &mut impl Iterator<Item = T>, work: &mut impl FnMut(T)) -> bool {
+    let mut left = BLOCK;
+    for item in items {
+        work(item);
+        left -= 1;
+        if left == 0 {
+            return true;
+        }
+    }
+    false
 }
 
 impl fmt::Debug for Slices {

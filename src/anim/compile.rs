@@ -4,7 +4,7 @@ use glam::DQuat;
 
 use super::lanes::{ArcLanes, JointLanes, angle_between};
 use super::straight::straight;
-use crate::model::{Clip, JointIndex, Track};
+use crate::model::{Clip, JointIndex, LocalJoint, Track};
 use crate::slices::{Slices, Stage, at_once};
 
 /// Probe times of a clip at most.
@@ -165,15 +165,16 @@ fn common_times(tracks: &[&Track]) -> Vec<f32> {
     times_secs
 }
 
-async fn fill_lane(lane: usize, track: &Track, times_secs: &[f32], keys: &mut [KeyLanes], slices: &Slices) {
-    let mut before: Option<(&mut KeyLanes, DQuat)> = None;
-    for (turn, (key, joint)) in keys.iter_mut().zip(track.at_times(times_secs)).enumerate() {
-        slices.pause_every(turn).await;
+async fn fill_lane<'a>(lane: usize, track: &Track, times_secs: &[f32], keys: &'a mut [KeyLanes], slices: &Slices) {
+    let mut before: Option<(&'a mut KeyLanes, DQuat)> = None;
+    let keyed = keys.iter_mut().zip(track.at_times(times_secs));
+    let fill = |(key, joint): (&'a mut KeyLanes, LocalJoint)| {
         key.joints.set_joint(lane, joint);
         let rotation = joint.rotation.as_dquat();
-        if let Some((key, start)) = before {
+        if let Some((key, start)) = before.take() {
             key.arc.set(lane, angle_between(start, rotation));
         }
         before = Some((key, rotation));
-    }
+    };
+    slices.for_each(keyed, fill).await;
 }

@@ -6,7 +6,7 @@ use super::buffers::PoseBuffers;
 use super::compile::CompiledClip;
 use super::pose::Palette;
 use super::skin::skin_position;
-use super::vertex_groups::VertexGroups;
+use super::vertex_groups::{MovedBox, VertexGroups};
 use crate::model::{Aabb, Mesh, Model};
 use crate::slices::{Slices, Stage, at_once};
 
@@ -151,15 +151,15 @@ impl ExtentJob {
         };
         let farthest = self.extremes.last.iter();
         *bounds = farthest.fold(*bounds, |bounds, &vertex| bounds.include(pose.place(vertex)));
-        for (turn, (vertices, moved)) in groups.iter().enumerate() {
-            slices.pause_every(turn).await;
+        let grow = |(vertices, moved): (&[u32], &MovedBox)| {
             let moved = moved.narrow_in_pose(palette);
             if !(moved.min.cmpge(bounds.min).all() && moved.max.cmple(bounds.max).all()) {
                 *bounds = vertices
                     .iter()
                     .fold(*bounds, |bounds, &vertex| bounds.include(pose.place(vertex)));
             }
-        }
+        };
+        slices.for_each(groups.iter(), grow).await;
     }
 }
 
@@ -233,15 +233,15 @@ impl Extremes {
             self.take(vertex, pose.place(vertex));
         }
         let bound = Palette::default();
-        for (turn, (vertices, moved)) in groups.iter().enumerate() {
-            slices.pause_every(turn).await;
+        let look = |(vertices, moved): (&[u32], &MovedBox)| {
             let reached = self.may_reach_out(&moved.narrow_in_pose(pose.palette.unwrap_or(&bound)));
             if reached != 0 {
                 for &vertex in vertices.iter().step_by(stride) {
                     self.take_along(reached, vertex, pose.place(vertex));
                 }
             }
-        }
+        };
+        slices.for_each(groups.iter(), look).await;
         let met = self.lanes.iter().flat_map(|lanes| lanes.vertices).flatten();
         self.last.extend(met.filter(|&vertex| vertex != u32::MAX));
         self.last.sort_unstable();

@@ -40,33 +40,50 @@ pub fn skin(mesh: &Mesh, palette: &Palette, out: &mut SkinnedVertices) {
     out.positions.resize(count, Vec3::ZERO);
     out.normals.resize(count, Vec3::ZERO);
     out.tangents.resize(tangent_count, Vec4::ZERO);
-    let mut linear = [Mat3A::IDENTITY; LANES];
-    for first in (0..count).step_by(LANES) {
-        let vertices = first..count.min(first + LANES);
-        let bind = mesh.influences[vertices.clone()]
-            .iter()
-            .zip(&mesh.positions[vertices.clone()]);
-        let moved = out.positions[vertices].iter_mut().zip(&mut linear);
-        for ((influences, &position), (moved, linear)) in bind.zip(moved) {
-            let model_from_bind = blended(palette, influences);
-            *moved = model_from_bind.transform_point3(position);
-            *linear = model_from_bind.matrix3;
-        }
-        let linear = LinearLanes::new(&linear);
-        let cofactor = linear.cofactor();
-        let side = linear.side(&cofactor);
-        let [a, b, c, d] = four(&mesh.normals, first);
-        let [x, y, z, _] = lanes([a.extend(0.0), b.extend(0.0), c.extend(0.0), d.extend(0.0)]);
-        let [x, y, z] = direction_or(times(cofactor.times([x, y, z]), side), [x, y, z]);
-        let [a, b, c, d] = lanes([x, y, z, Vec4::ZERO]);
-        let normals = [a.truncate(), b.truncate(), c.truncate(), d.truncate()];
-        put(normals, first, &mut out.normals);
-        if first < tangent_count {
-            let [x, y, z, w] = lanes(four(&mesh.tangents, first));
-            let [x, y, z] = direction_or(linear.times([x, y, z]), [x, y, z]);
-            put(lanes([x, y, z, w * side]), first, &mut out.tangents);
+    let bind = mesh.influences.as_chunks().0.iter().zip(mesh.positions.as_chunks().0);
+    let moved = out.positions.as_chunks_mut().0.iter_mut();
+    let moved = moved.zip(out.normals.as_chunks_mut().0);
+    let mut tangents = mesh.tangents.as_chunks().0.iter().zip(out.tangents.as_chunks_mut().0);
+    for (((influences, positions), normals), (moved, moved_normals)) in bind.zip(mesh.normals.as_chunks().0).zip(moved)
+    {
+        let linear = move_positions(palette, influences, positions, moved);
+        *moved_normals = linear.normals(normals);
+        if let Some((tangents, moved)) = tangents.next() {
+            *moved = linear.tangents(tangents);
         }
     }
+    // The last few, beside some that are none.
+    let last = count - count % LANES;
+    let (influences, positions) = (four(&mesh.influences[last..count]), four(&mesh.positions[last..count]));
+    let mut moved = [Vec3::ZERO; LANES];
+    let linear = move_positions(palette, &influences, &positions, &mut moved);
+    put(moved, &mut out.positions[last..]);
+    put(
+        linear.normals(&four(&mesh.normals[last..count])),
+        &mut out.normals[last..],
+    );
+    let last = last.min(tangent_count);
+    put(
+        linear.tangents(&four(&mesh.tangents[last..tangent_count])),
+        &mut out.tangents[last..],
+    );
+}
+
+/// Moves the positions of four vertices, and gives what moves their directions.
+#[inline(always)]
+fn move_positions(
+    palette: &Palette,
+    influences: &[Influences; LANES],
+    positions: &[Vec3; LANES],
+    moved: &mut [Vec3; LANES],
+) -> LinearLanes {
+    let mut linear = [Mat3A::IDENTITY; LANES];
+    for lane in 0..LANES {
+        let model_from_bind = blended(palette, &influences[lane]);
+        moved[lane] = model_from_bind.transform_point3(positions[lane]);
+        linear[lane] = model_from_bind.matrix3;
+    }
+    LinearLanes::new(&linear)
 }
 
 /// The positions of [`skin`] alone.
@@ -126,48 +143,49 @@ fn blended(palette: &Palette, influences: &Influences) -> Affine3A {
 /// one instruction works on four vertices.
 struct LinearLanes {
     columns: [[Vec4; 3]; 3],
+    /// The cofactor matrices: inverse transpose times the determinant. They are right for normals under any scale and need no
+    /// division. Where a matrix mirrors, the determinant's sign would turn the normal inside out.
+    cofactor: [[Vec4; 3]; 3],
+    /// −1 where the matrix mirrors, else 1.
+    side: Vec4,
 }
 
 impl LinearLanes {
-    #[inline]
-    fn new(matrices: &[Mat3A; LANES]) -> Self {
-        let column = |a: Vec3A, b: Vec3A, c: Vec3A, d: Vec3A| {
-            let [x, y, z, _] = lanes([a.extend(0.0), b.extend(0.0), c.extend(0.0), d.extend(0.0)]);
-            [x, y, z]
-        };
-        let [a, b, c, d] = matrices;
+    #[inline(always)]
+    fn new([a, b, c, d]: &[Mat3A; LANES]) -> Self {
+        let x_axis = lanes_of(a.x_axis, b.x_axis, c.x_axis, d.x_axis);
+        let y_axis = lanes_of(a.y_axis, b.y_axis, c.y_axis, d.y_axis);
+        let z_axis = lanes_of(a.z_axis, b.z_axis, c.z_axis, d.z_axis);
+        let cofactor = [cross(y_axis, z_axis), cross(z_axis, x_axis), cross(x_axis, y_axis)];
+        let mirrored = dot(x_axis, cofactor[0]).cmplt(Vec4::ZERO);
         Self {
-            columns: [
-                column(a.x_axis, b.x_axis, c.x_axis, d.x_axis),
-                column(a.y_axis, b.y_axis, c.y_axis, d.y_axis),
-                column(a.z_axis, b.z_axis, c.z_axis, d.z_axis),
-            ],
+            columns: [x_axis, y_axis, z_axis],
+            cofactor,
+            side: Vec4::select(mirrored, Vec4::NEG_ONE, Vec4::ONE),
         }
     }
 
-    /// The cofactor matrices: inverse transpose times the determinant. They are right for normals under any scale and need no
-    /// division. Where a matrix mirrors, the determinant's sign would turn the normal inside out.
-    #[inline]
-    fn cofactor(&self) -> Self {
-        let [x_axis, y_axis, z_axis] = self.columns;
-        Self {
-            columns: [cross(y_axis, z_axis), cross(z_axis, x_axis), cross(x_axis, y_axis)],
-        }
+    #[inline(always)]
+    fn normals(&self, [a, b, c, d]: &[Vec3; LANES]) -> [Vec3; LANES] {
+        let normal = lanes_of((*a).into(), (*b).into(), (*c).into(), (*d).into());
+        let [x, y, z] = times(&self.cofactor, normal);
+        let [x, y, z] = direction_or([x * self.side, y * self.side, z * self.side], normal);
+        let [a, b, c, d] = lanes([x, y, z, Vec4::ZERO]);
+        [a.truncate(), b.truncate(), c.truncate(), d.truncate()]
     }
 
-    /// −1 where the matrix mirrors, else 1.
-    #[inline]
-    fn side(&self, cofactor: &Self) -> Vec4 {
-        let mirrored = dot(self.columns[0], cofactor.columns[0]).cmplt(Vec4::ZERO);
-        Vec4::select(mirrored, Vec4::NEG_ONE, Vec4::ONE)
+    #[inline(always)]
+    fn tangents(&self, tangents: &[Vec4; LANES]) -> [Vec4; LANES] {
+        let [x, y, z, w] = lanes(*tangents);
+        let [x, y, z] = direction_or(times(&self.columns, [x, y, z]), [x, y, z]);
+        lanes([x, y, z, w * self.side])
     }
+}
 
-    #[inline]
-    fn times(&self, vectors: [Vec4; 3]) -> [Vec4; 3] {
-        let [x_axis, y_axis, z_axis] = self.columns;
-        let row = |row: usize| dot([x_axis[row], y_axis[row], z_axis[row]], vectors);
-        [row(0), row(1), row(2)]
-    }
+#[inline(always)]
+fn times([x_axis, y_axis, z_axis]: &[[Vec4; 3]; 3], vectors: [Vec4; 3]) -> [Vec4; 3] {
+    let row = |row: usize| dot([x_axis[row], y_axis[row], z_axis[row]], vectors);
+    [row(0), row(1), row(2)]
 }
 
 #[inline]
@@ -180,17 +198,12 @@ fn dot([ax, ay, az]: [Vec4; 3], [bx, by, bz]: [Vec4; 3]) -> Vec4 {
     ax * bx + ay * by + az * bz
 }
 
-#[inline]
-fn times([x, y, z]: [Vec4; 3], factor: Vec4) -> [Vec4; 3] {
-    [x * factor, y * factor, z * factor]
-}
-
 /// The vectors at unit length, or others where they have no length.
-#[inline]
-fn direction_or(vectors: [Vec4; 3], otherwise: [Vec4; 3]) -> [Vec4; 3] {
-    let per_length = dot(vectors, vectors).sqrt().recip();
+#[inline(always)]
+fn direction_or([x, y, z]: [Vec4; 3], otherwise: [Vec4; 3]) -> [Vec4; 3] {
+    let per_length = dot([x, y, z], [x, y, z]).sqrt().recip();
     let has_length = per_length.cmpgt(Vec4::ZERO) & per_length.cmplt(Vec4::INFINITY);
-    let [x, y, z] = times(vectors, per_length);
+    let (x, y, z) = (x * per_length, y * per_length, z * per_length);
     if has_length.all() {
         return [x, y, z];
     }
@@ -202,8 +215,15 @@ fn direction_or(vectors: [Vec4; 3], otherwise: [Vec4; 3]) -> [Vec4; 3] {
     ]
 }
 
+/// The x, y and z of four vectors side by side.
+#[inline(always)]
+fn lanes_of(a: Vec3A, b: Vec3A, c: Vec3A, d: Vec3A) -> [Vec4; 3] {
+    let [x, y, z, _] = lanes([a.extend(0.0), b.extend(0.0), c.extend(0.0), d.extend(0.0)]);
+    [x, y, z]
+}
+
 /// From four vectors to their x, y, z and w side by side, and back.
-#[inline]
+#[inline(always)]
 fn lanes([a, b, c, d]: [Vec4; LANES]) -> [Vec4; 4] {
     let Mat4 {
         x_axis,
@@ -214,24 +234,14 @@ fn lanes([a, b, c, d]: [Vec4; LANES]) -> [Vec4; 4] {
     [x_axis, y_axis, z_axis, w_axis]
 }
 
-/// Four values from the first on; zeros behind the last.
-#[inline]
-fn four<T: Copy + Default>(values: &[T], first: usize) -> [T; LANES] {
-    let rest = &values[first..];
-    if let Some(&[a, b, c, d]) = rest.first_chunk() {
-        return [a, b, c, d];
-    }
+/// Less than four values, and what stands in for the rest.
+fn four<T: Copy + Default>(few: &[T]) -> [T; LANES] {
     let mut four = [T::default(); LANES];
-    four[..rest.len()].copy_from_slice(rest);
+    four[..few.len()].copy_from_slice(few);
     four
 }
 
-/// Puts four values where the first belongs; what would be behind the last is left out.
-#[inline]
-fn put<T: Copy>(four: [T; LANES], first: usize, values: &mut [T]) {
-    let rest = &mut values[first..];
-    match rest.first_chunk_mut() {
-        Some(place) => *place = four,
-        None => rest.copy_from_slice(&four[..rest.len()]),
-    }
+/// Puts as many of four values as there is room for.
+fn put<T: Copy>(four: [T; LANES], places: &mut [T]) {
+    places.copy_from_slice(&four[..places.len()]);
 }

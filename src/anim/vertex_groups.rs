@@ -58,16 +58,15 @@ impl VertexGroups {
         let mut groups = Vec::new();
         let mut start = 0;
         for of_joint in vertices.chunk_by(|&a, &b| joints_of(a)[0] == joints_of(b)[0]) {
-            for (turn, few) in of_joint.chunks(most).enumerate() {
-                // As many vertices as a short loop has turns.
-                slices.pause_every(turn * GROUP).await;
+            let add = |few: &[u32]| {
                 let end = start + few.len();
                 groups.push(VertexGroup {
                     vertices: start..end,
                     swept: MovedBox::of(mesh, few, joints_of(few[0])[0]),
                 });
                 start = end;
-            }
+            };
+            slices.for_each(of_joint.chunks(most), add).await;
         }
         Self { vertices, groups }
     }

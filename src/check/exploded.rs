@@ -1,7 +1,5 @@
 //! Finds clips whose keys do not belong to the offsets: the mesh flies apart.
 
-use glam::Vec3;
-
 use crate::anim::{CompiledClip, Palette, PoseBuffers, skin_position};
 use crate::diagnostic::collect::{Diagnostics, Place};
 use crate::diagnostic::{Entry, Moment, Places, Subject, codes};
@@ -81,7 +79,9 @@ fn torn_fraction(mesh: &Mesh, looked_at: usize, palette: &Palette) -> f64 {
 fn add_ratios(mesh: &Mesh, corners: [u32; 3], palette: &Palette, ratios: &mut Vec<f32>) {
     let influences = corners.map(|vertex| &mesh.influences[vertex as usize]);
     let bind = corners.map(|vertex| mesh.positions[vertex as usize]);
-    let posed: [Vec3; 3] = std::array::from_fn(|corner| skin_position(palette, influences[corner], bind[corner]));
+    // `from_fn` is not inlined.
+    let posed = |corner: usize| skin_position(palette, influences[corner], bind[corner]);
+    let posed = [posed(0), posed(1), posed(2)];
     let weighted = influences.map(|influences| influences.weights != [0.0; 4]);
     for (a, b) in [(0, 1), (1, 2), (2, 0)] {
         let bind_length = bind[a].distance(bind[b]);

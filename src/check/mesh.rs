@@ -69,12 +69,12 @@ pub(super) async fn note_useless(mesh: &Mesh, places: &dyn Places, diagnostics: 
     let (mut flat, mut unused) = (Tally::default(), Tally::default());
     slices.pause().await;
     let flatness = Flatness::of(mesh, &used);
-    for (triangle, corners) in triangles(mesh) {
-        slices.pause_every(triangle as usize).await;
+    let look = |(triangle, corners)| {
         if flatness.is_flat(mesh, corners) {
             flat.add(triangle);
         }
-    }
+    };
+    slices.for_each(triangles(mesh), look).await;
     for (vertex, _) in (0u32..).zip(used).filter(|(_, used)| !used) {
         unused.add(vertex);
     }
@@ -106,8 +106,8 @@ pub(super) fn note_turned_away(model: &Model, places: &dyn Places, diagnostics: 
     let mesh = &model.mesh;
     let is_turned = |corners: [u32; 3]| {
         let side = mesh.side_of(corners) * model.handedness.front_sign();
-        let normals = corners.map(|vertex| mesh.normals[vertex as usize].as_dvec3());
-        normals.into_iter().all(|normal| side.dot(normal) < 0.0)
+        let mut normals = corners.iter().map(|&vertex| mesh.normals[vertex as usize].as_dvec3());
+        normals.all(|normal| side.dot(normal) < 0.0)
     };
     // Asked of few triangles of few models.
     let flatness = OnceCell::new();

@@ -1,5 +1,7 @@
 //! Finds clips that take a bone, or a vertex on it, further than `f32` can hold.
 
+use std::cell::LazyCell;
+
 use glam::{Affine3A, DAffine3, DMat3, DVec3, Vec3A};
 
 use crate::anim::{CompiledClip, PoseBuffers};
@@ -16,9 +18,12 @@ pub(super) fn note_overflows(
     places: &dyn Places,
     diagnostics: &mut Diagnostics,
 ) {
-    let reaches = reaches(model);
+    let bounds = model.bind_bounds();
+    let farthest = bounds.min.abs().max(bounds.max.abs()).as_dvec3().length();
+    // Asked for of few models.
+    let reaches = LazyCell::new(|| reaches(model));
     for (index, (clip, compiled)) in (0u32..).zip(model.clips.iter().zip(compiled)) {
-        if !stays_below(&model.skeleton, clip, &reaches)
+        if !stays_below(&model.skeleton, clip, farthest)
             && let Some((time_secs, bone)) = first_overflow(&model.skeleton, compiled, &reaches)
         {
             let message = format!(
@@ -50,19 +55,20 @@ fn reaches(model: &Model) -> Vec<DVec3> {
 }
 
 /// Whether the bounds of the keys alone show that nothing overflows at any time: a chain of joints scales by no more than
-/// the product of their greatest scales. They show it for every sound file, which then costs one look at each key.
-fn stays_below(skeleton: &Skeleton, clip: &Clip, reaches: &[DVec3]) -> bool {
+/// the product of their greatest scales. They show it for every sound file, which then costs one look at each key. No vertex is farther
+/// away than `reach` in bind space.
+fn stays_below(skeleton: &Skeleton, clip: &Clip, reach: f64) -> bool {
     let mut bounds: Vec<Bound> = Vec::with_capacity(skeleton.joint_count());
     let joints = clip.tracks.iter().zip(skeleton.parents());
     joints
-        .zip(skeleton.joint_from_bind().iter().zip(reaches))
-        .all(|((track, parent), (joint_from_bind, reach))| {
+        .zip(skeleton.joint_from_bind())
+        .all(|((track, parent), joint_from_bind)| {
             let parent = parent.map_or(Bound::IDENTITY, |parent| bounds[parent.index()]);
             let model_from_joint = parent.after(Bound::of_track(track));
             bounds.push(model_from_joint);
             let joint_from_bind = Bound::of_matrix(&joint_from_bind.as_daffine3());
             let model_from_bind = model_from_joint.after(joint_from_bind);
-            let vertices = model_from_bind.translation + model_from_bind.scale * reach.length();
+            let vertices = model_from_bind.translation + model_from_bind.scale * reach;
             // NaN is not below.
             [
                 model_from_joint.scale,

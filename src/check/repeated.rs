@@ -30,7 +30,8 @@ pub(crate) fn repeated_triangles(mesh: &Mesh) -> Vec<(u32, u32)> {
     repeated(&by_corners(mesh)).collect()
 }
 
-/// An edge as its lesser vertex has it: the other end, the third corner of the triangle, and the number of the next edge there.
+/// An edge as its lesser vertex has it: the other end, the third corner of the triangle, and the number of the next one there. One with an
+/// even number is of the triangle's least vertex, and stands for the edge to the third corner too.
 type HalfEdge = [u32; 3];
 
 /// No vertex, no corner and no edge.
@@ -47,39 +48,45 @@ async fn has_neither(mesh: &Mesh, slices: &Slices) -> bool {
     let (first, edges) = by_lesser_vertex(mesh, slices).await;
     // Of each vertex: at which lesser vertex it was met last, and the third corner of that triangle; none where two were met.
     let mut met = vec![[NONE; 2]; first.len()];
-    for (from, &first) in (0u32..).zip(&first) {
-        slices.pause_every(from as usize).await;
+    let mut is_proven = true;
+    let mut meet = |from: u32, to: u32, third: u32| {
+        let met = &mut met[to as usize];
+        if met[0] != from {
+            *met = [from, third];
+        } else {
+            is_proven &= met[1] != third && met[1] != NONE;
+            met[1] = NONE;
+        }
+    };
+    let look = |(from, &first): (u32, &u32)| {
         let mut next = first;
         while let Some(&[to, third, behind]) = edges.get(next as usize) {
-            next = behind;
-            let met = &mut met[to as usize];
-            if met[0] != from {
-                *met = [from, third];
-            } else if met[1] == third || met[1] == NONE {
-                return false;
-            } else {
-                met[1] = NONE;
+            meet(from, to, third);
+            if next.is_multiple_of(2) {
+                meet(from, third, to);
             }
+            next = behind;
         }
-    }
-    true
+    };
+    slices.for_each((0..).zip(&first), look).await;
+    is_proven
 }
 
 /// The edges of all triangles with three vertices, and the first one of each vertex.
 async fn by_lesser_vertex(mesh: &Mesh, slices: &Slices) -> (Vec<u32>, Vec<HalfEdge>) {
     let mut first = vec![NONE; mesh.vertex_count()];
-    let mut edges = Vec::with_capacity(mesh.indices.len());
-    for (triangle, corners) in triangles(mesh) {
-        slices.pause_every(triangle as usize).await;
+    let mut edges = Vec::with_capacity(mesh.triangle_count() * 2);
+    let take = |(_, corners)| {
         let [a, b, c] = sorted(corners);
         if a == b || b == c {
-            continue;
+            return;
         }
         let number = edges.len() as u32;
-        let at_a = std::mem::replace(&mut first[a as usize], number + 1);
-        let at_b = std::mem::replace(&mut first[b as usize], number + 2);
-        edges.extend_from_slice(&[[b, c, at_a], [c, b, number], [c, a, at_b]]);
-    }
+        let at_a = std::mem::replace(&mut first[a as usize], number);
+        let at_b = std::mem::replace(&mut first[b as usize], number + 1);
+        edges.extend_from_slice(&[[b, c, at_a], [c, a, at_b]]);
+    };
+    slices.for_each(triangles(mesh), take).await;
     (first, edges)
 }
 

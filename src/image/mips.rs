@@ -214,7 +214,8 @@ impl Coding {
                 let srgb = Srgb::tables();
                 append_bytes(data, texels, |texel| {
                     let [r, g, b] = srgb.bytes(texel / texel.w);
-                    [r, g, b, bytes((texel - CLEAR_WEIGHT) / (1.0 - CLEAR_WEIGHT))[3]]
+                    let alpha = nearest((texel - CLEAR_WEIGHT) / (1.0 - CLEAR_WEIGHT)).w;
+                    [r, g, b, alpha.to_bits() as u8]
                 });
             }
             Self::Direction { two_channels } => append_bytes(data, texels, |texel| {
@@ -253,22 +254,31 @@ fn normalized(texel: Texel) -> Texel {
     }
 }
 
-/// The nearest bytes of numbers that are 0 … 1 and clamped to it; a half goes up.
+/// The nearest bytes of numbers that are 0 … 1 and clamped to it.
 fn bytes(numbers: Vec4) -> [u8; 4] {
-    let scaled = numbers.max(Vec4::ZERO).min(Vec4::ONE) * 255.0;
-    // `f32::round` is a call for each number. This rounds a half to the even neighbour, which is mended.
-    let nearest = scaled + WHOLE;
-    let is_half_below = (scaled - (nearest - WHOLE)).cmpge(const { Vec4::splat(0.5) });
-    let nearest = nearest + Vec4::select(is_half_below, Vec4::ONE, Vec4::ZERO);
+    let nearest = nearest(numbers);
     let byte = |number: f32| number.to_bits() as u8;
     [byte(nearest.x), byte(nearest.y), byte(nearest.z), byte(nearest.w)]
 }
 
+/// Numbers whose lowest bits are those bytes; a half goes up.
+#[inline(always)]
+fn nearest(numbers: Vec4) -> Vec4 {
+    let scaled = numbers.max(Vec4::ZERO).min(Vec4::ONE) * 255.0;
+    // `f32::round` is a call for each number. This rounds a half to the even neighbour, which is mended.
+    let nearest = scaled + WHOLE;
+    let is_half_below = (scaled - (nearest - WHOLE)).cmpge(const { Vec4::splat(0.5) });
+    nearest + Vec4::select(is_half_below, Vec4::ONE, Vec4::ZERO)
+}
+
 fn append_bytes(data: &mut Vec<u8>, texels: &[Texel], write: impl Fn(Texel) -> [u8; 4]) {
-    let start = data.len();
-    data.resize(start + 4 * texels.len(), 0);
-    for (bytes, &texel) in data[start..].as_chunks_mut().0.iter_mut().zip(texels) {
-        *bytes = write(texel);
+    // A few at a time: filling all their room before would cost as much again.
+    let mut few = [[0; 4]; 128];
+    for texels in texels.chunks(few.len()) {
+        for (bytes, &texel) in few.iter_mut().zip(texels) {
+            *bytes = write(texel);
+        }
+        data.extend_from_slice(few[..texels.len()].as_flattened());
     }
 }
 

@@ -33,13 +33,13 @@ pub(super) fn unit_direction(vector: Vec3) -> Option<Vec3> {
 /// Makes the normals of a mesh unit vectors. Those that are zero or not finite become 0; tells which they are.
 pub(super) async fn make_normals_unit(mesh: &mut Mesh, slices: &Slices) -> Tally {
     let mut missing = Tally::default();
-    for (index, normal) in (0u32..).zip(&mut mesh.normals) {
-        slices.pause_every(index as usize).await;
+    let make_unit = |(index, normal): (u32, &mut Vec3)| {
         *normal = unit_direction(*normal).unwrap_or_else(|| {
             missing.add(index);
             Vec3::ZERO
         });
-    }
+    };
+    slices.for_each((0..).zip(&mut mesh.normals), make_unit).await;
     missing
 }
 
@@ -92,13 +92,13 @@ const CLEAR_FRACTION: f64 = 0.8;
 /// says nothing; the others still do.
 pub(super) async fn handedness_of(mesh: &Mesh, diagnostics: &mut Diagnostics, slices: &Slices) -> Handedness {
     let (mut agree, mut disagree) = (0u32, 0u32);
-    for (turn, &corners) in mesh.indices.as_chunks::<3>().0.iter().enumerate() {
-        slices.pause_every(turn).await;
+    let count = |corners: &[u32; 3]| {
         let normal = |corner: usize| mesh.normals[corners[corner] as usize].as_dvec3();
-        let side = mesh.side_of(corners).dot(normal(0) + normal(1) + normal(2));
+        let side = mesh.side_of(*corners).dot(normal(0) + normal(1) + normal(2));
         agree += u32::from(side > 0.0);
         disagree += u32::from(side < 0.0);
-    }
+    };
+    slices.for_each(mesh.indices.as_chunks().0, count).await;
     let (handedness, majority) = if disagree > agree {
         (Handedness::Right, disagree)
     } else {

@@ -1,5 +1,7 @@
 //! Tangents: unit length and a sign of ±1, computed from the texture coordinates where the file has none.
 
+use glam::Vec4;
+
 use super::normals::unit_direction;
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Code, Subject, codes};
@@ -16,17 +18,16 @@ pub(super) async fn mend_tangents(
     slices: &Slices,
 ) {
     let (mut missing, mut signs) = (Vec::new(), Tally::default());
-    for (index, tangent) in (0u32..).zip(&mut mesh.tangents) {
-        slices.pause_every(index as usize).await;
+    let mend = |(index, tangent): (u32, &mut Vec4)| {
         let Some(direction) = unit_direction(tangent.truncate()) else {
-            missing.push(index);
-            continue;
+            return missing.push(index);
         };
         if tangent.w.abs() != 1.0 {
             signs.add(index);
         }
         *tangent = direction.extend(if tangent.w < 0.0 { -1.0 } else { 1.0 });
-    }
+    };
+    slices.for_each((0..).zip(&mut mesh.tangents), mend).await;
     let mut missing_tally = Tally::default();
     if !missing.is_empty() {
         let computed = mesh.computed_tangents_of(&missing, slices).await;

@@ -1,8 +1,10 @@
 //! Which way bitangents go in the texture, and so the green of normal maps.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
-use super::{Mesh, Model};
+use super::{Mesh, Model, Submesh};
 
 /// Where the green of a normal map points in its picture, which is where bitangents go: w · cross(normal, tangent).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,19 +77,16 @@ impl Model {
 
     /// The triangles with such a material, each once.
     pub fn triangles_of(&self, is_such: impl Fn(usize) -> bool) -> impl Iterator<Item = usize> {
-        // How many such submeshes begin at a triangle, less those that end there.
-        let mut changes = vec![0_i32; self.mesh.triangle_count() + 1];
-        for submesh in &self.mesh.submeshes {
-            if is_such(submesh.material as usize) {
-                changes[submesh.triangle_start as usize] += 1;
-                changes[(submesh.triangle_start + submesh.triangle_count) as usize] -= 1;
-            }
-        }
-        let mut inside = 0;
-        let triangles = changes.into_iter().enumerate();
-        triangles.filter_map(move |(triangle, change)| {
-            inside += change;
-            (inside > 0).then_some(triangle)
+        let submeshes = self.mesh.submeshes.iter();
+        let such = submeshes.filter(|submesh| is_such(submesh.material as usize));
+        let range = |submesh: &Submesh| submesh.triangle_start..submesh.triangle_start + submesh.triangle_count;
+        let mut ranges: Vec<Range<u32>> = such.map(range).collect();
+        ranges.sort_unstable_by_key(|range| range.start);
+        let mut end = 0;
+        ranges.into_iter().flat_map(move |range| {
+            let start = range.start.max(end);
+            end = end.max(range.end);
+            start as usize..range.end as usize
         })
     }
 }
@@ -101,6 +100,7 @@ impl Mesh {
     }
 
     /// The direction in which v grows on a triangle, of any length. `None` where it is a needle, there or in the texture.
+    #[inline]
     pub fn along_v(&self, corners: [u32; 3]) -> Option<DVec3> {
         let [a, b, c] = corners.map(|vertex| vertex as usize);
         let position = |vertex: usize| self.positions[vertex].as_dvec3();

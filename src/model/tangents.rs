@@ -65,21 +65,20 @@ impl TextureAxes {
 async fn texture_axes(mesh: &Mesh, is_asked: impl Fn(usize) -> bool, slices: &Slices) -> Vec<TextureAxes> {
     let mut axes = vec![TextureAxes::default(); mesh.vertex_count()];
     let corner = |at: usize| Some((mesh.positions.get(at)?.as_dvec3(), mesh.tex_coords.get(at)?.as_dvec2()));
-    for (turn, &[a, b, c]) in mesh.indices.as_chunks().0.iter().enumerate() {
-        slices.pause_every(turn).await;
+    let add = |&[a, b, c]: &[u32; 3]| {
         let (a, b, c) = (a as usize, b as usize, c as usize);
         if !(is_asked(a) || is_asked(b) || is_asked(c)) {
-            continue;
+            return;
         }
         let (Some((at_a, on_a)), Some((at_b, on_b)), Some((at_c, on_c))) = (corner(a), corner(b), corner(c)) else {
-            continue;
+            return;
         };
         let (edge_1, edge_2) = (at_b - at_a, at_c - at_a);
         let (step_1, step_2) = (on_b - on_a, on_c - on_a);
         let texture_area = step_1.perp_dot(step_2);
         let area = edge_1.cross(edge_2).length();
         if texture_area == 0.0 {
-            continue;
+            return;
         }
         let along_u = (edge_1 * step_2.y - edge_2 * step_1.y) * texture_area.signum();
         let along_v = (edge_2 * step_1.x - edge_1 * step_2.x) * texture_area.signum();
@@ -88,6 +87,7 @@ async fn texture_axes(mesh: &Mesh, is_asked: impl Fn(usize) -> bool, slices: &Sl
             axes[corner].along_u += along_u;
             axes[corner].along_v += along_v;
         }
-    }
+    };
+    slices.for_each(mesh.indices.as_chunks().0, add).await;
     axes
 }

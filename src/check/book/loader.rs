@@ -7,7 +7,7 @@ use super::stream::{Stream, Trouble};
 use crate::diagnostic::Entry;
 use crate::format::quick;
 use crate::format::{AnimationClip, BoneAnimation, Dialect, Document, Keyframe, Material, Reflectance, Subset, Vertex};
-use crate::slices::{Slices, at_once};
+use crate::slices::{BLOCK, Slices, at_once};
 
 /// What a loader made of a file.
 #[derive(Clone, Debug)]
@@ -144,14 +144,17 @@ impl Loader<'_> {
         read: impl Fn(&mut Stream<'_>, Dialect) -> T,
         list: impl Fn(&mut Document) -> &mut Vec<T>,
     ) {
-        for index in 0..count {
-            self.slices.pause_every(index as usize).await;
-            self.stream.entry = entry(index);
-            let value = read(&mut self.stream, self.document.dialect);
-            if self.stream.has_failed() {
-                return;
+        let mut left = 0..count;
+        while !left.is_empty() {
+            self.slices.pause().await;
+            for index in left.by_ref().take(BLOCK) {
+                self.stream.entry = entry(index);
+                let value = read(&mut self.stream, self.document.dialect);
+                if self.stream.has_failed() {
+                    return;
+                }
+                list(&mut self.document).push(value);
             }
-            list(&mut self.document).push(value);
         }
     }
 
@@ -273,17 +276,18 @@ impl Loader<'_> {
                 {
                     keyframes.extend_from_slice(track);
                 }
-                for key in keyframes.len() as u32..keys {
-                    self.slices.pause_every(key as usize).await;
-                    stream.entry = Entry::Key { clip, bone, key };
-                    let keyframe = match stream.quick(quick::keyframe) {
-                        Some((keyframe, _)) => keyframe,
-                        None => read_key(stream),
-                    };
-                    if stream.has_failed() {
-                        return;
+                let mut left = keyframes.len() as u32..keys;
+                while !left.is_empty() {
+                    self.slices.pause().await;
+                    for key in left.by_ref().take(BLOCK) {
+                        stream.entry = Entry::Key { clip, bone, key };
+                        let quick = stream.quick(quick::keyframe);
+                        let keyframe = quick.map_or_else(|| read_key(stream), |(keyframe, _)| keyframe);
+                        if stream.has_failed() {
+                            return;
+                        }
+                        keyframes.push(keyframe);
                     }
-                    keyframes.push(keyframe);
                 }
                 if let Some(clip) = self.document.clips.last_mut() {
                     clip.bones.push(BoneAnimation { keyframes });

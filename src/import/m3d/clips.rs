@@ -163,8 +163,7 @@ async fn mended_keys(bone: u32, keys: &[Keyframe], lines: &ClipLines, noted: &mu
     };
     let Noted { mended, other_side, .. } = noted;
     let mut sound: Vec<Key> = Vec::with_capacity(keys.len());
-    for (number, key) in (0u32..).zip(keys) {
-        slices.pause_every(number as usize).await;
+    let mend = |(number, key): (u32, &Keyframe)| {
         let joint = LocalJoint {
             rotation: Quat::from_array(key.rotation),
             translation: Vec3::from_array(key.translation),
@@ -172,13 +171,13 @@ async fn mended_keys(bone: u32, keys: &[Keyframe], lines: &ClipLines, noted: &mu
         };
         let time_secs = key.time_secs;
         if !joint.is_finite() || !keys::is_time(time_secs) {
-            add(&mut mended.not_finite, number, time_secs);
-            continue;
+            return add(&mut mended.not_finite, number, time_secs);
         }
         let rotation = mended.rotation(joint.rotation, |moments| add(moments, number, time_secs));
         // Adding 0 makes −0 and 0 the same time for the sort as well.
         sound.push((time_secs + 0.0, (number, LocalJoint { rotation, ..joint })));
-    }
+    };
+    slices.for_each((0..).zip(keys), mend).await;
     let keys = mended.in_order(sound, |moments, &(time_secs, (number, _))| {
         add(moments, number, time_secs);
     });

@@ -25,19 +25,23 @@ pub(super) async fn influences_from_document(
     }
     let (mut mended, mut high_bone) = (Mended::default(), Tally::default());
     let mut influences = Vec::with_capacity(document.vertices.len());
-    for (index, vertex) in (0u32..).zip(&document.vertices) {
-        slices.pause_every(index as usize).await;
+    let mut faulty = None;
+    let take = |(index, vertex): (u32, &Vertex)| {
         let weights = normalized(index, vertex.blend_weights, &mut mended);
-        let Some(joints) = joints_of(vertex, &weights, skeleton) else {
-            let lines = lines.vertex_lines(VertexField::BlendIndices);
-            let fault = out_of_range(index, vertex, &weights, skeleton);
-            return Err(fault.on_line(lines.get(index as usize).copied()).into());
-        };
+        let joints = joints_of(vertex, &weights, skeleton).unwrap_or_else(|| {
+            faulty.get_or_insert_with(|| (index, out_of_range(index, vertex, &weights, skeleton)));
+            [0; 4]
+        });
         let weighted = vertex.blend_indices.into_iter().zip(weights);
         for _ in weighted.filter(|&(bone, weight)| bone > BOOK_BONE_INDEX && weight != 0.0) {
             high_bone.add(index);
         }
         influences.push(Influences { joints, weights });
+    };
+    slices.for_each((0..).zip(&document.vertices), take).await;
+    if let Some((index, fault)) = faulty {
+        let lines = lines.vertex_lines(VertexField::BlendIndices);
+        return Err(fault.on_line(lines.get(index as usize).copied()).into());
     }
     let place = |field, tally: &Tally| Place::of_rows(tally, Subject::Vertex, &lines.vertex_lines(field));
     mended.tell(diagnostics, |tally| place(VertexField::BlendWeights, tally));
