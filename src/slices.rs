@@ -10,7 +10,7 @@ use std::pin::{Pin, pin};
 use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
 
-/// Turns of a short loop between two places at which it can stop: less than a millisecond of work.
+/// Items of a short loop between two places at which it can stop: less than a millisecond of work.
 pub(crate) const BLOCK: usize = 2048;
 
 /// When work has to stop for a while, and how far it is.
@@ -123,11 +123,10 @@ impl Slices {
     /// compiler makes more than of a loop that can stop at each item.
     pub async fn for_each<T>(&self, items: impl IntoIterator<Item = T>, mut work: impl FnMut(T)) {
         let mut items = items.into_iter();
-        loop {
+        while let Some(first) = items.next() {
             self.pause().await;
-            if !work_on_block(&mut items, &mut work) {
-                return;
-            }
+            work(first);
+            items.by_ref().take(BLOCK - 1).for_each(&mut work);
         }
     }
 
@@ -148,19 +147,6 @@ impl Slices {
             .as_ref()
             .map_or_else(StageProgress::default, |shared| shared.progress.get())
     }
-}
-
-/// Whether there may be more items.
-fn work_on_block<T>(items: &mut impl Iterator<Item = T>, work: &mut impl FnMut(T)) -> bool {
-    let mut left = BLOCK;
-    for item in items {
-        work(item);
-        left -= 1;
-        if left == 0 {
-            return true;
-        }
-    }
-    false
 }
 
 impl fmt::Debug for Slices {

@@ -225,13 +225,8 @@ fn lanes_of(a: Vec3A, b: Vec3A, c: Vec3A, d: Vec3A) -> [Vec4; 3] {
 /// From four vectors to their x, y, z and w side by side, and back.
 #[inline(always)]
 fn lanes([a, b, c, d]: [Vec4; LANES]) -> [Vec4; 4] {
-    let Mat4 {
-        x_axis,
-        y_axis,
-        z_axis,
-        w_axis,
-    } = Mat4::from_cols(a, b, c, d).transpose();
-    [x_axis, y_axis, z_axis, w_axis]
+    let turned = Mat4::from_cols(a, b, c, d).transpose();
+    [turned.x_axis, turned.y_axis, turned.z_axis, turned.w_axis]
 }
 
 /// Less than four values, and what stands in for the rest.

@@ -99,10 +99,7 @@ fn sorted([a, b, c]: [u32; 3]) -> [u32; 3] {
 /// Triangles with their corners in order, sorted by these. One with equal corners is no triangle; it is told of elsewhere.
 fn by_corners(mesh: &Mesh) -> Vec<([u32; 3], u32)> {
     let with_area: Vec<([u32; 3], u32)> = triangles(mesh)
-        .map(|(triangle, mut corners)| {
-            corners.sort_unstable();
-            (corners, triangle)
-        })
+        .map(|(triangle, corners)| (sorted(corners), triangle))
         .filter(|([a, b, c], _)| a != b && b != c)
         .collect();
     sorted_by_vertex(

@@ -24,6 +24,9 @@ const LONG: VertexLabels = [
 /// As imm_engine writes them.
 const SHORT: VertexLabels = [b"P:", b"T:", b"N:", b"T:", b"W:", b"I:"];
 
+/// Labels of a key, in order: as in the books, and as imm_engine writes them.
+const KEY: [[&[u8]; 4]; 2] = [[b"Time:", b"Pos:", b"Scale:", b"Quat:"], [b"T:", b"P:", b"S:", b"Q:"]];
+
 /// Which rows of a file all stand as the books' exporter writes them: who reads the same bytes with this reader comes to the same, and can
 /// pass over them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -137,17 +140,18 @@ pub(crate) fn offset(cursor: &mut Cursor<'_>) -> Option<[f32; 16]> {
 
 /// Reads a key on its line. Also gives the line.
 #[inline]
-pub(crate) fn keyframe(cursor: &mut Cursor<'_>) -> Option<(Keyframe, u32)> {
+pub(crate) fn keyframe<const SHORT_LABELS: bool>(cursor: &mut Cursor<'_>) -> Option<(Keyframe, u32)> {
     let mut ahead = *cursor;
     ahead.pass_empty_lines();
     let line = ahead.line;
-    ahead.label(b"Time:")?;
+    let [time, position, scale_label, quaternion] = const { KEY[SHORT_LABELS as usize] };
+    ahead.label(time)?;
     let time_secs = ahead.number()?;
-    ahead.label(b"Pos:")?;
+    ahead.label(position)?;
     let translation = ahead.three()?;
-    ahead.label(b"Scale:")?;
+    ahead.label(scale_label)?;
     let scale = ahead.three()?;
-    ahead.label(b"Quat:")?;
+    ahead.label(quaternion)?;
     let rotation = ahead.four()?;
     ahead.line_end()?;
     *cursor = ahead;

@@ -225,11 +225,9 @@ fn all_times(lists: [&Arc<[f32]>; 3]) -> Arc<[f32]> {
         return longest.clone();
     }
     let mut times_secs = longest.to_vec();
-    let others = lists.filter(|times_secs| *times_secs != longest);
-    let others: Vec<&Arc<[f32]>> = others.collect();
-    let are_same = others.windows(2).all(|two| two[0] == two[1]);
-    let others = others.into_iter().take(if are_same { 1 } else { 2 });
-    others.for_each(|other| times_secs.extend_from_slice(other));
+    let mut others: Vec<_> = lists.filter(|times_secs| *times_secs != longest).collect();
+    others.dedup();
+    others.iter().for_each(|other| times_secs.extend_from_slice(other));
     // A stable sort merges runs that are sorted, as these are.
     times_secs.sort_by(f32::total_cmp);
     times_secs.dedup();

@@ -144,17 +144,16 @@ impl Loader<'_> {
         read: impl Fn(&mut Stream<'_>, Dialect) -> T,
         list: impl Fn(&mut Document) -> &mut Vec<T>,
     ) {
-        let mut left = 0..count;
-        while !left.is_empty() {
-            self.slices.pause().await;
-            for index in left.by_ref().take(BLOCK) {
-                self.stream.entry = entry(index);
-                let value = read(&mut self.stream, self.document.dialect);
-                if self.stream.has_failed() {
-                    return;
-                }
-                list(&mut self.document).push(value);
+        for index in 0..count {
+            if (index as usize).is_multiple_of(BLOCK) {
+                self.slices.pause().await;
             }
+            self.stream.entry = entry(index);
+            let value = read(&mut self.stream, self.document.dialect);
+            if self.stream.has_failed() {
+                return;
+            }
+            list(&mut self.document).push(value);
         }
     }
 
@@ -276,18 +275,17 @@ impl Loader<'_> {
                 {
                     keyframes.extend_from_slice(track);
                 }
-                let mut left = keyframes.len() as u32..keys;
-                while !left.is_empty() {
-                    self.slices.pause().await;
-                    for key in left.by_ref().take(BLOCK) {
-                        stream.entry = Entry::Key { clip, bone, key };
-                        let quick = stream.quick(quick::keyframe);
-                        let keyframe = quick.map_or_else(|| read_key(stream), |(keyframe, _)| keyframe);
-                        if stream.has_failed() {
-                            return;
-                        }
-                        keyframes.push(keyframe);
+                for key in keyframes.len() as u32..keys {
+                    if (key as usize).is_multiple_of(BLOCK) {
+                        self.slices.pause().await;
                     }
+                    stream.entry = Entry::Key { clip, bone, key };
+                    let quick = stream.quick(quick::keyframe::<false>);
+                    let keyframe = quick.map_or_else(|| read_key(stream), |(keyframe, _)| keyframe);
+                    if stream.has_failed() {
+                        return;
+                    }
+                    keyframes.push(keyframe);
                 }
                 if let Some(clip) = self.document.clips.last_mut() {
                     clip.bones.push(BoneAnimation { keyframes });

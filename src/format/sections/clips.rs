@@ -167,12 +167,11 @@ async fn bone_animation(
     let (first, mut all_quick) = (reader.cursor, true);
     for key in 0..count {
         reader.pause_every(key as usize).await;
-        let (keyframe, line) = match quick::keyframe(&mut reader.cursor) {
+        let quick = quick::keyframe::<false>(&mut reader.cursor);
+        all_quick &= quick.is_some();
+        let (keyframe, line) = match quick.or_else(|| quick::keyframe::<true>(&mut reader.cursor)) {
             Some(read) => read,
-            None => {
-                all_quick = false;
-                keyframe(reader, bone, key, count)?
-            }
+            None => keyframe(reader, bone, key, count)?,
         };
         if next_line != Some(line) {
             lines.key_runs.push(KeyRun { bone, key, line });
