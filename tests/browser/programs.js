@@ -119,16 +119,16 @@ test("a GPU that gives no device brings the full program, and what was dropped a
   await page.waitForFunction(() => globalThis.bindpose);
   await page.evaluate(() => {
     // A command waits for the viewer too.
-    bindpose.setSpeed(0.5);
+    bindpose.setQuality("low");
     globalThis.pending = bindpose.snapshot({ width: 40, height: 30 }).then(({ type }) => type, ({ message }) => message);
   });
   await drop(page, [path]);
   await page.waitForFunction(() => /early\.m3d opens/.test(document.getElementById("progress-words").textContent));
   await page.evaluate(() => (globalThis.letWasmThrough = true));
-  const { backend, fetched, speed } = await opened(page, "early.m3d");
+  const { backend, fetched, look } = await opened(page, "early.m3d");
   assert.equal(backend, "webgl2");
   assert.deepEqual(fetched, [webgpu, full]);
-  assert.equal(speed, 0.5);
+  assert.equal(look.quality, "low");
   assert.equal(await page.evaluate(() => globalThis.pending), "image/png");
   assert.equal((await page.$$("#view canvas")).length, 1);
   assert.equal((await page.$$("#view canvas + input")).length, 1, "one viewer listens");
