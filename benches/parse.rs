@@ -8,7 +8,6 @@ use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::str::{FromStr, SplitAsciiWhitespace};
-use std::sync::Arc;
 use std::time::Duration;
 
 use bindpose::anim::CompiledClip;
@@ -19,8 +18,7 @@ use bindpose::format::{
 };
 use bindpose::import;
 use bindpose::model::JointNames;
-use bindpose::session::{File, FileSet, load, load_job};
-use bindpose::slices::Slices;
+use bindpose::session::{File, FileCommand, Session, load};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 #[expect(clippy::print_stdout, reason = "what was read belongs to how long it took")]
@@ -68,14 +66,13 @@ fn parsing(criterion: &mut Criterion) {
         },
     );
     let file = File::new("model.m3d", bytes.as_slice());
-    let files = Arc::new(FileSet::new(vec![file.clone()]));
     report_ratio(
         "loading with the books' verdicts / without",
         || drop(black_box(load(&file))),
         || {
-            drop(black_box(
-                load_job(Arc::clone(&files), file.clone(), &Slices::ENDLESS).run(),
-            ));
+            let mut session = Session::new(true);
+            session.apply(FileCommand::Add(vec![file.clone()]));
+            drop(black_box(session));
         },
     );
     let model = import().model;

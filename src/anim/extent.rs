@@ -8,7 +8,7 @@ use super::pose::Palette;
 use super::skin::skin_position;
 use super::vertex_groups::{MovedBox, VertexGroups};
 use crate::model::{Aabb, Mesh, Model};
-use crate::slices::{Slices, Stage, at_once};
+use crate::slices::{Slices, Stage};
 
 /// The most vertices that are skinned for one box or one set of points: tens of milliseconds of work.
 const VERTEX_BUDGET: usize = 8_000_000;
@@ -35,12 +35,7 @@ pub struct Extent {
 
 impl Extent {
     /// That of a clip, or of rest without one. `groups` are those of the model's mesh.
-    pub fn of(model: &Model, groups: &VertexGroups, clip: Option<&CompiledClip>) -> Self {
-        at_once(Self::of_in(model, groups, clip, &Slices::ENDLESS))
-    }
-
-    /// [`Extent::of`] in slices.
-    pub async fn of_in(model: &Model, groups: &VertexGroups, clip: Option<&CompiledClip>, slices: &Slices) -> Self {
+    pub async fn of(model: &Model, groups: &VertexGroups, clip: Option<&CompiledClip>, slices: &Slices) -> Self {
         let mut job = ExtentJob::new(model, clip, slices).await;
         let all = job.times_left();
         loop {

@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 
 use super::pose::Palette;
 use crate::model::{Aabb, Influences, Mesh};
-use crate::slices::{Slices, at_once};
+use crate::slices::Slices;
 
 /// Vertices of a group: so many that its box costs less than they do, so few that its box is small.
 const GROUP: usize = 32;
@@ -31,12 +31,7 @@ struct VertexGroup {
 
 impl VertexGroups {
     /// Groups of a few vertices.
-    pub fn new(mesh: &Mesh) -> Self {
-        at_once(Self::new_in(mesh, &Slices::ENDLESS))
-    }
-
-    /// [`VertexGroups::new`] in slices.
-    pub async fn new_in(mesh: &Mesh, slices: &Slices) -> Self {
+    pub async fn new(mesh: &Mesh, slices: &Slices) -> Self {
         Self::of_at_most(mesh, GROUP, slices).await
     }
 

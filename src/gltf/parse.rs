@@ -1,6 +1,6 @@
 //! From JSON text to the document, or to what is wrong with it.
 
-use super::places::pointer_at;
+use super::places::{offset_of, pointer_at};
 use super::{Container, Fault, Root, fault};
 use crate::diagnostic::{Diagnostic, Position, codes};
 
@@ -33,13 +33,19 @@ pub fn parse(container: &Container<'_>) -> Result<Root, Fault> {
         let pointer = pointer_at(container.json, offset);
         let words = words(&error);
         let value = ["invalid type: ", "invalid value: "].map(|start| words.strip_prefix(start));
-        let message = match (value, words.strip_prefix("duplicate field ")) {
-            ([Some(value), _] | [_, Some(value)], _) => format!("Found {value}."),
-            (_, Some(key)) => format!("The key {key} stands twice."),
-            _ => format!("The JSON lacks what glTF needs here: {words}."),
+        let says = |message: String| codes::GLTF_WRONG_TYPE.says(message).pointing_at(&*pointer);
+        let diagnostic = match (value, words.strip_prefix("duplicate field ")) {
+            ([Some(value), _] | [_, Some(value)], _) => says(format!("Found {value}.")),
+            // Its pointer is that of the object.
+            (_, Some(key)) => return Box::new(placed(says(format!("The key {key} stands twice.")), &error, container)),
+            _ => says(format!("The JSON lacks what glTF needs here: {words}.")),
         };
-        let diagnostic = codes::GLTF_WRONG_TYPE.says(message).pointing_at(pointer);
-        Box::new(placed(diagnostic, &error, container))
+        // serde tells of a value when it has read it: the mark belongs at its beginning. In a text its pointer says where that is.
+        let offset = offset_of(container.json, &pointer).filter(|_| container.is_binary);
+        Box::new(Diagnostic {
+            byte_offset: offset.map(|offset| (container.json_offset + offset) as u64),
+            ..diagnostic
+        })
     })
 }
 

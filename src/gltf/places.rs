@@ -2,9 +2,8 @@
 
 use crate::diagnostic::Position;
 
-/// Line and column of the value that a pointer (RFC 6901) names, or of the last thing on the way that is there. `None` for text
-/// that is no JSON that far.
-pub fn position_of(json: &[u8], pointer: &str) -> Option<Position> {
+/// Where that begins of which [`position_of`] has line and column. The pointer is one of RFC 6901.
+pub(super) fn offset_of(json: &[u8], pointer: &str) -> Option<usize> {
     let mut scanner = Scanner { json, at: 0 };
     scanner.skip_blanks();
     let mut found = scanner.at;
@@ -15,6 +14,12 @@ pub fn position_of(json: &[u8], pointer: &str) -> Option<Position> {
         }
         found = scanner.at;
     }
+    Some(found)
+}
+
+/// Line and column of the value that a pointer names, or of the last thing on the way that is there. `None` for text that is no JSON that far.
+pub fn position_of(json: &[u8], pointer: &str) -> Option<Position> {
+    let found = offset_of(json, pointer)?;
     let before = json.get(..found)?;
     let line_start = memchr::memrchr(b'\n', before).map_or(0, |end| end + 1);
     let line = memchr::memchr_iter(b'\n', before).count() + 1;

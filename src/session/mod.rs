@@ -33,7 +33,7 @@ pub use look::quality::{Lowered, PassChoice, PassState, Quality, QualityCommand,
 pub use look::skeleton_cache::SkinColorsKey;
 pub use look::{Look, LookCommand, MAX_EXPOSURE_STOPS, MAX_LINE_LENGTH};
 pub use open::files::{FILE_KINDS, File, FileKind, FileSet};
-pub use open::load::{LoadError, LoadJob, Loaded, load, load_beside, load_job};
+pub use open::load::{LoadError, load, load_beside};
 pub use open::maps::{Maps, UnreadableMap, UsedMap};
 pub use open::open_model::{ClipSummary, OpenModel};
 pub use open::opening::{BeingOpened, FileCommand};

@@ -1,6 +1,6 @@
 //! Small documents written by hand, and the real ones where they are.
 
-use bindpose::anim::CompiledClip;
+use bindpose::anim::{CompiledClip, Extent, VertexGroups};
 use bindpose::check;
 use bindpose::diagnostic::{Diagnostic, Fault, codes};
 use bindpose::format::{
@@ -8,6 +8,7 @@ use bindpose::format::{
 };
 use bindpose::import::m3d;
 use bindpose::model::{Channel, Model, Track};
+use bindpose::slices::{Slices, at_once};
 use glam::{Quat, Vec3};
 
 use crate::shared::shared;
@@ -40,6 +41,14 @@ pub(crate) fn soldier_bytes() -> Option<Vec<u8>> {
 /// The bytes of a real file, where those are at hand.
 pub(crate) fn shared_bytes(path: &str) -> Option<Vec<u8>> {
     shared(path).map(|path| std::fs::read(path).expect("the file can be read"))
+}
+
+/// The space that a clip needs, or rest without one.
+pub(crate) fn extent(model: &Model, clip: Option<&CompiledClip>) -> Extent {
+    at_once(async {
+        let groups = VertexGroups::new(&model.mesh, &Slices::ENDLESS).await;
+        Extent::of(model, &groups, clip, &Slices::ENDLESS).await
+    })
 }
 
 /// The model of a document, and all that is found about it.

@@ -22,7 +22,7 @@ use self::meshes::{Meshed, Primitives};
 use self::places::Places;
 use super::{Imported, Refused, Source};
 use crate::diagnostic::collect::{Diagnostics, Place};
-use crate::diagnostic::{Diagnostic, Severity, codes};
+use crate::diagnostic::{Diagnostic, Position, Severity, codes};
 use crate::gltf::{self, Buffers, Container, Fault, FindFile, Reader, Root, Uri};
 use crate::model::{Front, Handedness, Model, UpAxis};
 use crate::slices::{Slices, Stage};
@@ -51,8 +51,14 @@ pub(super) async fn import(bytes: &[u8], find: FindFile<'_>, slices: &Slices) ->
 fn placed(diagnostic: Diagnostic, bytes: &[u8]) -> Diagnostic {
     let pointer = diagnostic.pointer.as_deref().filter(|_| diagnostic.position.is_none());
     let position = match gltf::open(bytes, &mut Vec::new()) {
-        Ok(container) if !container.is_binary && container.json_offset == 0 => {
-            pointer.and_then(|pointer| gltf::position_of(container.json, pointer))
+        Ok(container) if !container.is_binary => {
+            let found = pointer.and_then(|pointer| gltf::position_of(container.json, pointer));
+            // A mark of the encoding stands before the first line.
+            let mark = |line| if line == 1 { container.json_offset as u32 } else { 0 };
+            found.map(|Position { line, column }| Position {
+                line,
+                column: column + mark(line),
+            })
         }
         _ => None,
     };

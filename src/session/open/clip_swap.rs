@@ -24,18 +24,7 @@ pub(in crate::session) struct ClipSwap {
 struct KeptClip {
     clip: Clip,
     compiled: CompiledClip,
-    file_name: String,
-    joined: bool,
-}
-
-impl KeptClip {
-    fn facts(&self) -> ClipFacts {
-        if self.joined {
-            ClipFacts::joined_from(&self.file_name)
-        } else {
-            ClipFacts::of_file(&self.file_name)
-        }
-    }
+    facts: ClipFacts,
 }
 
 impl ClipSwap {
@@ -80,8 +69,7 @@ impl OpenModel {
         let kept = parts.skip(at).take(count).map(|((clip, compiled), facts)| KeptClip {
             clip: clip.clone(),
             compiled: compiled.clone(),
-            file_name: facts.file_name.clone(),
-            joined: facts.joined,
+            facts: facts.clone(),
         });
         kept.map(Arc::new).collect()
     }
@@ -91,16 +79,12 @@ impl OpenModel {
         let places = swap.at..swap.at + swap.count_now;
         let removed = self.kept_clips(swap.at, swap.count_now);
         let count_now = swap.clips.len();
-        self.clip_facts
-            .splice(places.clone(), swap.clips.iter().map(|kept| kept.facts()));
-        let (clips, compiled): (Vec<_>, Vec<_>) = swap
-            .clips
-            .into_iter()
-            .map(Arc::unwrap_or_clone)
-            .map(|kept| (kept.clip, kept.compiled))
-            .unzip();
+        let back = swap.clips.into_iter().map(Arc::unwrap_or_clone);
+        let (clips, (compiled, facts)): (Vec<_>, (Vec<_>, Vec<_>)) =
+            back.map(|kept| (kept.clip, (kept.compiled, kept.facts))).unzip();
         self.model.clips.splice(places.clone(), clips);
-        self.compiled.splice(places, compiled);
+        self.compiled.splice(places.clone(), compiled);
+        self.clip_facts.splice(places, facts);
         ClipSwap {
             at: swap.at,
             clips: removed,

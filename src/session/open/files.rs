@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::archive;
-use crate::slices::{Slices, at_once};
+use crate::slices::{Slices, Stage, at_once};
 use crate::{image, import};
 
 /// One file: where it lay relative to what was dropped, and its bytes.
@@ -45,8 +45,8 @@ impl File {
     }
 
     /// The files in a `.zip`, as if its folder had been dropped, or why it cannot be unpacked; `None` for any other file.
-    pub(in crate::session) async fn unpacked(&self, slices: &Slices) -> Option<Result<Vec<Self>, String>> {
-        if self.kind() != Some(FileKind::Archive) || !archive::begins_like_archive(&self.bytes) {
+    async fn unpacked(&self, slices: &Slices) -> Option<Result<Vec<Self>, String>> {
+        if !self.is_archive() {
             return None;
         }
         let folder = self.path.strip_suffix(self.base_name()).unwrap_or_default();
@@ -57,6 +57,10 @@ impl File {
                 .collect()
         });
         Some(files)
+    }
+
+    fn is_archive(&self) -> bool {
+        self.kind() == Some(FileKind::Archive) && archive::begins_like_archive(&self.bytes)
     }
 
     /// What it is by its name; `None` where that says nothing.
@@ -87,6 +91,8 @@ impl File {
 pub struct FileSet {
     files: Vec<File>,
     by_path: HashMap<String, usize>,
+    /// Why archives could not be unpacked, by their paths.
+    damaged: HashMap<String, String>,
     /// See [`FileSet::models`].
     models: Vec<usize>,
 }
@@ -122,15 +128,36 @@ impl FileSet {
 
     /// [`FileSet::new`] in slices.
     pub(in crate::session) async fn new_in(files: impl IntoIterator<Item = File>, slices: &Slices) -> Self {
+        let files: Vec<File> = files.into_iter().collect();
+        let size = |file: &File| if file.is_archive() { file.bytes.len() } else { 0 };
+        let sizes: Vec<_> = files.iter().map(|file| (None, size(file))).collect();
+        let of_each = slices.for_files(
+            Stage::Unpacking..=Stage::Unpacking,
+            Stage::Unpacking..=Stage::Unpacking,
+            &sizes,
+        );
         let mut all = Vec::new();
-        for file in files {
+        let mut damaged = HashMap::new();
+        for (file, slices) in files.into_iter().zip(&of_each) {
             match file.unpacked(slices).await {
-                Some(Ok(files)) => all.extend(files),
-                _ => all.push(file),
-            }
+                Some(Ok(files)) => {
+                    all.extend(files);
+                    continue;
+                }
+                Some(Err(reason)) => damaged.insert(file.path.clone(), reason),
+                None => damaged.remove(&file.path),
+            };
+            all.push(file);
         }
-        let mut set = Self::default();
-        for file in all {
+        Self::of_unpacked(all, damaged)
+    }
+
+    fn of_unpacked(files: impl IntoIterator<Item = File>, damaged: HashMap<String, String>) -> Self {
+        let mut set = Self {
+            damaged,
+            ..Self::default()
+        };
+        for file in files {
             match set.by_path.get(&file.path) {
                 Some(&known) => set.files[known] = file,
                 None => {
@@ -141,6 +168,11 @@ impl FileSet {
         }
         set.models = models_among(&set.files);
         set
+    }
+
+    /// Why one of its archives could not be unpacked.
+    pub(in crate::session) fn damage(&self, file: &File) -> Option<&str> {
+        self.damaged.get(&file.path).map(String::as_str)
     }
 
     /// All files.
@@ -165,7 +197,7 @@ impl FileSet {
     pub(in crate::session) fn needed_by(&self, model: &File) -> Self {
         let named = import::files_beside(&model.bytes);
         let named = named.iter().filter_map(|path| self.data_beside(model, path));
-        Self::new(named.chain([model]).cloned())
+        Self::of_unpacked(named.chain([model]).cloned(), self.damaged.clone())
     }
 
     /// The same without some of its models.
@@ -173,7 +205,8 @@ impl FileSet {
         let (gone, left): (Vec<&File>, Vec<&File>) = self.models().into_iter().partition(|file| is_gone(file));
         let paths = |files: Vec<_>| -> HashSet<&str> { files.into_iter().map(|file: &File| &*file.path).collect() };
         let (gone, left) = (paths(gone), paths(left));
-        let mut set = Self::new(self.files.iter().filter(|file| !gone.contains(&*file.path)).cloned());
+        let files = self.files.iter().filter(|file| !gone.contains(&*file.path));
+        let mut set = Self::of_unpacked(files.cloned(), self.damaged.clone());
         // When the last model goes, no other file is taken for one.
         set.models.retain(|&index| left.contains(&*set.files[index].path));
         set

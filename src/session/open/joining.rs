@@ -77,20 +77,18 @@ impl OpenModel {
         Ok(replaced.is_some())
     }
 
-    /// Adds the clips that joined a model that this one replaces. Those that no longer fit are left out with a diagnostic.
-    pub(in crate::session) async fn join_again(&mut self, joined: &[JoinedFile], slices: &Slices) {
-        for JoinedFile { file, files, .. } in joined {
-            let other = load_among(file, files, slices).await;
-            if let Err(error) = other.and_then(|other| self.join_clips(other, files, false)) {
-                self.diagnostics.push(Diagnostic {
-                    severity: Severity::Warning,
-                    position: None,
-                    places: Vec::new(),
-                    length: 0,
-                    subject: None,
-                    ..error.diagnostic
-                });
-            }
+    /// Adds the clips of a file that joined a model that this one replaces. If they no longer fit, a diagnostic says so.
+    pub(in crate::session) async fn join_again(&mut self, joined: &JoinedFile, slices: &Slices) {
+        let other = load_among(&joined.file, &joined.files, slices).await;
+        if let Err(error) = other.and_then(|other| self.join_clips(other, &joined.files, false)) {
+            self.diagnostics.push(Diagnostic {
+                severity: Severity::Warning,
+                position: None,
+                places: Vec::new(),
+                length: 0,
+                subject: None,
+                ..error.diagnostic
+            });
         }
     }
 

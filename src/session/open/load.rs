@@ -9,7 +9,7 @@ use crate::diagnostic::{Code, Diagnostic, codes};
 use crate::format::{self, Excerpt};
 use crate::import;
 use crate::session::published::verdicts::{Verdicts, missing_maps};
-use crate::slices::{Sliced, Slices, at_once};
+use crate::slices::{Slices, Stage, at_once};
 
 /// A file that could not be opened.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,15 +84,17 @@ pub fn load(file: &File) -> Result<OpenModel, Box<LoadError>> {
 /// # Errors
 /// As [`load`], and when a file that it needs is not there.
 pub fn load_beside(file: &File, find: &dyn Fn(&str) -> Option<bytes::Bytes>) -> Result<OpenModel, Box<LoadError>> {
-    at_once(load_in(file, find, &Slices::ENDLESS))
+    let alone = FileSet::new([file.clone()]);
+    at_once(load_in(file, &alone, find, &Slices::ENDLESS))
 }
 
 async fn load_in(
     file: &File,
+    files: &FileSet,
     find: &dyn Fn(&str) -> Option<bytes::Bytes>,
     slices: &Slices,
 ) -> Result<OpenModel, Box<LoadError>> {
-    if let Some(Err(reason)) = file.unpacked(slices).await {
+    if let Some(reason) = files.damage(file) {
         let message = format!("{} cannot be unpacked: {reason}.", file.base_name());
         return Err(Box::new(LoadError::refused(file, &codes::ARCHIVE_UNREADABLE, message)));
     }
@@ -119,12 +121,13 @@ pub(in crate::session) async fn load_among(
     slices: &Slices,
 ) -> Result<OpenModel, Box<LoadError>> {
     let find = |path: &str| files.data_beside(file, path).map(|file| file.bytes.clone());
-    load_in(file, &find, slices).await
+    load_in(file, files, &find, slices).await
 }
 
-/// A model with all that belongs to it, ready to be shown.
+/// A model with all that belongs to it: what is open, or what can be shown.
 #[derive(Clone, Debug)]
-pub struct Loaded {
+pub(in crate::session) struct Loaded {
+    /// The files that it came with.
     pub(in crate::session) files: Arc<FileSet>,
     pub(in crate::session) open: Arc<OpenModel>,
     pub(in crate::session) maps: Maps,
@@ -132,57 +135,21 @@ pub struct Loaded {
 }
 
 impl Loaded {
-    /// The model.
-    pub fn model(&self) -> &OpenModel {
-        &self.open
-    }
-
-    /// Its maps.
-    pub fn maps(&self) -> &Maps {
-        &self.maps
-    }
-}
-
-/// What is there already of a file that is opened again.
-#[derive(Clone, Debug, Default)]
-pub(in crate::session) struct Kept {
-    /// Pictures, some of them decoded.
-    pub(in crate::session) maps: Maps,
-    /// Files whose clips joined.
-    pub(in crate::session) joined: Vec<JoinedFile>,
-    pub(in crate::session) before: Option<Before>,
-}
-
-/// What is open.
-#[derive(Clone, Debug)]
-pub(in crate::session) struct Before {
-    pub(in crate::session) open: Arc<OpenModel>,
-    /// The files that it came with.
-    pub(in crate::session) files: Arc<FileSet>,
-    pub(in crate::session) maps: Maps,
-    pub(in crate::session) verdicts: Verdicts,
-}
-
-impl Kept {
-    /// The open model, if reading the file would give it once more: it is the same by its bytes, and so is all that it names.
-    async fn same(&self, files: &FileSet, file: &File, slices: &Slices) -> Option<Arc<OpenModel>> {
-        let Before {
-            open, files: of_open, ..
-        } = self.before.as_ref()?;
-        let is_alone = open.joined.is_empty() && self.joined.is_empty();
+    /// Whether reading a file would give the same model once more: it is the same by its bytes, and so is all that it names.
+    async fn is_same(&self, files: &FileSet, file: &File, slices: &Slices) -> bool {
+        let open = &self.open;
+        let is_alone = open.joined.is_empty();
         if !is_alone || open.file.path != file.path || !are_same(&open.file.bytes, &file.bytes, slices).await {
-            return None;
+            return false;
         }
         for path in import::files_beside(&file.bytes) {
-            let bytes = [of_open, files].map(|files| Some(&*files.data_beside(file, &path)?.bytes));
-            if let [Some(before), Some(now)] = bytes
-                && are_same(before, now, slices).await
-            {
-                continue;
+            let bytes = [&self.files, files].map(|files| Some(&*files.data_beside(file, &path)?.bytes));
+            let [Some(before), Some(now)] = bytes else { return false };
+            if !are_same(before, now, slices).await {
+                return false;
             }
-            return None;
         }
-        Some(Arc::clone(open))
+        true
     }
 }
 
@@ -204,32 +171,42 @@ async fn read_whole(
     joined: &[JoinedFile],
     slices: &Slices,
 ) -> Result<OpenModel, Box<LoadError>> {
-    let mut open = load_among(file, files, slices).await?;
-    open.join_again(joined, slices).await;
-    open.measure(slices).await;
+    let of_clips = joined
+        .iter()
+        .map(|joined| (Some(Stage::Joining), joined.file.bytes.len()));
+    let sizes: Vec<_> = [(None, file.bytes.len())].into_iter().chain(of_clips).collect();
+    let of_files = slices.for_files(
+        Stage::Reading..=Stage::Checking,
+        Stage::Reading..=Stage::Joining,
+        &sizes,
+    );
+    let mut open = load_among(file, files, &of_files[0]).await?;
+    for (joined, slices) in joined.iter().zip(&of_files[1..]) {
+        open.join_again(joined, slices).await;
+    }
+    open.extent_in(Some(0), slices).await;
     Ok(open)
 }
 
-/// Opens one file of a drop, which is one of [`FileSet::models`], with all that belongs to it.
+/// Opens one file of a drop, which is one of [`FileSet::models`], with all that belongs to it. Of what was open before of the same file, joined
+/// clips stay, and all that would be the same again. `maps` has pictures that are there, some of them decoded.
 pub(in crate::session) async fn load_whole(
     files: Arc<FileSet>,
     file: &File,
-    kept: Kept,
+    mut maps: Maps,
+    before: Option<Loaded>,
     slices: &Slices,
 ) -> Result<Box<Loaded>, Box<LoadError>> {
-    let same = kept.same(&files, file, slices).await;
-    let before = kept.before.filter(|_| same.is_some());
-    let mut open = match same {
-        Some(open) => open,
-        None => Arc::new(read_whole(&files, file, &kept.joined, slices).await?),
+    let joined = before.as_ref().map_or(&[][..], |before| &before.open.joined);
+    let (mut open, same) = match &before {
+        Some(before) if before.is_same(&files, file, slices).await => (Arc::clone(&before.open), Some(before)),
+        _ => (Arc::new(read_whole(&files, file, joined, slices).await?), None),
     };
-    let mut maps = kept.maps;
-    maps.begin(&open.model.materials, files.images().chain(&open.pictures).cloned());
-    maps.decode(slices).await;
-    maps.conclude(&open.model.materials);
-    let of_same = before.filter(|before| missing_maps(&before.maps) == missing_maps(&maps));
-    let verdicts = of_same.map_or_else(Verdicts::default, |before| before.verdicts);
-    verdicts.work_out(&open, &maps, slices).await;
+    let pictures = files.images().chain(&open.pictures).cloned();
+    maps.add_in(&open.model.materials, pictures, slices).await;
+    let of_same = same.filter(|before| missing_maps(&before.maps) == missing_maps(&maps));
+    let verdicts = of_same.map_or_else(Verdicts::default, |before| before.verdicts.clone());
+    verdicts.of_in(&open, &maps, slices).await;
     if let Some(open) = Arc::get_mut(&mut open) {
         open.source.forget();
     }
@@ -239,18 +216,4 @@ pub(in crate::session) async fn load_whole(
         maps,
         verdicts,
     }))
-}
-
-/// Makes what can be shown of the files of a drop, in slices, without a session: it can run anywhere, tell how far it is, and be
-/// dropped between two slices.
-///
-/// # Errors
-/// Of what comes out: as [`load`] has them. Images that cannot be read are no reason to fail.
-pub type LoadJob = Sliced<Result<Box<Loaded>, Box<LoadError>>>;
-
-/// A job that opens one file of a drop, which is one of [`FileSet::models`].
-pub fn load_job(files: Arc<FileSet>, file: File, slices: &Slices) -> LoadJob {
-    Sliced::new(slices, async move |slices| {
-        load_whole(files, &file, Kept::default(), &slices).await
-    })
 }

@@ -59,8 +59,19 @@ impl Maps {
     /// Adds pictures that came with the model of these materials, which may be another one than before. Those that are there
     /// already keep their turn: the drop may be one that was read again.
     pub fn add(&mut self, materials: &[Material], pictures: impl IntoIterator<Item = File>) {
-        self.begin(materials, pictures);
-        at_once(self.decode(&Slices::ENDLESS));
+        at_once(self.add_in(materials, pictures, &Slices::ENDLESS));
+    }
+
+    /// [`Maps::add`] in slices.
+    pub(in crate::session) async fn add_in(
+        &mut self,
+        materials: &[Material],
+        pictures: impl IntoIterator<Item = File>,
+        slices: &Slices,
+    ) {
+        self.keep(pictures, false);
+        self.find(materials);
+        self.decode(slices).await;
         self.conclude(materials);
     }
 
@@ -73,12 +84,6 @@ impl Maps {
             }
         }
         maps
-    }
-
-    /// The first step of [`Maps::add`]: finds what the materials name, and decodes nothing.
-    pub(in crate::session) fn begin(&mut self, materials: &[Material], pictures: impl IntoIterator<Item = File>) {
-        self.keep(pictures, false);
-        self.find(materials);
     }
 
     /// Adds pictures that were dropped by themselves, which take the place of all that fit a name no better. Where none of them
@@ -167,7 +172,7 @@ impl Maps {
     }
 
     /// Decodes the pictures that materials name and makes their mips, and looks whether those could be decoded that nobody names.
-    pub(in crate::session) async fn decode(&mut self, slices: &Slices) {
+    async fn decode(&mut self, slices: &Slices) {
         while let Some(index) = self.waiting.pop() {
             let all = self.pictures.len();
             slices
@@ -222,15 +227,11 @@ impl Maps {
     }
 
     /// Says what is missing and what could not be read, when all are decoded.
-    pub(in crate::session) fn conclude(&mut self, materials: &[Material]) {
+    fn conclude(&mut self, materials: &[Material]) {
         let could_be_read = |index: usize| matches!(self.decoded[index], Decoded::Images(_));
         self.checklist = Checklist::new(materials, &self.of_materials, could_be_read);
         // What is missing stands in the checklist; a list of findings that repeats it would hide the others.
-        let ambiguous = map_diagnostics(materials, &self.pictures, &self.of_materials);
-        self.diagnostics = ambiguous
-            .into_iter()
-            .filter(|diagnostic| diagnostic.code == codes::MAP_AMBIGUOUS.name)
-            .collect();
+        self.diagnostics = map_diagnostics(materials, &self.pictures, &self.of_materials);
         // Where a picture of the same name that could be read is used in its place, one that could not is of no interest.
         let name = |index: usize| self.pictures[index].base_name().to_lowercase();
         let read: HashSet<String> = self

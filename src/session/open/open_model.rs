@@ -14,7 +14,7 @@ use crate::format::{self, Excerpt};
 use crate::import::{FileFormat, Imported, Source};
 use crate::model::{Clip, JointIndex, Model};
 use crate::scene::Aabb;
-use crate::slices::{Slices, Stage};
+use crate::slices::{Slices, Stage, at_once};
 
 /// A model that is on screen, with the file it came from.
 #[derive(Clone, Debug)]
@@ -75,7 +75,7 @@ pub struct ClipSummary<'a> {
 }
 
 /// What is known of one clip beside its keys.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(in crate::session) struct ClipFacts {
     pub(in crate::session) file_name: String,
     /// Whether it came from another file than the model.
@@ -91,11 +91,7 @@ impl ClipFacts {
     pub(in crate::session) fn of_file(file_name: &str) -> Self {
         Self {
             file_name: file_name.to_owned(),
-            joined: false,
-            extent: OnceLock::new(),
-            key_times: OnceLock::new(),
-            loop_gap: OnceLock::new(),
-            activity: OnceLock::new(),
+            ..Self::default()
         }
     }
 
@@ -163,34 +159,29 @@ impl OpenModel {
         }
     }
 
-    /// The space that a clip needs; that of rest without a clip. In the file's space.
+    /// The space that a clip needs; that of rest without such a clip. In the file's space.
     pub fn extent(&self, clip: Option<usize>) -> &Extent {
+        at_once(self.extent_in(clip, &Slices::ENDLESS))
+    }
+
+    /// [`OpenModel::extent`] in slices. By that of the first clip the model is framed.
+    pub(in crate::session) async fn extent_in(&self, clip: Option<usize>, slices: &Slices) -> &Extent {
         let index = clip.unwrap_or(usize::MAX);
         let clip = self.compiled.get(index).zip(self.clip_facts.get(index));
         let kept = clip.map_or(&self.at_rest, |(_, facts)| &facts.extent);
-        kept.get_or_init(|| Extent::of(&self.model, self.vertex_groups(), clip.map(|(clip, _)| clip)))
-    }
-
-    /// Measures the space that the first clip needs, or rest without clips: by it the model is framed.
-    pub(in crate::session) async fn measure(&self, slices: &Slices) {
-        let clip = self.compiled.first().zip(self.clip_facts.first());
-        let kept = clip.map_or(&self.at_rest, |(_, facts)| &facts.extent);
-        if kept.get().is_none() {
-            slices.pause_at(Stage::Measuring, 0, 1).await;
-            if self.vertex_groups.get().is_none() {
-                let _ = self
-                    .vertex_groups
-                    .set(VertexGroups::new_in(&self.model.mesh, slices).await);
-            }
-            let extent = Extent::of_in(&self.model, self.vertex_groups(), clip.map(|(clip, _)| clip), slices).await;
-            // Nobody else has set it meanwhile.
-            let _ = kept.set(extent);
+        if let Some(extent) = kept.get() {
+            return extent;
         }
-    }
-
-    /// The groups of the mesh's vertices.
-    pub(in crate::session) fn vertex_groups(&self) -> &VertexGroups {
-        self.vertex_groups.get_or_init(|| VertexGroups::new(&self.model.mesh))
+        slices.pause_at(Stage::Measuring, 0, 1).await;
+        let groups = match self.vertex_groups.get() {
+            Some(groups) => groups,
+            None => {
+                let groups = VertexGroups::new(&self.model.mesh, slices).await;
+                self.vertex_groups.get_or_init(|| groups)
+            }
+        };
+        let extent = Extent::of(&self.model, groups, clip.map(|(clip, _)| clip), slices).await;
+        kept.get_or_init(|| extent)
     }
 
     /// What was mended while the file was read, as changes: it is written as mended. Findings of the checks are none. Where only some clips

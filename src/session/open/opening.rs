@@ -7,9 +7,9 @@ use std::sync::Arc;
 
 use super::content::{Content, Opened};
 use super::files::File;
-use super::load::Before;
+use super::load::Loaded;
 use super::underway::Underway;
-use super::wish::{Beside, Listed, Ready, Wish};
+use super::wish::{Ready, Wish};
 use crate::session::Session;
 use crate::session::changes::Changes;
 use crate::slices::{Sliced, Slices, Stage, StageProgress};
@@ -46,7 +46,7 @@ impl FileCommand {
 }
 
 /// What is being opened.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeingOpened<'a> {
     /// Base name of the file, as far as it is known.
     pub name: &'a str,
@@ -57,8 +57,8 @@ pub struct BeingOpened<'a> {
 impl Session {
     pub(in crate::session) fn apply_to_files(&mut self, command: FileCommand) {
         match command {
-            FileCommand::Add(files) => self.ask(Wish::Files(files)),
-            FileCommand::AddClips(files) => self.ask(Wish::Clips(files)),
+            FileCommand::Add(files) => self.ask(Wish::Files(files), None),
+            FileCommand::AddClips(files) => self.ask(Wish::Clips(files), None),
             FileCommand::Open(path) => self.open_listed(&path, None),
             FileCommand::Close(path) => self.close_file(&path),
             FileCommand::CancelOpening => self.cancel_opening(),
@@ -82,13 +82,10 @@ impl Session {
             name: &now.name,
             progress: now.work.progress(),
         });
-        now.or(self.opening.fetching.as_ref().map(|(name, [done, total])| BeingOpened {
+        let fetching = self.opening.fetching.as_ref();
+        now.or(fetching.map(|&(ref name, [done, total])| BeingOpened {
             name,
-            progress: StageProgress {
-                stage: Stage::Fetching,
-                done: *done,
-                total: *total,
-            },
+            progress: StageProgress::new(Stage::Fetching, done, total),
         }))
     }
 
@@ -133,7 +130,7 @@ impl Session {
     pub fn begin_anew(&mut self, reduced_motion: bool, files: Vec<File>) -> Changes {
         let changes = self.track(|session| {
             session.forget_opening();
-            session.begin(Wish::Files(files), Some(reduced_motion));
+            session.begin(Wish::Files(files), Some(reduced_motion), None);
         });
         if self.opening.slices.are_endless() {
             return self.advance_opening();
@@ -141,14 +138,15 @@ impl Session {
         changes
     }
 
-    fn ask(&mut self, wish: Wish) {
+    /// `closes`: the model that leaves the list once this one is shown.
+    fn ask(&mut self, wish: Wish, closes: Option<String>) {
         if wish.replaces() {
             self.forget_opening();
         } else if self.opening.now.is_some() {
             self.opening.waiting.push_back(wish);
             return;
         }
-        self.begin(wish, None);
+        self.begin(wish, None, closes);
         while self.opening.slices.are_endless()
             && let Some((ready, ended)) = self.next_ready()
         {
@@ -170,22 +168,21 @@ impl Session {
         }
     }
 
-    fn begin(&mut self, wish: Wish, begins_anew: Option<bool>) {
+    fn begin(&mut self, wish: Wish, begins_anew: Option<bool>, closes: Option<String>) {
         let content = &self.content;
         let wish = match wish {
             Wish::Clips(files) if content.open.is_none() => Wish::Files(files),
             wish => wish,
         };
         let name = wish.name();
-        let closes = wish.closes();
-        let before = content.open.as_ref().map(|open| Before {
+        let shown = content.open.as_ref().map(|open| Loaded {
             open: Arc::clone(open),
             files: Arc::clone(&content.files),
             maps: content.maps.clone(),
             verdicts: content.verdicts.clone(),
         });
         let work = Sliced::new(&self.opening.slices, async move |slices| {
-            wish.fulfil(Beside(before), &slices).await
+            wish.fulfil(shown, &slices).await
         });
         self.opening.now = Some(Underway {
             work,
@@ -206,7 +203,7 @@ impl Session {
             self.before = to_go_back_to;
         }
         if let Some(next) = self.opening.waiting.pop_front() {
-            self.begin(next, None);
+            self.begin(next, None, None);
         }
         changes
     }
@@ -238,12 +235,8 @@ impl Session {
         };
         let is_shown = Arc::ptr_eq(&opened.files, &content.files);
         let maps = if is_shown { &content.maps } else { &opened.maps };
-        self.ask(Wish::Listed(Box::new(Listed {
-            files: Arc::clone(&opened.files),
-            file: file.clone(),
-            maps: maps.clone(),
-            closes,
-        })));
+        let wish = Wish::Listed(Arc::clone(&opened.files), file.clone(), Box::new(maps.clone()));
+        self.ask(wish, closes);
     }
 
     fn is_on_screen(&self, path: &str) -> bool {

@@ -4,7 +4,9 @@ use std::cmp::Reverse;
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
 
-use crate::diagnostic::{Code, Diagnostic, Subject, codes};
+use serde::Serialize;
+
+use crate::diagnostic::{Diagnostic, Subject, codes};
 use crate::model::{MapSlot, Material};
 
 use super::files::File;
@@ -95,7 +97,8 @@ impl<'a> FileNames<'a> {
     fn new(files: &'a [File], drops: &'a [u32]) -> Self {
         let mut by_stem: HashMap<String, Vec<usize>> = HashMap::new();
         for (index, file) in files.iter().enumerate().filter(|(_, file)| file.is_image()) {
-            by_stem.entry(stem_of(file)).or_default().push(index);
+            let stem = stem(&base_name(&file.path)).to_owned();
+            by_stem.entry(stem).or_default().push(index);
         }
         Self { files, drops, by_stem }
     }
@@ -136,35 +139,26 @@ fn stems_that_fit(base_name: &str) -> impl Iterator<Item = &str> {
     std::iter::once(stem).chain((stem != base_name).then_some(base_name))
 }
 
-/// The base names that maps go by, for whoever chooses files by their names before reading them.
+/// The names that maps go by, for whoever chooses files by their names before reading them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct MapNames {
-    names: HashSet<String>,
+    /// Base names without extension that fit one, in lower case.
     stems: HashSet<String>,
 }
 
 impl MapNames {
     /// Of all maps that the materials name.
     pub fn new(materials: &[Material]) -> Self {
-        let mut all = Self::default();
-        for material in materials {
-            for name in MapSlot::ALL.into_iter().filter_map(|slot| material.map_name(slot)) {
-                let base_name = base_name(name);
-                if !base_name.is_empty() {
-                    all.stems.insert(stem(&base_name).to_owned());
-                    all.names.insert(base_name);
-                }
-            }
-        }
-        all
+        let base_names = named_maps(materials).map(|(.., name)| base_name(name));
+        let stems = base_names
+            .filter(|base_name| !base_name.is_empty())
+            .flat_map(|base_name| stems_that_fit(&base_name).map(str::to_owned).collect::<Vec<_>>());
+        Self { stems: stems.collect() }
     }
 
     /// Whether [`find_map`] can take a picture at this path for one of the names.
     pub fn fit(&self, path: &str) -> bool {
-        let base_name = base_name(path);
-        let stem = stem(&base_name);
-        // A name that has no extension may still have a dot.
-        self.names.contains(&base_name) || self.stems.contains(stem) || self.names.contains(stem)
+        self.stems.contains(stem(&base_name(path)))
     }
 }
 
@@ -178,7 +172,7 @@ pub fn named_maps(materials: &[Material]) -> impl Iterator<Item = (usize, MapSlo
 }
 
 /// How much of what the materials name is there. A name that several materials share counts once.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Checklist {
     /// How many names there are.
     pub named: usize,
@@ -219,36 +213,27 @@ impl Checklist {
     }
 }
 
-/// Names without a file, and names with more files than one, in the order of the materials.
+/// Names with more files than one, in the order of the materials.
 pub fn map_diagnostics(materials: &[Material], files: &[File], maps: &[MaterialMaps]) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     let path = |index: usize| files.get(index).map_or("", |file| file.path.as_str());
     for (number, (material, maps)) in materials.iter().zip(maps).enumerate() {
-        let mut note = |code: &Code, message| {
+        for slot in MapSlot::ALL {
+            let MapSource::Found(found) = maps.slot(slot) else {
+                continue;
+            };
+            if found.rivals.is_empty() {
+                continue;
+            }
+            let rivals = found.rivals.iter().map(|&index| path(index).to_owned());
+            let (label, owner) = (slot.label(), &material.name);
+            let (taken, left) = (path(found.file), spelt(rivals).join(", "));
+            let message =
+                format!("the {label} of material \"{owner}\" could be several files: {taken} is taken, not {left}");
             diagnostics.push(Diagnostic {
                 subject: Some(Subject::Material(number as u32)),
-                ..code.says(message)
+                ..codes::MAP_AMBIGUOUS.says(message)
             });
-        };
-        for slot in MapSlot::ALL {
-            let (label, owner) = (slot.label(), &material.name);
-            match maps.slot(slot) {
-                MapSource::Missing(name) => note(
-                    &codes::MAP_MISSING,
-                    format!("no file fits the {label} \"{name}\" of material \"{owner}\""),
-                ),
-                MapSource::Found(found) if !found.rivals.is_empty() => {
-                    let rivals = found.rivals.iter().map(|&index| path(index).to_owned());
-                    let (taken, left) = (path(found.file), spelt(rivals).join(", "));
-                    note(
-                        &codes::MAP_AMBIGUOUS,
-                        format!(
-                            "the {label} of material \"{owner}\" could be several files: {taken} is taken, not {left}"
-                        ),
-                    );
-                }
-                MapSource::Found(_) | MapSource::NoneNamed => {}
-            }
         }
     }
     diagnostics
@@ -268,19 +253,8 @@ fn spelt(mut names: impl ExactSizeIterator<Item = String>) -> Vec<String> {
 
 /// A note about pictures that were dropped for a model that uses none of them, if there are any.
 pub(in crate::session) fn unused_diagnostic(materials: &[Material], pictures: &[&File]) -> Option<Diagnostic> {
-    let names = materials
-        .iter()
-        .flat_map(|material| MapSlot::ALL.map(|slot| material.map_name(slot)));
-    let base_names: Vec<String> = names
-        .flatten()
-        .filter_map(|name| parts(name).into_iter().next())
-        .collect();
-    let wanted: HashSet<&str> = base_names
-        .iter()
-        .filter(|name| !name.is_empty())
-        .flat_map(|name| stems_that_fit(name))
-        .collect();
-    let fits_a_name = |picture: &File| picture.is_image() && wanted.contains(stem_of(picture).as_str());
+    let names = MapNames::new(materials);
+    let fits_a_name = |picture: &File| picture.is_image() && names.fit(&picture.path);
     let (outdone, strange): (Vec<&File>, Vec<&File>) = pictures.iter().partition(|picture| fits_a_name(picture));
     let (named, of_one, of_many) = if strange.is_empty() {
         let because = "not used: there is a picture with the very name that the model gives.";
@@ -308,12 +282,6 @@ fn base_name(path: &str) -> String {
 fn parts(path: &str) -> Vec<String> {
     let path = path.trim().to_lowercase();
     path.rsplit(['/', '\\']).map(str::to_owned).collect()
-}
-
-/// The base name of a file without its extension, in lower case, as [`parts`] has it.
-fn stem_of(file: &File) -> String {
-    let parts = parts(&file.path);
-    stem(parts.first().map_or("", String::as_str)).to_owned()
 }
 
 /// A base name without its extension.

@@ -4,35 +4,21 @@ use std::collections::{BTreeSet, HashSet};
 use std::sync::Arc;
 
 use super::files::{File, FileKind, FileSet};
-use super::load::{Before, Kept, LoadError, Loaded, load_among, load_whole};
+use super::load::{LoadError, Loaded, load_among, load_whole};
 use super::maps::Maps;
 use super::open_model::OpenModel;
-use crate::slices::Slices;
+use crate::slices::{Slices, Stage};
 
 /// What is to be opened.
 #[derive(Clone, Debug)]
 pub(in crate::session) enum Wish {
     /// The largest model of a drop, or its pictures where it has none.
     Files(Vec<File>),
-    /// A model of the list.
-    Listed(Box<Listed>),
+    /// A model of the list, with the pictures that were found for the models of its drop.
+    Listed(Arc<FileSet>, File, Box<Maps>),
     /// Clips for the open model.
     Clips(Vec<File>),
 }
-
-#[derive(Clone, Debug)]
-pub(in crate::session) struct Listed {
-    pub(in crate::session) files: Arc<FileSet>,
-    pub(in crate::session) file: File,
-    /// The pictures that were found for the models of its drop.
-    pub(in crate::session) maps: Maps,
-    /// The model that leaves the list then.
-    pub(in crate::session) closes: Option<String>,
-}
-
-/// What is open while something else is made ready; nothing of it changes.
-#[derive(Debug)]
-pub(in crate::session) struct Beside(pub(in crate::session) Option<Before>);
 
 /// What can be shown.
 #[derive(Debug)]
@@ -58,23 +44,15 @@ impl Wish {
         let is_other = |file: &File| matches!(file.kind(), Some(FileKind::Picture | FileKind::Unread));
         match self {
             Self::Files(files) => !files.iter().all(is_other),
-            Self::Listed(_) => true,
+            Self::Listed(..) => true,
             Self::Clips(_) => false,
-        }
-    }
-
-    /// The model that leaves the list then.
-    pub(in crate::session) fn closes(&self) -> Option<String> {
-        match self {
-            Self::Listed(listed) => listed.closes.clone(),
-            Self::Files(_) | Self::Clips(_) => None,
         }
     }
 
     /// Base name of the file that it is about, as far as names tell.
     pub(in crate::session) fn name(&self) -> String {
         let file = match self {
-            Self::Listed(listed) => Some(&listed.file),
+            Self::Listed(_, file, _) => Some(file),
             Self::Files(files) | Self::Clips(files) => {
                 let is_model = |file: &&File| matches!(file.kind(), Some(FileKind::Model | FileKind::Archive));
                 let models = files.iter().filter(is_model);
@@ -84,31 +62,37 @@ impl Wish {
         file.map_or("", File::base_name).to_owned()
     }
 
-    /// Makes it ready.
-    pub(in crate::session) async fn fulfil(self, beside: Beside, slices: &Slices) -> Ready {
+    /// Makes it ready beside what is shown; nothing of that changes.
+    pub(in crate::session) async fn fulfil(self, shown: Option<Loaded>, slices: &Slices) -> Ready {
         match self {
             Self::Files(files) => {
                 let files = Arc::new(FileSet::new_in(files, slices).await);
-                match beside.wanted_model(&files) {
-                    Some(file) => {
-                        let kept = beside.kept_for(&file);
-                        Ready::Model(load_whole(files, &file, kept, slices).await)
-                    }
-                    None => beside.others(files, slices).await,
-                }
+                let Some(file) = wanted_model(shown.as_ref(), &files) else {
+                    return others(shown, files, slices).await;
+                };
+                // The model alone, dropped again, keeps the pictures that came before.
+                let before = shown.filter(|shown| shown.open.file.base_name() == file.base_name());
+                let maps = before.as_ref().map_or_else(Maps::default, |before| before.maps.clone());
+                Ready::Model(load_whole(files, &file, maps, before, slices).await)
             }
-            Self::Listed(listed) => {
-                let Listed { files, file, maps, .. } = *listed;
-                let before = beside.0.filter(|before| before.open.file.path == file.path);
-                let joined = before.as_ref().map_or(Vec::new(), |before| before.open.joined.clone());
-                let kept = Kept { maps, joined, before };
-                Ready::Model(load_whole(files, &file, kept, slices).await)
+            Self::Listed(files, file, maps) => {
+                let before = shown.filter(|shown| shown.open.file.path == file.path);
+                Ready::Model(load_whole(files, &file, *maps, before, slices).await)
             }
             Self::Clips(files) => {
                 let files = FileSet::new_in(files, slices).await;
                 let models: HashSet<&str> = files.models().iter().map(|file| file.path.as_str()).collect();
+                let is_model = |file: &&File| models.contains(file.path.as_str());
+                let in_order: Vec<&File> = files.files().iter().filter(is_model).collect();
+                let sizes = in_order.iter().map(|file| (Some(Stage::Joining), file.bytes.len()));
+                let sizes: Vec<_> = sizes.collect();
+                let of_each = slices.for_files(
+                    Stage::Reading..=Stage::Checking,
+                    Stage::Reading..=Stage::Judging,
+                    &sizes,
+                );
                 let mut read = Vec::new();
-                for file in files.files().iter().filter(|file| models.contains(file.path.as_str())) {
+                for (file, slices) in in_order.into_iter().zip(&of_each) {
                     read.push(load_among(file, &files, slices).await);
                 }
                 Ready::Clips(files, read)
@@ -117,45 +101,33 @@ impl Wish {
     }
 }
 
-impl Beside {
-    /// The model to open: the largest, but where the models of the open drop come again, the one that is on screen.
-    fn wanted_model(&self, files: &FileSet) -> Option<File> {
-        let paths = |set: &FileSet| {
-            set.models()
-                .iter()
-                .map(|file| file.path.clone())
-                .collect::<BTreeSet<_>>()
-        };
-        let again = self.0.as_ref().filter(|before| {
-            let models = paths(files);
-            models.contains(&before.open.file.path) && models == paths(&before.files)
-        });
-        let path = again.map(|before| &before.open.file.path);
-        files
-            .get(path.or(files.models().first().map(|file| &file.path))?)
-            .cloned()
-    }
+/// The model to open: the largest, but where the models of the open drop come again, the one that is on screen.
+fn wanted_model(shown: Option<&Loaded>, files: &FileSet) -> Option<File> {
+    let paths = |set: &FileSet| {
+        set.models()
+            .iter()
+            .map(|file| file.path.clone())
+            .collect::<BTreeSet<_>>()
+    };
+    let again = shown.filter(|shown| {
+        let models = paths(files);
+        models.contains(&shown.open.file.path) && models == paths(&shown.files)
+    });
+    let path = again.map(|shown| &shown.open.file.path);
+    files
+        .get(path.or(files.models().first().map(|file| &file.path))?)
+        .cloned()
+}
 
-    /// What is there already of the same file: decoded maps and joined clips. The model alone, dropped again, keeps the pictures that came
-    /// before.
-    fn kept_for(self, file: &File) -> Kept {
-        let before = self.0.filter(|before| before.open.file.base_name() == file.base_name());
-        before.map_or_else(Kept::default, |before| Kept {
-            maps: before.maps.clone(),
-            joined: before.open.joined.clone(),
-            before: Some(before),
-        })
+/// Files without a model.
+async fn others(shown: Option<Loaded>, files: Arc<FileSet>, slices: &Slices) -> Ready {
+    let mut joined = None;
+    if let Some(Loaded { open, mut maps, .. }) = shown
+        && files.images().next().is_some()
+    {
+        maps.forget_unused();
+        let are_others = maps.join(&open.model.materials, files.images().cloned(), slices).await;
+        joined = Some(PicturesJoined { maps, are_others });
     }
-
-    async fn others(self, files: Arc<FileSet>, slices: &Slices) -> Ready {
-        let mut joined = None;
-        if let Some(Before { open, mut maps, .. }) = self.0
-            && files.images().next().is_some()
-        {
-            maps.forget_unused();
-            let are_others = maps.join(&open.model.materials, files.images().cloned(), slices).await;
-            joined = Some(PicturesJoined { maps, are_others });
-        }
-        Ready::Others(files, joined)
-    }
+    Ready::Others(files, joined)
 }

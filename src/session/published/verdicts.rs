@@ -21,16 +21,16 @@ impl Verdicts {
     /// Those of the open model with its maps, in the order of [`Book::ALL`]; none for other formats than the books'. They are worked out
     /// at the first call.
     pub(in crate::session) fn of(&self, open: &OpenModel, maps: &Maps) -> &[Verdict] {
-        self.of_books
-            .get_or_init(|| at_once(of_books(open, maps, &Slices::ENDLESS)))
+        at_once(self.of_in(open, maps, &Slices::ENDLESS))
     }
 
-    /// Works them out in slices.
-    pub(in crate::session) async fn work_out(&self, open: &OpenModel, maps: &Maps, slices: &Slices) {
-        if self.of_books.get().is_none() {
-            // Nobody else has set them meanwhile.
-            let _ = self.of_books.set(of_books(open, maps, slices).await);
+    /// [`Verdicts::of`] in slices.
+    pub(in crate::session) async fn of_in(&self, open: &OpenModel, maps: &Maps, slices: &Slices) -> &[Verdict] {
+        if let Some(verdicts) = self.of_books.get() {
+            return verdicts;
         }
+        let verdicts = of_books(open, maps, slices).await;
+        self.of_books.get_or_init(|| verdicts)
     }
 
     /// What the open model exceeds even converted for the books; `None` for their own format.
@@ -52,7 +52,11 @@ pub(in crate::session) fn missing_maps(maps: &Maps) -> Option<&[String]> {
 
 async fn of_books(open: &OpenModel, maps: &Maps, slices: &Slices) -> Vec<Verdict> {
     let bytes = &open.file.bytes;
-    let Some(parsed) = open.source.parsed_in(bytes, slices).await else {
+    let count = Book::ALL.len();
+    // Reading the file again takes about as long as the program of a book does.
+    let parts = [(Some(Stage::Judging), 1), (Some(Stage::Judging), count)];
+    let again = &slices.for_files(Stage::Reading..=Stage::Reading, Stage::Judging..=Stage::Judging, &parts)[0];
+    let Some(parsed) = open.source.parsed_in(bytes, again).await else {
         return Vec::new();
     };
     let known = Known {
@@ -62,8 +66,8 @@ async fn of_books(open: &OpenModel, maps: &Maps, slices: &Slices) -> Vec<Verdict
         missing_maps: missing_maps(maps),
     };
     let mut verdicts = Vec::new();
-    for (done, book) in Book::ALL.into_iter().enumerate() {
-        slices.pause_at(Stage::Judging, done, Book::ALL.len()).await;
+    for (done, book) in (1..).zip(Book::ALL) {
+        slices.pause_at(Stage::Judging, done, count + 1).await;
         verdicts.push(book::verdict_in(book, bytes, &known, slices).await);
     }
     verdicts

@@ -100,6 +100,16 @@ fn export(session: &Session) -> Option<Mode> {
     })
 }
 
+/// What a person reads of a stage.
+fn words(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Compiling => Stage::Checking.as_str(),
+        Stage::Joining => "adding clips",
+        Stage::Judging => "finishing",
+        stage => stage.as_str(),
+    }
+}
+
 /// What is being opened, once that has taken a while. Its name stays while the number grows.
 fn opening(session: &Session, state: &mut UiState, now_secs: f64) -> Option<Mode> {
     let Some(opened) = session.being_opened() else {
@@ -115,18 +125,13 @@ fn opening(session: &Session, state: &mut UiState, now_secs: f64) -> Option<Mode
     if now_secs - since_secs < SHOWN_AFTER_SECS {
         return None;
     }
-    let StageProgress { stage, done, total } = opened.progress;
+    let StageProgress { stage, done, total, .. } = opened.progress;
     let mega = |bytes: usize| format!("{:.1}", bytes as f64 * 1e-6);
     let percent = opened.progress.percent();
     let stage = match stage {
         Stage::Fetching => format!("{} of {} MB", mega(done), mega(total)),
-        Stage::Unpacking => format!("unpacking · {percent} %"),
-        Stage::Reading => format!("reading · {percent} %"),
-        Stage::Building => format!("building · {percent} %"),
-        Stage::Compiling | Stage::Checking => format!("checking · {percent} %"),
-        Stage::Measuring => format!("measuring · {percent} %"),
-        Stage::Decoding => format!("picture {} of {total}", done + 1),
-        Stage::Judging => format!("finishing · {percent} %"),
+        Stage::Decoding => format!("picture {} of {total}", total.min(done + 1)),
+        stage => format!("{} · {percent} %", words(stage)),
     };
     let name = shortened(opened.name, MOST_NAME);
     Some(Mode {

@@ -2,17 +2,13 @@
 
 use std::time::Instant;
 
-use bindpose::anim::{CompiledClip, Extent, PoseBuffers, VertexGroups, skin_positions};
+use bindpose::anim::{CompiledClip, Extent, PoseBuffers, skin_positions};
 use bindpose::import::m3d;
 use bindpose::model::{Aabb, Clip, Mesh, Model};
 use glam::Vec3;
 
-use crate::documents::{arm, model_of, quad, soldier};
+use crate::documents::{arm, extent, model_of, quad, soldier};
 use crate::textbook;
-
-fn extent(model: &Model, clip: Option<&CompiledClip>) -> Extent {
-    Extent::of(model, &VertexGroups::new(&model.mesh), clip)
-}
 
 fn animated_bounds(model: &Model, clip: &CompiledClip) -> Aabb {
     extent(model, Some(clip)).bounds

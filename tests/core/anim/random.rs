@@ -1,13 +1,13 @@
 //! Random skeletons and clips against the textbook.
 
-use bindpose::anim::{CompiledClip, Extent, PoseBuffers, SkinnedVertices, VertexGroups, skin};
+use bindpose::anim::{CompiledClip, PoseBuffers, SkinnedVertices, skin};
 use bindpose::format::{AnimationClip, Document, Keyframe, LineMap, Vertex};
 use bindpose::import::m3d;
 use bindpose::model::Track;
 use glam::{Affine3A, Mat4};
 use proptest::prelude::*;
 
-use crate::documents::{model_of, subset, track, vertex};
+use crate::documents::{extent, model_of, subset, track, vertex};
 use crate::textbook;
 
 /// Depth and scale of the skeletons below multiply what f32 loses; all lengths are of the order of 1.
@@ -141,7 +141,7 @@ proptest! {
     fn the_box_of_a_clip_holds_every_vertex_at_every_key(document in documents()) {
         let (model, _) = model_of(&document);
         let clip = &model.clips[0];
-        let bounds = Extent::of(&model, &VertexGroups::new(&model.mesh), Some(&CompiledClip::new(clip))).bounds;
+        let bounds = extent(&model, Some(&CompiledClip::new(clip))).bounds;
         let mut buffers = PoseBuffers::default();
         let mut out = SkinnedVertices::default();
         for time_secs in clip.tracks.iter().flat_map(Track::times_secs) {
@@ -190,7 +190,7 @@ proptest! {
             prop_assert!((tangent.truncate().length() - 1.0).abs() < 1e-3);
             prop_assert_eq!(tangent.w.abs(), 1.0);
         }
-        let bounds = Extent::of(&model, &VertexGroups::new(&model.mesh), Some(&CompiledClip::new(&model.clips[0]))).bounds;
+        let bounds = extent(&model, Some(&CompiledClip::new(&model.clips[0]))).bounds;
         prop_assert!(bounds.min.is_finite() && bounds.max.is_finite());
     }
 }

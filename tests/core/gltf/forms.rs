@@ -56,6 +56,37 @@ fn a_finding_has_its_pointer_and_in_text_its_line_and_in_a_container_its_offset(
 }
 
 #[test]
+fn a_value_of_a_wrong_kind_is_marked_where_it_begins() {
+    let json = br#"{"asset":{"version":"2.0"},"nodes":[{"name":"a"},{"mesh":"body"}],"skins":[{"name":"b"}]}"#;
+    let place = |value: &str| {
+        std::str::from_utf8(json)
+            .ok()
+            .and_then(|text| text.find(value))
+            .expect("it is there")
+    };
+    let column = |text: &[u8]| refused(text).position.map(|at| (at.line, at.column as usize));
+    assert_eq!(column(json), Some((1, place("\"body\"") + 1)));
+    let marked = [b"\xEF\xBB\xBF".as_slice(), json].concat();
+    assert_eq!(
+        column(&marked),
+        Some((1, place("\"body\"") + 4)),
+        "behind a mark of the encoding"
+    );
+    let lacks = String::from_utf8_lossy(json).replace("\"body\"", "0");
+    let object = lacks.find("{\"name\":\"b\"}").expect("it is there");
+    assert_eq!(
+        column(lacks.as_bytes()),
+        Some((1, object + 1)),
+        "an object that lacks something"
+    );
+    let binary = refused(&glb(&[(b"JSON", json)]));
+    assert_eq!(
+        (binary.position, binary.byte_offset),
+        (None, Some(20 + place("\"body\"") as u64))
+    );
+}
+
+#[test]
 fn what_a_container_has_too_much_is_left_out() {
     let json = br#"{"asset":{"version":"2.0"}}  "#;
     let spaced = [json.as_slice(), b"   "].concat();

@@ -180,28 +180,11 @@ fn each_material_learns_of_both_maps() {
         .collect();
     assert_eq!(
         lines,
-        [
-            (
-                "map-missing",
-                Some(Subject::Material(0)),
-                "no file fits the diffuse map \"head_diff.dds\" of material \"head\""
-            ),
-            (
-                "map-missing",
-                Some(Subject::Material(1)),
-                "no file fits the diffuse map \"jacket_diff.dds\" of material \"jacket\""
-            ),
-            (
-                "map-ambiguous",
-                Some(Subject::Material(1)),
-                "the normal map of material \"jacket\" could be several files: m/jacket_norm.dds is taken, not \
-                 n/jacket_norm.dds"
-            ),
-            (
-                "map-missing",
-                Some(Subject::Material(3)),
-                "no file fits the diffuse map \"head_diff.dds\" of material \"cap\""
-            ),
-        ]
+        [(
+            "map-ambiguous",
+            Some(Subject::Material(1)),
+            "the normal map of material \"jacket\" could be several files: m/jacket_norm.dds is taken, not \
+             n/jacket_norm.dds"
+        )]
     );
 }

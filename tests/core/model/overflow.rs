@@ -1,10 +1,10 @@
 //! Clips whose numbers overflow while they are posed.
 
-use bindpose::anim::{CompiledClip, Extent, PoseBuffers, VertexGroups};
+use bindpose::anim::{CompiledClip, PoseBuffers};
 use bindpose::diagnostic::Subject;
 use bindpose::format::{Document, LineMap};
 
-use crate::documents::{REAL_FILES, arm, key, message_of, model_of, read, read_parsed, real_file, track};
+use crate::documents::{REAL_FILES, arm, extent, key, message_of, model_of, read, read_parsed, real_file, track};
 
 /// Time and bone of the one finding.
 fn overflow(document: &Document) -> Option<(f32, u32)> {
@@ -73,12 +73,7 @@ fn what_stays_finite_is_not_accused() {
         pose.evaluate(&model.skeleton, &CompiledClip::new(&model.clips[0]), time_secs);
         assert!(pose.palette.0.iter().all(|matrix| matrix.is_finite()));
     }
-    let bounds = Extent::of(
-        &model,
-        &VertexGroups::new(&model.mesh),
-        Some(&CompiledClip::new(&model.clips[0])),
-    )
-    .bounds;
+    let bounds = extent(&model, Some(&CompiledClip::new(&model.clips[0]))).bounds;
     assert!(bounds.min.is_finite() && bounds.max.is_finite());
 }
 

@@ -12,7 +12,7 @@ use super::dropped;
 use super::models::{broken, document, file, still};
 
 /// An archive of these files.
-fn zipped(path: &str, method: CompressionMethod, files: &[(&str, &[u8])]) -> File {
+pub(super) fn zipped(path: &str, method: CompressionMethod, files: &[(&str, &[u8])]) -> File {
     let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default().compression_method(method);
     for (name, bytes) in files {

@@ -2,25 +2,20 @@
 
 use std::cell::Cell;
 use std::rc::Rc;
-use std::sync::Arc;
 
 use bindpose::model::MapSlot;
-use bindpose::session::{Event, File, FileCommand, FileSet, LoadJob, PlayCommand, Session, load_job};
-use bindpose::slices::{Slices, StageProgress};
+use bindpose::session::{Event, File, FileCommand, PlayCommand, Session};
+use bindpose::slices::{Slices, Stage, StageProgress};
+use zip::CompressionMethod;
 
+use super::archives::zipped;
 use super::maps::{mapped, picture};
 use super::models::{broken, moving, still};
-use super::opened;
+use super::{dropped, opened};
 
 /// Slices that end at every place where they can.
 fn shortest() -> Slices {
     Slices::new(|| true)
-}
-
-fn job(files: Vec<File>, slices: &Slices) -> LoadJob {
-    let files = Arc::new(FileSet::new(files));
-    let file = files.models().first().copied().cloned().expect("a model");
-    load_job(files, file, slices)
 }
 
 fn path(session: &Session) -> Option<&str> {
@@ -29,12 +24,32 @@ fn path(session: &Session) -> Option<&str> {
 
 /// Goes on until nothing is being opened; how often.
 fn end(session: &mut Session) -> usize {
-    let mut slices = 0;
-    while session.being_opened().is_some() {
+    told(session).len()
+}
+
+/// What is told until nothing is being opened.
+fn told(session: &mut Session) -> Vec<StageProgress> {
+    let mut told = Vec::new();
+    while let Some(now) = session.being_opened() {
+        told.push(now.progress);
         session.advance_opening();
-        slices += 1;
     }
-    slices
+    told
+}
+
+/// The stages that were told, each once.
+fn stages(told: &[StageProgress]) -> Vec<Stage> {
+    let mut stages: Vec<_> = told.iter().map(|progress| progress.stage).collect();
+    stages.dedup();
+    stages
+}
+
+/// Whether neither the part that is done nor the stage ever goes back.
+fn assert_goes_on(told: &[StageProgress]) {
+    for two in told.windows(2) {
+        assert!(two[0].percent() <= two[1].percent(), "{two:?}");
+        assert!(two[0].stage <= two[1].stage, "{two:?}");
+    }
 }
 
 #[test]
@@ -46,27 +61,16 @@ fn slices_go_through_all_stages_in_their_order_and_come_to_what_one_slice_comes_
             picture("stranger.png", [0, 255, 0, 255]),
         ]
     };
-    let mut job_in_slices = job(files(), &shortest());
-    let mut told: Vec<StageProgress> = Vec::new();
-    let loaded = loop {
-        match job_in_slices.advance() {
-            Some(outcome) => break outcome.expect("sound files"),
-            None => told.push(job_in_slices.progress()),
-        }
-    };
-    assert!(
-        told.windows(2).all(|two| two[0].percent() <= two[1].percent()),
-        "{told:?}"
-    );
-    assert!(told.windows(2).all(|two| two[0].stage <= two[1].stage), "{told:?}");
-    let mut stages: Vec<_> = told.iter().map(|progress| progress.stage).collect();
-    stages.dedup();
-    assert!(stages.len() >= 6, "{stages:?}");
-    assert!(loaded.maps().image(0, MapSlot::Diffuse).is_some());
+    let mut in_slices = Session::new(true);
+    in_slices.open_in(&shortest());
+    in_slices.apply(FileCommand::Add(files()));
+    let told = told(&mut in_slices);
+    assert_goes_on(&told);
+    assert!(stages(&told).len() >= 6, "{:?}", stages(&told));
+    assert!(in_slices.maps().image(0, MapSlot::Diffuse).is_some());
 
-    let at_once = job(files(), &Slices::ENDLESS).run().expect("sound files");
-    let [in_slices, at_once] = [&loaded, &at_once].map(|loaded| {
-        let (open, maps) = (loaded.model(), loaded.maps());
+    let [in_slices, at_once] = [&in_slices, &dropped(files())].map(|session| {
+        let (open, maps) = (session.open_model().expect("it is open"), session.maps());
         let image = maps.image(0, MapSlot::Diffuse).expect("it is there");
         let levels = [0, 1].map(|level| image.to_rgba8(0, level));
         format!(
@@ -82,6 +86,66 @@ fn slices_go_through_all_stages_in_their_order_and_come_to_what_one_slice_comes_
 }
 
 #[test]
+fn no_progress_ever_goes_back_whatever_is_opened() {
+    let mut session = Session::new(true);
+    session.open_in(&shortest());
+    let mut opened = |command| {
+        session.apply(command);
+        let told = told(&mut session);
+        assert_goes_on(&told);
+        assert!(session.error().is_none(), "{:?}", session.error());
+        stages(&told)
+    };
+    // Each archive is a part of the unpacking.
+    let hero = mapped("hero.m3d", "a.png", "b.png");
+    let archives = [("x.zip", &hero), ("y.zip", &picture("a.png", [255, 0, 0, 255]))];
+    let archives =
+        archives.map(|(name, file)| zipped(name, CompressionMethod::Stored, &[(&*file.path, &file.bytes[..])]));
+    opened(FileCommand::Add(archives.into()));
+    // The clips of a model that is read again are read again too; so is the file for the books, once a map less is missing.
+    let clips = || vec![moving("one.m3d"), moving("two.m3d")];
+    let joining = opened(FileCommand::AddClips(clips()));
+    assert_eq!(joining, [Stage::Fetching, Stage::Joining]);
+    let changed = |file: &File| File::new(&file.path, [&file.bytes[..], b"\n"].concat());
+    let again = opened(FileCommand::Add(vec![changed(&hero)]));
+    let [from, to] = [Stage::Reading, Stage::Measuring].map(|stage| again.iter().position(|&told| told == stage));
+    assert_eq!(
+        again[from.expect("it is read")..to.expect("it is measured")].last(),
+        Some(&Stage::Joining)
+    );
+
+    let alone = moving("alone.m3d");
+    opened(FileCommand::Add(vec![alone.clone()]));
+    let judged = opened(FileCommand::Add(vec![alone, picture("b.png", [0, 0, 255, 255])]));
+    assert!(!judged.contains(&Stage::Reading), "{judged:?}");
+}
+
+#[test]
+fn an_archive_that_is_damaged_is_unpacked_once() {
+    let (sound, picture) = (still("sound.m3d"), picture("a.png", [7; 4]));
+    let files = [(&*sound.path, &sound.bytes[..]), (&*picture.path, &picture.bytes[..])];
+    let mut bytes = zipped("drop.zip", CompressionMethod::Stored, &files).bytes.to_vec();
+    let place = bytes
+        .windows(4)
+        .position(|window| window == b"IHDR")
+        .expect("the picture's head");
+    bytes[place] ^= 1;
+    let mut session = Session::new(true);
+    session.open_in(&shortest());
+    session.apply(FileCommand::Add(vec![File::new("drop.zip", bytes)]));
+    let told = told(&mut session);
+    assert_goes_on(&told);
+    assert_eq!(stages(&told), [Stage::Fetching, Stage::Unpacking]);
+    let error = session.error().expect("it is refused");
+    assert_eq!(error.diagnostic.code, "archive-unreadable");
+    assert!(
+        error.diagnostic.message.contains("a.png in it is damaged"),
+        "{}",
+        error.diagnostic.message
+    );
+}
+
+#[test]
 fn a_slice_goes_on_as_long_as_it_may() {
     let (left, asked) = (Rc::new(Cell::new(3)), Rc::new(Cell::new(0)));
     let slices = Slices::new({
@@ -92,17 +156,12 @@ fn a_slice_goes_on_as_long_as_it_may() {
             left.get() == 0
         }
     });
-    let mut job = job(vec![moving("a.m3d")], &slices);
-    assert!(job.advance().is_none());
+    let mut session = Session::new(true);
+    session.open_in(&slices);
+    session.apply(FileCommand::Add(vec![moving("a.m3d")]));
+    session.advance_opening();
+    assert!(session.is_opening());
     assert_eq!(asked.get(), 3, "it went on until it was told to stop");
-}
-
-#[test]
-fn a_file_that_is_no_model_ends_the_job() {
-    let outcome = job(vec![broken("b.m3d"), picture("a.png", [0; 4])], &Slices::ENDLESS).run();
-    let error = outcome.expect_err("it cannot be read");
-    assert_eq!(error.file_name, "b.m3d");
-    assert!(error.excerpt.is_some());
 }
 
 #[test]

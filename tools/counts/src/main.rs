@@ -20,6 +20,7 @@ use bindpose::import::{self, m3d};
 use bindpose::model::Model;
 use bindpose::scene::{Ray, pick};
 use bindpose::session::{File, FileCommand, Session};
+use bindpose::slices::{Slices, at_once};
 use glam::Vec3;
 
 /// What a count may be above its limit: libraries of another machine copy memory in other ways.
@@ -184,7 +185,11 @@ fn check(bytes: &[u8]) -> u64 {
 fn extent(bytes: &[u8]) -> u64 {
     let model = model_of(bytes);
     let clip = CompiledClip::new(&model.clips[0]);
-    let Extent { bounds, points } = twice(|| Extent::of(&model, &VertexGroups::new(&model.mesh), Some(&clip)));
+    let measured = || async {
+        let groups = VertexGroups::new(&model.mesh, &Slices::ENDLESS).await;
+        Extent::of(&model, &groups, Some(&clip), &Slices::ENDLESS).await
+    };
+    let Extent { bounds, points } = twice(|| at_once(measured()));
     let all = [bounds.min, bounds.max].into_iter().chain(points);
     hash(all.flat_map(|point| point.to_array()))
 }

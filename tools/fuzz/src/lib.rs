@@ -3,14 +3,11 @@
 
 pub mod corpus;
 
-use std::sync::Arc;
-
 use bindpose::anim::CompiledClip;
 use bindpose::edit::Edits;
 use bindpose::import;
 use bindpose::model::JointNames;
-use bindpose::session::{ExportFormat, ExportJob, File, FileSet, Loaded, ToExport, load_job};
-use bindpose::slices::Slices;
+use bindpose::session::{ExportFormat, ExportJob, File, FileCommand, Session, ToExport};
 use bindpose::{check, image};
 
 /// Something to try, and how it is called.
@@ -98,7 +95,8 @@ fn whole(bytes: &[u8]) {
     let Some((&how, bytes)) = bytes.split_last() else {
         return;
     };
-    let Some(loaded) = load("model", bytes) else { return };
+    let Some(session) = load("model", bytes) else { return };
+    let Some(open) = session.open_model() else { return };
     let format = [ExportFormat::Glb, ExportFormat::D3d12, ExportFormat::D3d11][usize::from(how % 3)];
     let asked = |bit: u8| how >> bit & 1 == 1;
     let edits = Edits {
@@ -110,12 +108,12 @@ fn whole(bytes: &[u8]) {
         ..Edits::default()
     };
     let what = ToExport {
-        model: loaded.model().model.clone(),
+        model: open.model.clone(),
         names: &JointNames::default(),
         changes: Vec::new(),
         losses: Vec::new(),
         edits,
-        maps: loaded.maps(),
+        maps: session.maps(),
         format,
         writes_maps: asked(7),
         turns_green: false,
@@ -129,8 +127,8 @@ fn whole(bytes: &[u8]) {
 }
 
 /// The largest model of a drop of one file, with its pictures.
-fn load(name: &str, bytes: &[u8]) -> Option<Box<Loaded>> {
-    let files = Arc::new(FileSet::new([File::new(name, bytes)]));
-    let model = (*files.models().first()?).clone();
-    load_job(files, model, &Slices::ENDLESS).run().ok()
+fn load(name: &str, bytes: &[u8]) -> Option<Session> {
+    let mut session = Session::new(true);
+    session.apply(FileCommand::Add(vec![File::new(name, bytes)]));
+    session.open_model().is_some().then_some(session)
 }
