@@ -107,7 +107,9 @@ pub(crate) fn bench(options: &BenchOptions) -> Result<(), Failure> {
 fn counts(steps: &mut Steps) -> Result<(), Failure> {
     steps.step("What counts instructions", prerequisites::ensure_counter)?;
     steps.step("Instructions of the core's work", || {
-        Line::cargo().args(["run", "--profile", "dist", "--package", "counts"]).run()
+        Line::cargo()
+            .args(["run", "--profile", "dist", "--package", "counts"])
+            .run()
     })
 }
 
