@@ -97,9 +97,9 @@ impl Stage {
     /// The part of all work at which a stage begins, in percent. By the clock, in native openings of the books' soldier, with its vertices and
     /// triangles ten and fifty times over and with its maps, reading took 18 to 34 % of the time, building 15 to 24, checking 14 to 26,
     /// measuring 11 to 32, decoding 17 with maps, judging 3 to 19 and compiling less than 1. A `.glb` of 1.4 million vertices was built in 25
-    /// to 34 % and checked in 57 to 65; small ones with large pictures take 90 % to decode. Fetching is reading from a disk: the page
-    /// fetches what comes over a network before it opens it.
-    const BEGINS: [f32; 11] = [0.0, 5.0, 8.0, 33.0, 49.0, 50.0, 67.0, 67.0, 84.0, 92.0, 100.0];
+    /// to 34 % and checked in 57 to 65; small ones with large pictures take 90 % to decode. Fetching is reading from a disk, which in Chromium
+    /// took 9 and 28 % of the soldier ten times over: the page fetches what comes over a network before it opens it.
+    const BEGINS: [f32; 11] = [0.0, 12.0, 15.0, 38.0, 53.0, 54.0, 70.0, 70.0, 86.0, 93.0, 100.0];
 
     /// Where some stages begin and end, in percent of all work.
     fn span(stages: RangeInclusive<Self>) -> [f32; 2] {
