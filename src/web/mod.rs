@@ -21,7 +21,6 @@ mod playing;
 mod run;
 mod saving;
 mod shared;
-mod slice;
 mod state;
 mod timings;
 mod viewer;

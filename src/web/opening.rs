@@ -35,12 +35,8 @@ impl Viewer {
     /// slices between which the page goes on; what was open stays until then. Resolves with the state, which has a failure in its `error`.
     /// Rejects when something else was opened meanwhile, the person gave it up, a file could not be read, or the viewer was freed.
     pub fn open(&self, files: Array) -> Promise {
-        let only_joins = records_of(&files).is_ok_and(|records| {
-            let kinds = records.iter().map(|record| File::new(&record.name, Vec::new()).kind());
-            kinds
-                .into_iter()
-                .all(|kind| matches!(kind, Some(FileKind::Picture | FileKind::Unread)))
-        });
+        let joins = |record: &Record| matches!(record.kind(), Some(FileKind::Picture | FileKind::Unread));
+        let only_joins = records_of(&files).is_ok_and(|records| records.iter().all(joins));
         self.shared.opened(files, !only_joins, |session, files| {
             session.apply(FileCommand::Add(files));
         })
@@ -145,7 +141,7 @@ impl Shared {
             let mut told_secs = now_secs();
             while !shared.is_silenced() && shared.session.borrow().is_opening() {
                 next_task().await;
-                shared.slice.begin();
+                shared.timings.begin_slice();
                 let (changes, began_anew) = {
                     let session = &mut *shared.session.borrow_mut();
                     let beginnings = session.beginnings();
@@ -159,13 +155,20 @@ impl Shared {
                 }
                 if changes != Changes::default() || !shared.session.borrow().is_opening() {
                     shared.tell_of_changes();
-                } else if now_secs() - told_secs > TOLD_EVERY_SECS {
-                    told_secs = now_secs();
-                    shared.request_repaint();
+                } else {
+                    shared.tell_progress(&mut told_secs);
                 }
             }
             shared.is_opening.set(false);
         });
+    }
+
+    /// Draws how far it is, once the last time is long enough ago.
+    fn tell_progress(&self, told_secs: &mut f64) {
+        if now_secs() - *told_secs > TOLD_EVERY_SECS {
+            *told_secs = now_secs();
+            self.request_repaint();
+        }
     }
 
     /// The session began anew: so does the window.
@@ -205,10 +208,7 @@ impl Shared {
                 append(&mut bytes, &piece);
                 self.check_not_overtaken(openings)?;
                 self.session.borrow_mut().note_fetched(piece.length() as usize);
-                if now_secs() - told_secs > TOLD_EVERY_SECS {
-                    told_secs = now_secs();
-                    self.request_repaint();
-                }
+                self.tell_progress(&mut told_secs);
             }
             files.push(File::new(&record.name, bytes));
         }
@@ -232,6 +232,10 @@ impl Record {
         self.name.rsplit('/').next().unwrap_or(&self.name)
     }
 
+    fn kind(&self) -> Option<FileKind> {
+        File::new(&self.name, []).kind()
+    }
+
     fn size(&self) -> usize {
         match &self.content {
             Content::Bytes(bytes) => bytes.length() as usize,
@@ -241,9 +245,8 @@ impl Record {
 
     /// Whether a file that begins so is refused, whatever follows: it is of another format. The beginning says all that is told of it.
     fn is_refused_by(&self, beginning: &[u8]) -> bool {
-        let kind = File::new(&self.name, Vec::new()).kind();
         beginning.len() == HEAD_LEN
-            && matches!(kind, None | Some(FileKind::Model))
+            && matches!(self.kind(), None | Some(FileKind::Model))
             && !import::begins_like_gltf(beginning)
             && format::begins_like_another(beginning)
     }

@@ -11,7 +11,6 @@ use super::canvas::{ContextWatch, lose_context};
 use super::contrast::ContrastWatch;
 use super::mirror::{self, MirrorLink};
 use super::picture::AppSlot;
-use super::slice::Slice;
 use super::timings::Timings;
 use super::{object, state};
 use crate::session::{ExportedFile, Session};
@@ -29,9 +28,7 @@ pub(super) struct Shared {
     listener: RefCell<Option<Function>>,
     /// Other names were kept for a model elsewhere; the next frame reads them.
     pub(super) names_changed: Cell<bool>,
-    /// The slice of an opening.
-    pub(super) slice: Slice,
-    /// Of the last opening.
+    /// Of the last opening, and its slices.
     pub(super) timings: Rc<Timings>,
     /// Whether tasks go on with an opening.
     pub(super) is_opening: Cell<bool>,
@@ -73,11 +70,9 @@ impl Running {
 
 impl Shared {
     pub(super) fn new(mut session: Session, listener: Function) -> Self {
-        let slice = Slice::default();
-        let timings = Rc::new(Timings::default());
-        slice.give_to(&mut session, &timings);
+        let timings = Rc::<Timings>::default();
+        timings.give_to(&mut session);
         Self {
-            slice,
             timings,
             is_opening: Cell::default(),
             mirror: MirrorLink::default(),

@@ -25,7 +25,7 @@ pub(super) struct State<'a> {
     opening: Option<Opening<'a>>,
     /// Milliseconds of each stage of the last opening.
     timings: BTreeMap<&'static str, f64>,
-    textures: Textures<'a>,
+    textures: &'a Checklist,
     blend: Option<Blend>,
     time_secs: f32,
     playing: bool,
@@ -64,14 +64,6 @@ struct Model<'a> {
     opening: Option<u64>,
     #[serde(flatten)]
     summary: summary::Model<'a>,
-}
-
-/// How many maps the materials name, and the names that no file fits.
-#[derive(Serialize)]
-struct Textures<'a> {
-    named: usize,
-    missing: &'a [String],
-    unreadable: &'a [String],
 }
 
 /// The clip that is blended into the one on show, and its weight in the pose.
@@ -174,11 +166,6 @@ impl<'a> State<'a> {
             crowd,
             selection,
         } = session.view_state();
-        let Checklist {
-            named,
-            missing,
-            unreadable,
-        } = session.maps().checklist();
         Self {
             backend,
             adapter,
@@ -190,11 +177,7 @@ impl<'a> State<'a> {
                 percent: progress.percent(),
             }),
             timings,
-            textures: Textures {
-                named: *named,
-                missing,
-                unreadable,
-            },
+            textures: session.maps().checklist(),
             blend: playback.blend.clone().map(|(clip, share)| Blend {
                 clip: Some(clip),
                 share,

@@ -1,29 +1,51 @@
-//! How long the stages of the last opening took, for scripts, and as marks in the browser's own timeline.
+//! The page's clock for openings: when a slice is over, and how long the stages of the last one took, for scripts, and as marks in the
+//! browser's own timeline.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 use super::now_secs;
-use crate::slices::Stage;
+use crate::session::Session;
+use crate::slices::{Slices, Stage};
+
+/// How long one slice of an opening is: half a frame of most displays.
+const SLICE_SECS: f64 = 0.008;
 
 /// What comes behind the stages of the core: a frame draws the model, and that is the end.
 const DRAWING: &str = "drawing";
 const DRAWN: &str = "drawn";
 
-/// Names of stages and when each began, in seconds of the page's clock.
+/// In seconds of the page's clock.
 #[derive(Debug, Default)]
-pub(super) struct Timings(RefCell<Vec<(&'static str, f64)>>);
+pub(super) struct Timings {
+    /// Names of stages and when each began.
+    entered: RefCell<Vec<(&'static str, f64)>>,
+    /// When the slice that runs now is over.
+    slice_ends: Cell<f64>,
+}
 
 impl Timings {
+    /// Has a session open in slices of the page.
+    pub(super) fn give_to(self: &Rc<Self>, session: &mut Session) {
+        let (clock, told) = (Rc::clone(self), Rc::clone(self));
+        let is_over = move || now_secs() >= clock.slice_ends.get();
+        session.open_in(&Slices::told(is_over, move |stage| told.enter(stage.as_str())));
+    }
+
+    pub(super) fn begin_slice(&self) {
+        self.slice_ends.set(now_secs() + SLICE_SECS);
+    }
+
     /// Begins with files that come from a disk or a server.
     pub(super) fn begin(&self) {
-        self.0.borrow_mut().clear();
+        self.entered.borrow_mut().clear();
         self.enter(Stage::Fetching.as_str());
     }
 
     /// A stage begins, and the one before it ends.
     pub(super) fn enter(&self, stage: &'static str) {
-        let mut entered = self.0.borrow_mut();
+        let mut entered = self.entered.borrow_mut();
         if entered.last().is_some_and(|&(last, _)| last == DRAWN) {
             entered.clear();
         }
@@ -41,7 +63,7 @@ impl Timings {
 
     /// A frame has been drawn.
     pub(super) fn note_drawn(&self) {
-        if self.0.borrow().last().is_some_and(|&(stage, _)| stage == DRAWING) {
+        if self.entered.borrow().last().is_some_and(|&(stage, _)| stage == DRAWING) {
             self.enter(DRAWN);
         }
     }
@@ -49,7 +71,7 @@ impl Timings {
     /// Milliseconds of each stage that has ended.
     pub(super) fn millis(&self) -> BTreeMap<&'static str, f64> {
         let mut millis = BTreeMap::new();
-        for two in self.0.borrow().windows(2) {
+        for two in self.entered.borrow().windows(2) {
             *millis.entry(two[0].0).or_default() += (two[1].1 - two[0].1) * 1e3;
         }
         millis

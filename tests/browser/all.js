@@ -14,6 +14,7 @@ import "./moving.js";
 import "./crowd.js";
 import "./fingers.js";
 import "./several.js";
+import "./slices.js";
 import "./lasting.js";
 import "./visits.js";
 import "./programs.js";

@@ -2,34 +2,10 @@
 
 import assert from "node:assert/strict";
 import { existsSync, statSync } from "node:fs";
+import { loseGpu, watchGpu } from "./away.js";
 import { BACKEND, CENTRE, FOLDER, SAMPLE, SHARED, atRest, call, dropAndWait, keep, settled, state, test, until, withViewer } from "./harness.js";
 import { held } from "./held.js";
 import { coloursOnScreen, difference, picture } from "./picture.js";
-
-/** Keeps what the page asks the browser for, so that a test can take it away again. */
-function watchGpu(page) {
-  return page.addInitScript(() => {
-    if (globalThis.GPUAdapter) {
-      const requestDevice = GPUAdapter.prototype.requestDevice;
-      GPUAdapter.prototype.requestDevice = async function (...args) {
-        globalThis.device = await requestDevice.apply(this, args);
-        return globalThis.device;
-      };
-    }
-  });
-}
-
-/** Takes the GPU away from the running viewer. */
-function loseGpu(page) {
-  return page.evaluate((backend) => {
-    globalThis.lostCanvas = document.querySelector("#view canvas");
-    if (backend === "webgpu") {
-      globalThis.device.destroy();
-    } else {
-      globalThis.lostCanvas.getContext("webgl2").getExtension("WEBGL_lose_context").loseContext();
-    }
-  }, BACKEND);
-}
 
 test("after the GPU was lost the model, the time and the camera are there again", {
   draws: true,

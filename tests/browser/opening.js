@@ -5,7 +5,7 @@ import { mkdtempSync, mkdirSync, copyFileSync, readFileSync, writeFileSync } fro
 import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 import {
-  CENTRE, FIXTURES, LARGE, SAMPLE, SHARED, call, drop, dropAndWait, filesIn, keep, settled, state, test, unless, until,
+  FIXTURES, LARGE, SAMPLE, SHARED, call, drop, dropAndWait, filesIn, keep, settled, state, test, unless, until,
 } from "./harness.js";
 import { assertDrawn, difference, picture } from "./picture.js";
 import { GROUND, click } from "./widgets.js";
@@ -384,49 +384,6 @@ test("programs open files and bytes in every form, also where a file has a metho
     nothing: "nothing.m3d needs its bytes as Uint8Array, ArrayBuffer or Blob",
     nameless: "a file to open is a File or {name, bytes}",
   });
-});
-
-/** The sample with so many times its vertices: it takes a while to read, and shows the same. */
-const large = (times) => {
-  const [, head, vertices, rest] = /^([^]*\*+Vertices\*+\s+)([^]*?)(\s+\*+Triangles[^]*)$/.exec(readFileSync(SAMPLE, "utf8"));
-  return head.replace(/(#Vertices )(\d+)/, (_, label, count) => label + times * count) + Array(times).fill(vertices).join("\n") + rest;
-};
-
-test("while a large file opens the page goes on, tells how far it is, and Esc gives it up", { own: true }, async (page) => {
-  const { folder } = copyOfSample("small.m3d");
-  const path = join(folder, "large.m3d");
-  writeFileSync(path, large(90));
-  await call(page, "pause");
-  await page.evaluate(() => {
-    globalThis.outcome = null;
-    const input = document.createElement("input");
-    input.type = "file";
-    input.id = "large";
-    document.body.append(input);
-  });
-  await page.setInputFiles("#large", path);
-  const begin = () => page.evaluate(() => {
-    globalThis.outcome = null;
-    bindpose.open(document.getElementById("large").files).then((state) => (globalThis.outcome = state.model.name), ({ name }) => (globalThis.outcome = name));
-  });
-  await begin();
-  const chip = page.getByRole("button", { name: "Cancel opening large.m3d" });
-  await chip.waitFor({ state: "attached" });
-  await keep(page, "opening");
-  assert.equal((await state(page)).model.name, "figure.m3d", "what was open stays");
-  await page.evaluate(() => bindpose.seek(0.5));
-  await until(page, (now) => now.timeSecs === 0.5);
-  assert.equal(await page.evaluate(() => globalThis.outcome), null, "and the page takes commands");
-  await page.mouse.click(...CENTRE);
-  await page.keyboard.press("Escape");
-  await page.waitForFunction(() => globalThis.outcome !== null);
-  assert.equal(await page.evaluate(() => globalThis.outcome), "AbortError");
-  assert.equal((await state(page)).model.name, "figure.m3d");
-  await chip.waitFor({ state: "detached" });
-
-  await begin();
-  await page.waitForFunction(() => globalThis.outcome !== null);
-  assert.equal(await page.evaluate(() => globalThis.outcome), "large.m3d");
 });
 
 test("what cannot be read or is too much is told in words, and a file of another kind is not read to its end", {}, async (page) => {

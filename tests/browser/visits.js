@@ -1,6 +1,7 @@
 // A visit: what the page says at the first one, what is kept for the next, and what goes on while nobody looks.
 
 import assert from "node:assert/strict";
+import { hide } from "./away.js";
 import { BACKEND, SAMPLE, call, dropAndWait, running, settled, state, test, until, withViewer } from "./harness.js";
 
 /** A button by the start of its name. */
@@ -14,15 +15,6 @@ async function press(page, start) {
 
 const greeting = (page) => control(page, "Close the welcome").count();
 const kept = (page) => page.evaluate(() => JSON.parse(localStorage.getItem("bindpose.kept")));
-
-/** A page that says that its tab is hidden, from now on or from its beginning: browsers let timers wait a second there, and show no frame. */
-const hide = () => {
-  Object.defineProperty(document, "hidden", { configurable: true, get: () => true });
-  const later = globalThis.setTimeout.bind(globalThis);
-  globalThis.setTimeout = (work, ms, ...values) => later(work, Math.max(ms ?? 0, 1000), ...values);
-  globalThis.requestAnimationFrame = () => 0;
-  document.dispatchEvent(new Event("visibilitychange"));
-};
 
 test("a page in a hidden tab comes to its start and opens the model", { bare: true, prepare: (page) => page.addInitScript(hide) }, async (page) => {
   await page.waitForFunction(() => globalThis.bindpose?.state().model, null, { polling: 200, timeout: 60_000 });

@@ -97,7 +97,7 @@ fn no_progress_ever_goes_back_whatever_is_opened() {
         stages(&told)
     };
     // Each archive is a part of the unpacking.
-    let hero = mapped("hero.m3d", "a.png", "b.png");
+    let hero = moving("hero.m3d");
     let archives = [("x.zip", &hero), ("y.zip", &picture("a.png", [255, 0, 0, 255]))];
     let archives =
         archives.map(|(name, file)| zipped(name, CompressionMethod::Stored, &[(&*file.path, &file.bytes[..])]));
