@@ -223,7 +223,7 @@ async function measure(model) {
   const addresses = await onPage((page) =>
     page.evaluate(() => {
       const loaded = performance.getEntriesByType("resource").map(({ name }) => name);
-      return [loaded.find((name) => /\/pkg\/[^/]*\.js$/.test(name)), loaded.find((name) => name.endsWith(".wasm"))];
+      return [loaded.find((name) => /\/pkg\/.*\.js$/.test(name)), loaded.find((name) => name.endsWith(".wasm"))];
     }),
   );
 
