@@ -111,7 +111,7 @@ pub(super) fn carry_out(ask: Ask, ui: &Ui, cx: &mut Cx<'_, UiState>) {
     match ask {
         Ask::Command(command) => cx.push(command),
         Ask::Help => cx.state.help_open = !cx.state.help_open,
-        Ask::Close => escape(cx),
+        Ask::Close => escape(ui, cx),
         Ask::NameBone => cx.state.skeleton.rename_selected(ui, cx.session),
         Ask::OpenFiles => cx.state.requests.push(Request::PickFiles),
         Ask::ReadAgain => cx.state.read_again(),
@@ -133,8 +133,10 @@ enum OnTop {
 }
 
 /// What lies on top, apart from popovers.
-fn on_top(session: &Session, state: &UiState) -> Option<OnTop> {
-    if session.being_opened().is_some() {
+fn on_top(ui: &Ui, session: &Session, state: &UiState) -> Option<OnTop> {
+    // A key of the first pass that has the opening in it can have been pressed before the file came: it is meant for what was seen then.
+    let now_secs = ui.input(|input| input.time);
+    if state.opening_since.is_some_and(|(_, since_secs)| since_secs < now_secs) {
         Some(OnTop::Opening)
     } else if session.error().is_some() {
         Some(OnTop::Error)
@@ -150,8 +152,8 @@ fn on_top(session: &Session, state: &UiState) -> Option<OnTop> {
 }
 
 /// Closes or clears what lies on top.
-fn escape(cx: &mut Cx<'_, UiState>) {
-    match on_top(cx.session, cx.state) {
+fn escape(ui: &Ui, cx: &mut Cx<'_, UiState>) {
+    match on_top(ui, cx.session, cx.state) {
         Some(OnTop::Opening) => cx.push(FileCommand::CancelOpening),
         Some(OnTop::Error) => cx.push(FileCommand::DismissError),
         Some(OnTop::Help) => cx.state.help_open = false,
@@ -163,8 +165,8 @@ fn escape(cx: &mut Cx<'_, UiState>) {
 }
 
 /// Whether Esc would close a panel or clear a selection.
-pub(super) fn escape_shuts_panel(session: &Session, state: &UiState) -> bool {
-    on_top(session, state).is_some()
+pub(super) fn escape_shuts_panel(ui: &Ui, session: &Session, state: &UiState) -> bool {
+    on_top(ui, session, state).is_some()
 }
 
 /// Clears what was selected last: the vertex before the joint before the submesh.

@@ -140,7 +140,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     // Shortcuts come last, since a focused control takes its keys first. Keys typed into a field are not shortcuts, whether the field
     // had the focus when the pass began or has it now.
     let typing = cx.state.keyboard.is_typing(ui.ctx()) || cx.state.skeleton.awaits_field();
-    let escape_shuts = popover_open || (!typed && !typing && keys::escape_shuts_panel(cx.session, cx.state));
+    let escape_shuts = popover_open || (!typed && !typing && keys::escape_shuts_panel(ui, cx.session, cx.state));
     cx.state.focus.go_to_ends(ui.ctx());
     if !typed && !typing {
         keys::read(ui, cx, popover_open);

@@ -333,13 +333,12 @@ export async function drop(page, paths, { look, shift = false, at: [x, y] = CENT
 /** Drops and waits for the `load` or `error` that follows; gives its type and the state after it. */
 export async function dropAndWait(page, paths, options) {
   await page.evaluate(() => {
-    globalThis.outcome = new Promise((done) => {
-      for (const type of ["load", "error"]) bindpose.addEventListener(type, () => done(type), { once: true });
-    });
+    globalThis.outcome = null;
+    for (const type of ["load", "error"]) bindpose.addEventListener(type, () => (globalThis.outcome ??= type), { once: true });
   });
   await drop(page, paths, options);
-  const outcome = await page.evaluate(() => globalThis.outcome);
-  return { outcome, ...(await state(page)) };
+  const outcome = await page.waitForFunction(() => globalThis.outcome, null, { polling: 30 });
+  return { outcome: await outcome.jsonValue(), ...(await state(page)) };
 }
 
 /** Keeps a screenshot for people to look at, when `KEEP` asks for them. */

@@ -3,11 +3,12 @@
 use bindpose::anim::{GhostPlan, SkinView};
 use bindpose::model::JointIndex;
 use bindpose::session::{CameraCommand, Command, FileCommand, JointCommand, LookCommand, PlayCommand, SubmeshCommand};
+use bindpose::slices::Slices;
 use egui::{Key, Modifiers, vec2};
 
 use crate::layout::shown_panel;
 use crate::models::{broken, moving, still};
-use crate::page::{WIDE, Window, phone, touch_window, window};
+use crate::page::{WIDE, Window, key_event, phone, touch_window, window};
 
 /// Each mode: what turns it on, and its chip.
 fn modes() -> Vec<(Vec<Command>, &'static str)> {
@@ -150,4 +151,25 @@ fn trails_are_counted_and_all_end_at_once() {
     }
     window.click("Leave trails 2");
     assert!(window.session().look().trails.is_empty());
+}
+
+#[test]
+fn esc_gives_up_what_is_opened_but_not_what_came_after_the_key() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    window.apply(JointCommand::Select(Some(JointIndex(1))));
+    let session = &mut window.harness.state_mut().session;
+    session.open_in(&Slices::new(|| true));
+    session.apply(FileCommand::Add(vec![moving("b.m3d")]));
+    // The key waited for a frame while the file was dropped.
+    window.frame([true, false].map(|pressed| key_event(Key::Escape, pressed)));
+    assert!(window.session().being_opened().is_some(), "it goes on");
+    assert_eq!(
+        window.session().joints().selected(),
+        None,
+        "what was on top when it was pressed"
+    );
+
+    window.press(Modifiers::NONE, Key::Escape);
+    assert_eq!(window.session().being_opened(), None, "it is given up");
+    assert_eq!(window.session().open_model().expect("it stays").file.path, "a.m3d");
 }
