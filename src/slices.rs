@@ -12,7 +12,7 @@ use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
 
 /// Items of a short loop between two places at which it can stop: less than a millisecond of work.
-pub(crate) const BLOCK: usize = 2048;
+const BLOCK: usize = 2048;
 
 /// When work has to stop for a while, and how far it is.
 #[derive(Clone, Default)]
@@ -62,6 +62,12 @@ pub enum Stage {
     Decoding,
     /// It is found out what the books' programs make of the file.
     Judging,
+    /// A model is changed before it is written. With what follows, this is a work of its own.
+    Editing = 11,
+    /// Its pictures and its file are made.
+    Writing,
+    /// They are packed into an archive.
+    Packing,
 }
 
 /// How far work is.
@@ -91,6 +97,9 @@ impl Stage {
             Self::Measuring => "measuring",
             Self::Decoding => "decoding",
             Self::Judging => "judging",
+            Self::Editing => "editing",
+            Self::Writing => "writing",
+            Self::Packing => "packing",
         }
     }
 
@@ -98,8 +107,10 @@ impl Stage {
     /// triangles fifty times over (168 MB, from a disk) twice: fetching took 26 and 29 %, reading 26 and 17, building 11 and 16, checking 8 and
     /// 12, measuring 20 and 16, judging 9. Natively its maps were decoded in 17 % of the soldier's opening. Others differ: a `.glb` of
     /// 1.4 million vertices is read in no time and checked in 57 to 65 %, small ones with large pictures take 90 % to decode. The page fetches
-    /// what comes over a network before it opens it.
-    const BEGINS: [f32; 11] = [0.0, 25.0, 27.0, 46.0, 58.0, 59.0, 69.0, 69.0, 85.0, 92.0, 100.0];
+    /// what comes over a network before it opens it. After its end stands what writes a model, whose parts were not measured.
+    const BEGINS: [f32; 15] = [
+        0.0, 25.0, 27.0, 46.0, 58.0, 59.0, 69.0, 69.0, 85.0, 92.0, 100.0, 0.0, 30.0, 90.0, 100.0,
+    ];
 
     /// Where some stages begin and end, in percent of all work.
     fn span(stages: RangeInclusive<Self>) -> [f32; 2] {
@@ -217,6 +228,15 @@ impl Slices {
             self.pause().await;
             work(first);
             items.by_ref().take(BLOCK - 1).for_each(&mut work);
+        }
+    }
+
+    /// A [`pause`](Self::pause) before each block of items, by the number of the next item: for loops that end early.
+    pub fn pause_before(&self, item: usize) -> Pause {
+        if item.is_multiple_of(BLOCK) {
+            self.pause()
+        } else {
+            Pause { is_due: false }
         }
     }
 

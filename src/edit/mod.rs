@@ -18,9 +18,8 @@ pub use edited::{Change, Edited};
 pub use error::EditError;
 pub use for_book::too_large_for_book;
 
-use reduce::Reducing;
-
 use crate::model::{Front, Handedness, JointNames, Model, UpAxis};
+use crate::slices::{Slices, Stage, at_once};
 
 /// What to change. The default changes nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -78,138 +77,76 @@ impl Edits {
 /// # Errors
 /// When an edit names what is not there or cannot be made; see [`EditError`].
 pub fn apply(model: Model, names: &JointNames, edits: &Edits) -> Result<Edited, EditError> {
-    let mut job = EditJob::new(model, names, edits.clone());
-    while job.step()? {}
-    Ok(job.finish())
+    at_once(apply_in(model, names, edits, &Slices::ENDLESS))
 }
 
-/// All edits of [`apply`], in steps: it can run beside other work, and be dropped between two of them.
-#[derive(Clone, Debug)]
-pub struct EditJob {
-    edited: Edited,
-    edits: Edits,
-    next: Stage,
+/// The same, in slices.
+///
+/// # Errors
+/// As [`apply`].
+pub async fn apply_in(model: Model, names: &JointNames, edits: &Edits, slices: &Slices) -> Result<Edited, EditError> {
+    let mut edited = Edited {
+        model,
+        names: names.clone(),
+        changes: Vec::new(),
+    };
+    // Each clip whose keys are thinned is a part, and so are all edits before it and all after it.
+    let thinned = edits.reduce.map_or(0, |_| edited.model.clips.len());
+    slices.pause_at(Stage::Editing, 0, 2 + thinned).await;
+    edit_clips(&mut edited, edits)?;
+    if let Some(tolerance) = edits.reduce {
+        reduce::reduce(&mut edited, tolerance, slices).await?;
+    }
+    slices.pause_at(Stage::Editing, 1 + thinned, 2 + thinned).await;
+    edit_space_and_names(&mut edited, edits)?;
+    Ok(edited)
 }
 
-#[derive(Clone, Debug)]
-enum Stage {
-    Clips,
-    Reduce(Reducing),
-    Space,
-    Ended,
+/// All edits that come before the thinning of keys.
+fn edit_clips(edited: &mut Edited, edits: &Edits) -> Result<(), EditError> {
+    if let Some(clips) = &edits.clips {
+        choose::choose_clips(edited, clips)?;
+    }
+    if edits.fix {
+        fix::fix(edited);
+    }
+    if let Some(range_secs) = edits.range_secs {
+        range::cut(edited, range_secs)?;
+    }
+    if let Some(secs) = edits.close_loop_secs {
+        close_loop::close_loops(edited, secs)?;
+    }
+    if edits.for_book {
+        for_book::check_size(edited)?;
+    }
+    Ok(())
 }
 
-impl EditJob {
-    /// A job that has done nothing yet.
-    pub fn new(model: Model, names: &JointNames, edits: Edits) -> Self {
-        let edited = Edited {
-            model,
-            names: names.clone(),
-            changes: Vec::new(),
-        };
-        Self {
-            edited,
-            edits,
-            next: Stage::Clips,
-        }
+/// All edits that come after it.
+fn edit_space_and_names(edited: &mut Edited, edits: &Edits) -> Result<(), EditError> {
+    let asked = if edits.for_book {
+        edits.clone().in_space_of_the_books(&edited.model)
+    } else {
+        edits.clone()
+    };
+    let to = space::Space {
+        handedness: asked.handedness,
+        up_axis: asked.up_axis,
+        front: asked.front,
+    };
+    space::turn(edited, to);
+    let scale = edits
+        .scale
+        .or_else(|| for_book::scale(&edited.model).filter(|_| edits.for_book));
+    if let Some(factor) = scale {
+        space::scale(edited, factor)?;
     }
-
-    /// What has been edited, up to the last step.
-    pub fn finish(self) -> Edited {
-        self.edited
+    rename::rename_clips(edited, &edits.clip_names)?;
+    rename::rename_bones(edited, &edits.bone_names)?;
+    if edits.for_book {
+        for_book::shape(edited)?;
+    } else if edits.keys_for_all {
+        for_book::give_keys(edited, false)?;
     }
-
-    /// Steps that are done, and all of them. One that thins keys may take several calls.
-    pub fn progress(&self) -> [usize; 2] {
-        let thinned = if self.edits.reduce.is_some() {
-            self.edited.model.clips.len()
-        } else {
-            0
-        };
-        let done = match &self.next {
-            Stage::Clips => 0,
-            Stage::Reduce(reducing) => 1 + reducing.done(),
-            Stage::Space => 1 + thinned,
-            Stage::Ended => 2 + thinned,
-        };
-        [done, 2 + thinned]
-    }
-
-    /// Does one step. Whether there is more to do.
-    ///
-    /// # Errors
-    /// As [`apply`] has them.
-    pub fn step(&mut self) -> Result<bool, EditError> {
-        match &mut self.next {
-            Stage::Clips => {
-                self.edit_clips()?;
-                self.next = match self.edits.reduce {
-                    Some(tolerance) => Stage::Reduce(Reducing::new(&self.edited, tolerance)?),
-                    None => Stage::Space,
-                };
-            }
-            Stage::Reduce(reducing) => {
-                if !reducing.step(&mut self.edited) {
-                    self.next = Stage::Space;
-                }
-            }
-            Stage::Space => {
-                self.edit_space_and_names()?;
-                self.next = Stage::Ended;
-            }
-            Stage::Ended => {}
-        }
-        Ok(!matches!(self.next, Stage::Ended))
-    }
-
-    /// All edits that come before the thinning of keys.
-    fn edit_clips(&mut self) -> Result<(), EditError> {
-        let Self { edited, edits, .. } = self;
-        if let Some(clips) = &edits.clips {
-            choose::choose_clips(edited, clips)?;
-        }
-        if edits.fix {
-            fix::fix(edited);
-        }
-        if let Some(range_secs) = edits.range_secs {
-            range::cut(edited, range_secs)?;
-        }
-        if let Some(secs) = edits.close_loop_secs {
-            close_loop::close_loops(edited, secs)?;
-        }
-        if edits.for_book {
-            for_book::check_size(edited)?;
-        }
-        Ok(())
-    }
-
-    /// All edits that come after it.
-    fn edit_space_and_names(&mut self) -> Result<(), EditError> {
-        let Self { edited, edits, .. } = self;
-        let asked = if edits.for_book {
-            edits.clone().in_space_of_the_books(&edited.model)
-        } else {
-            edits.clone()
-        };
-        let to = space::Space {
-            handedness: asked.handedness,
-            up_axis: asked.up_axis,
-            front: asked.front,
-        };
-        space::turn(edited, to);
-        let scale = edits
-            .scale
-            .or_else(|| for_book::scale(&edited.model).filter(|_| edits.for_book));
-        if let Some(factor) = scale {
-            space::scale(edited, factor)?;
-        }
-        rename::rename_clips(edited, &edits.clip_names)?;
-        rename::rename_bones(edited, &edits.bone_names)?;
-        if edits.for_book {
-            for_book::shape(edited)?;
-        } else if edits.keys_for_all {
-            for_book::give_keys(edited, false)?;
-        }
-        Ok(())
-    }
+    Ok(())
 }

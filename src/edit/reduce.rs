@@ -10,6 +10,7 @@ use super::edited::{Change, Edited, with_tracks};
 use super::error::EditError;
 use crate::anim::{CompiledClip, PoseBuffers, straight};
 use crate::model::{Aabb, Channel, ChannelValue, Clip, LocalJoint, Model, Skeleton, Track, Way};
+use crate::slices::{Slices, Stage};
 
 /// Errors of a chain's joints rarely point the same way, so shares begin greater than what is safe.
 const FIRST_SHARE: f32 = 8.0;
@@ -28,76 +29,45 @@ const MOST_STEP: usize = 32;
 /// together, so that beside huge numbers those of one chain are rounded by what is left out of another.
 const MOST_ROUNDS: usize = 8;
 
-/// The thinning of all clips, in steps, so that no joint and no tip is off by more than a tolerance of the bind pose's diagonal at any
-/// old key, or between them.
-#[derive(Clone, Debug)]
-pub(super) struct Reducing {
-    diagonal: f32,
-    bound: f32,
-    tips: Vec<f32>,
-    done: usize,
-    thinning: Option<Thinning>,
-}
-
-impl Reducing {
-    pub(super) fn new(edited: &Edited, tolerance: f32) -> Result<Self, EditError> {
-        if !(tolerance > 0.0 && tolerance <= MOST_TOLERANCE) {
-            return Err(EditError::Refused(format!(
-                "The tolerance of reduced keys cannot be {tolerance}: it is a part of the model's size, above 0 and at most {MOST_TOLERANCE}."
-            )));
+/// Thins all clips, so that no joint and no tip is off by more than a tolerance of the bind pose's diagonal at any old key, or between them.
+pub(super) async fn reduce(edited: &mut Edited, tolerance: f32, slices: &Slices) -> Result<(), EditError> {
+    if !(tolerance > 0.0 && tolerance <= MOST_TOLERANCE) {
+        return Err(EditError::Refused(format!(
+            "The tolerance of reduced keys cannot be {tolerance}: it is a part of the model's size, above 0 and at most {MOST_TOLERANCE}."
+        )));
+    }
+    let Edited { model, changes, .. } = edited;
+    let diagonal = diagonal(model);
+    let bound = tolerance * diagonal / BETWEEN;
+    let tips = tip_distances(model);
+    let count = model.clips.len();
+    for (index, old) in model.clips.iter_mut().enumerate() {
+        slices.pause_at(Stage::Editing, 1 + index, 2 + count).await;
+        let (new, reached) = thinned_clip(&model.skeleton, &tips, old, bound, slices).await;
+        if new.key_count == old.key_count && new.tracks == old.tracks {
+            continue;
         }
-        let diagonal = diagonal(&edited.model);
-        Ok(Self {
-            diagonal,
-            bound: tolerance * diagonal / BETWEEN,
-            tips: tip_distances(&edited.model),
-            done: 0,
-            thinning: None,
-        })
-    }
-
-    pub(super) fn done(&self) -> usize {
-        self.done
-    }
-
-    /// Thins a clip once. Whether there is more to do.
-    pub(super) fn step(&mut self, edited: &mut Edited) -> bool {
-        let Some(old) = edited.model.clips.get(self.done) else {
-            return false;
+        let fraction = if diagonal > 0.0 {
+            BETWEEN * reached / diagonal
+        } else {
+            0.0
         };
-        let skeleton = &edited.model.skeleton;
-        let mut thinning = match self.thinning.take() {
-            Some(thinning) => thinning,
-            None => Thinning::new(skeleton, &self.tips, old, self.bound),
+        // Where one channel keeps a time that another does without, the track has its key.
+        let in_channels = |clip: &Clip| clip.tracks.iter().map(Track::channel_key_count).sum();
+        let (keys, [kept, of]) = match new.key_count == old.key_count {
+            true => ("keys in its channels", [in_channels(&new), in_channels(old)]),
+            false => ("keys", [new.key_count, old.key_count]),
         };
-        let Some((new, reached)) = thinning.round(skeleton, &self.tips, old, self.bound) else {
-            self.thinning = Some(thinning);
-            return true;
-        };
-        self.done += 1;
-        if new.key_count != old.key_count || new.tracks != old.tracks {
-            let fraction = if self.diagonal > 0.0 {
-                BETWEEN * reached / self.diagonal
-            } else {
-                0.0
-            };
-            // Where one channel keeps a time that another does without, the track has its key.
-            let in_channels = |clip: &Clip| clip.tracks.iter().map(Track::channel_key_count).sum();
-            let (keys, [kept, of]) = match new.key_count == old.key_count {
-                true => ("keys in its channels", [in_channels(&new), in_channels(old)]),
-                false => ("keys", [new.key_count, old.key_count]),
-            };
-            edited.changes.push(Change::new(
-                "keys-reduced",
-                format!(
-                    "\"{}\" has {kept} {keys} instead of {of}; no joint or tip is off by more than {fraction:.2e} of the model's size.",
-                    new.name
-                ),
-            ));
-            edited.model.clips[self.done - 1] = new;
-        }
-        true
+        changes.push(Change::new(
+            "keys-reduced",
+            format!(
+                "\"{}\" has {kept} {keys} instead of {of}; no joint or tip is off by more than {fraction:.2e} of the model's size.",
+                new.name
+            ),
+        ));
+        *old = new;
     }
+    Ok(())
 }
 
 /// Of the bind pose: its vertices, or its joints where there are none.
@@ -130,54 +100,37 @@ fn tip_distances(model: &Model) -> Vec<f32> {
     tips
 }
 
-/// The thinning of one clip to as few keys as the bound lets it have.
-#[derive(Clone, Debug)]
-struct Thinning {
-    limits: Limits,
-    shares: Vec<f32>,
-    rounds: usize,
-    /// Where the poses are compared; with splines, those of the new clip come to them in each round.
-    times_secs: Vec<f32>,
-    /// Of the times one in so many is looked at, and all in the last round.
-    step: usize,
-    old: CompiledClip,
-}
-
-impl Thinning {
-    fn new(skeleton: &Skeleton, tips: &[f32], clip: &Clip, bound: f32) -> Self {
-        let times_secs = all_times(&[clip]);
-        Self {
-            limits: Limits::new(skeleton, tips, clip, bound),
-            shares: vec![FIRST_SHARE; clip.tracks.len()],
-            rounds: 0,
-            step: (times_secs.len() / FEW_TIMES).clamp(1, MOST_STEP),
-            times_secs,
-            old: CompiledClip::new(clip),
-        }
-    }
-
-    /// Thins all tracks in their shares. The new clip and how far off it is, once it keeps to the bound; before that, shares become less.
-    fn round(&mut self, skeleton: &Skeleton, tips: &[f32], clip: &Clip, bound: f32) -> Option<(Clip, f32)> {
-        let shares = &mut self.shares;
-        let new = with_tracks(clip, self.limits.thinned(clip, shares));
+/// A clip with as few keys as the bound lets it have, and how far off it is. All tracks are thinned in their shares, which become less until
+/// the clip keeps to the bound.
+async fn thinned_clip(skeleton: &Skeleton, tips: &[f32], clip: &Clip, bound: f32, slices: &Slices) -> (Clip, f32) {
+    let limits = Limits::new(skeleton, tips, clip, bound);
+    let old = CompiledClip::new(clip);
+    // Where the poses are compared; with splines, those of the new clip come to them in each round.
+    let mut times_secs = all_times(&[clip]);
+    // Of the times one in so many is looked at, and all in the last round.
+    let mut step = (times_secs.len() / FEW_TIMES).clamp(1, MOST_STEP);
+    let mut shares = vec![FIRST_SHARE; clip.tracks.len()];
+    let mut rounds = 0;
+    loop {
+        let new = with_tracks(clip, limits.thinned(clip, &shares, slices).await);
         if clip.tracks.iter().any(Track::bends) {
-            self.times_secs = all_times(&[clip, &new]);
+            times_secs = all_times(&[clip, &new]);
         }
-        let times_secs = self.times_secs.iter().copied().step_by(self.step);
-        let off = greatest_errors(skeleton, tips, [&self.old, &CompiledClip::new(&new)], times_secs);
+        let compared_secs = times_secs.iter().copied().step_by(step);
+        let off = greatest_errors(skeleton, tips, [&old, &CompiledClip::new(&new)], compared_secs, slices).await;
         let reached = off.iter().copied().fold(0.0, f32::max);
         let is_over = |joint: usize| off[joint] > bound;
         if !(0..off.len()).any(is_over) || shares.iter().all(|&share| share == 0.0) {
-            return match std::mem::replace(&mut self.step, 1) {
-                1 => Some((new, reached)),
-                _ => None,
-            };
+            if std::mem::replace(&mut step, 1) == 1 {
+                return (new, reached);
+            }
+            continue;
         }
-        self.rounds += 1;
+        rounds += 1;
         let mut tightened = vec![1.0_f32; shares.len()];
         for joint in (0..off.len()).rev() {
             if is_over(joint) {
-                let factor = if self.rounds <= MOST_ROUNDS {
+                let factor = if rounds <= MOST_ROUNDS {
                     (0.8 * bound / off[joint]).clamp(0.1, 0.8)
                 } else {
                     0.0
@@ -189,9 +142,8 @@ impl Thinning {
             }
         }
         for (share, factor) in shares.iter_mut().zip(tightened) {
-            *share *= if self.rounds <= MOST_ROUNDS + 1 { factor } else { 0.0 };
+            *share *= if rounds <= MOST_ROUNDS + 1 { factor } else { 0.0 };
         }
-        None
     }
 }
 
@@ -209,15 +161,17 @@ fn all_times(clips: &[&Clip]) -> Vec<f32> {
 }
 
 /// For each joint how far it, or a tip of it, is off at most.
-fn greatest_errors(
+async fn greatest_errors(
     skeleton: &Skeleton,
     tips: &[f32],
     [old, new]: [&CompiledClip; 2],
     times_secs: impl Iterator<Item = f32>,
+    slices: &Slices,
 ) -> Vec<f32> {
     let mut poses = [PoseBuffers::for_skeleton(skeleton), PoseBuffers::for_skeleton(skeleton)];
     let mut greatest = vec![0.0_f32; skeleton.joint_count()];
     for secs in times_secs {
+        slices.pause().await;
         poses[0].evaluate(skeleton, old, secs);
         poses[1].evaluate(skeleton, new, secs);
         let joints = poses[0].model.0.iter().zip(&poses[1].model.0);
@@ -276,27 +230,24 @@ impl Limits {
         }
     }
 
-    fn thinned(&self, clip: &Clip, shares: &[f32]) -> Vec<Track> {
-        let tracks = clip.tracks.iter().zip(shares).enumerate();
+    async fn thinned(&self, clip: &Clip, shares: &[f32], slices: &Slices) -> Vec<Track> {
+        let mut tracks = clip.tracks.clone();
+        for (joint, (track, &share)) in tracks.iter_mut().zip(shares).enumerate() {
+            if share > 0.0 {
+                *track = thinned(track, self.reaches[joint], self.bounds[joint] * share, slices).await;
+            }
+        }
         tracks
-            .map(|(joint, (track, &share))| {
-                if share == 0.0 {
-                    return track.clone();
-                }
-                thinned(track, self.reaches[joint], self.bounds[joint] * share)
-            })
-            .collect()
     }
 }
 
 /// A track without the keys that move nothing by more than `bound`. Channels of the same times keep the same ones, so that rows stay rows.
-fn thinned(track: &Track, reach: f32, bound: f32) -> Track {
+async fn thinned(track: &Track, reach: f32, bound: f32, slices: &Slices) -> Track {
     let (translation, rotation, scale) = (track.translation(), track.rotation(), track.scale());
     if track.has_rows() && !track.holds() && !track.bends() {
         let keys: Vec<_> = track.keys().collect();
-        let kept = kept_keys(keys.len(), bound, |ends, key| {
-            off_by(&ends.map(|end| keys[end]), keys[key], reach)
-        });
+        let off = |ends: [usize; 2], key| off_by(&ends.map(|end| keys[end]), keys[key], reach);
+        let kept = kept_keys(keys.len(), bound, off, slices).await;
         return Track::of_channels(
             of_rows(translation, &kept),
             of_rows(rotation, &kept),
@@ -304,9 +255,9 @@ fn thinned(track: &Track, reach: f32, bound: f32) -> Track {
         );
     }
     Track::of_channels(
-        thinned_channel(translation, bound, |a, b| a.distance(b)),
-        thinned_channel(rotation, bound, |a, b| 2.0 * chord(a, b) * reach),
-        thinned_channel(scale, bound, |a, b| (a - b).abs().max_element() * reach),
+        thinned_channel(translation, bound, |a, b| a.distance(b), slices).await,
+        thinned_channel(rotation, bound, |a, b| 2.0 * chord(a, b) * reach, slices).await,
+        thinned_channel(scale, bound, |a, b| (a - b).abs().max_element() * reach, slices).await,
     )
 }
 
@@ -320,48 +271,65 @@ fn of_rows<T: ChannelValue>(channel: &Channel<T>, kept: &[usize]) -> Channel<T> 
 }
 
 /// A channel by itself. `apart` measures how far apart two of its values bring what hangs on the joint.
-fn thinned_channel<T: ChannelValue>(channel: &Channel<T>, bound: f32, apart: impl Fn(T, T) -> f32) -> Channel<T> {
+async fn thinned_channel<T: ChannelValue>(
+    channel: &Channel<T>,
+    bound: f32,
+    apart: impl Fn(T, T) -> f32,
+    slices: &Slices,
+) -> Channel<T> {
     let (times_secs, values) = (channel.times_secs(), channel.values());
     if times_secs.len() <= 2 {
         return channel.clone();
     }
     let last = values.len() - 1;
     let kept = match channel.way() {
-        Way::Straight => kept_keys(values.len(), bound, |[from, to], key| {
-            let part = part_of_way([times_secs[from], times_secs[to]], times_secs[key]);
-            apart(T::between([values[from], values[to]], part), values[key])
-        }),
+        Way::Straight => {
+            let off = |[from, to]: [usize; 2], key: usize| {
+                let part = part_of_way([times_secs[from], times_secs[to]], times_secs[key]);
+                apart(T::between([values[from], values[to]], part), values[key])
+            };
+            kept_keys(values.len(), bound, off, slices).await
+        }
         Way::Held => (1..=last).fold(vec![0], |mut kept, key| {
             if key == last || apart(values[kept[kept.len() - 1]], values[key]) > bound {
                 kept.push(key);
             }
             kept
         }),
-        Way::Spline(slopes) => kept_keys(values.len(), bound, |ends, key| {
-            let longer = channel.with_keys(&ends);
-            let (value, [slope, _]) = (longer.value_at(times_secs[key]), longer.slopes_at(times_secs[key]));
-            // Between two keys the error is a cubic as well, and leaves the hull of its control points nowhere.
-            let [before, after] = [key - 1, key + 1].map(|next| (times_secs[next] - times_secs[key]) / 3.0);
-            let control = |third: f32, own: T| apart(value + slope * third, values[key] + own * third);
-            control(0.0, slope)
-                .max(control(before, slopes[key][0]))
-                .max(control(after, slopes[key][1]))
-        }),
+        Way::Spline(slopes) => {
+            let off = |ends: [usize; 2], key: usize| {
+                let longer = channel.with_keys(&ends);
+                let (value, [slope, _]) = (longer.value_at(times_secs[key]), longer.slopes_at(times_secs[key]));
+                // Between two keys the error is a cubic as well, and leaves the hull of its control points nowhere.
+                let [before, after] = [key - 1, key + 1].map(|next| (times_secs[next] - times_secs[key]) / 3.0);
+                let control = |third: f32, own: T| apart(value + slope * third, values[key] + own * third);
+                control(0.0, slope)
+                    .max(control(before, slopes[key][0]))
+                    .max(control(after, slopes[key][1]))
+            };
+            kept_keys(values.len(), bound, off, slices).await
+        }
     };
     channel.with_keys(&kept)
 }
 
 /// Keys between which no other one is off by more than `bound`; `off` says by how much one is between two. A part that is halved often at
 /// its ends is halved in its middle, so that the time stays near linear.
-fn kept_keys(count: usize, bound: f32, off: impl Fn([usize; 2], usize) -> f32) -> Vec<usize> {
+async fn kept_keys(count: usize, bound: f32, off: impl Fn([usize; 2], usize) -> f32, slices: &Slices) -> Vec<usize> {
     let last = count - 1;
     let mut kept = vec![false; count];
     (kept[0], kept[last]) = (true, true);
     let mut open = vec![(0, last, 0)];
     while let Some((from, to, depth)) = open.pop() {
-        let worst = (from + 1..to)
-            .map(|key| (key, off([from, to], key)))
-            .max_by(|a, b| a.1.total_cmp(&b.1));
+        let mut worst = None;
+        // Of keys that are equally far off it is the last one.
+        let further = |key| {
+            let error = off([from, to], key);
+            if worst.is_none_or(|(_, most): (usize, f32)| error.total_cmp(&most).is_ge()) {
+                worst = Some((key, error));
+            }
+        };
+        slices.for_each(from + 1..to, further).await;
         let Some((worst, error)) = worst else { continue };
         if error <= bound {
             continue;

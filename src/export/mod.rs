@@ -14,8 +14,8 @@ use crate::image::Image;
 use crate::model::{MapSlot, Skeleton};
 
 pub use directions::directions;
-pub use glb::{EncodedMaps, encode_map, glb, glb_losses, glb_with, turned_materials};
-pub use m3d::{Bake, Look, looks, m3d, m3d_losses, m3d_with};
+pub use glb::{glb, glb_in, glb_losses, turned_materials};
+pub use m3d::{Bake, Look, looks, m3d, m3d_in, m3d_losses};
 
 pub use crate::model::one_word;
 
@@ -69,3 +69,6 @@ pub enum ExportError {
 
 /// Decoded pictures by the material and what it uses them for. What is not there is left out of a `.glb`.
 pub type MapImages<'a> = BTreeMap<(usize, MapSlot), &'a Image>;
+
+/// The files that decoded pictures were read from, as far as they are known.
+pub type MapSources = BTreeMap<(usize, MapSlot), bytes::Bytes>;

@@ -56,7 +56,7 @@ pub use label::Section;
 pub use likeness::{begins_like_another, begins_like_model};
 pub use quick::QuickRows;
 pub(crate) use quick::QuickRun;
-pub use write::write;
+pub use write::{write, write_in};
 
 use self::reader::Reader;
 use crate::diagnostic::{Diagnostic, Entry, Fault, Places, Position, codes};

@@ -49,7 +49,6 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Stops for a while if the slice is over. Called between some rows and others.
     /// [`pause`](Self::pause) at every so many rows. `row` counts them.
     #[inline(always)]
     pub(super) async fn pause_every(&self, row: usize) {

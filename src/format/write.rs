@@ -4,6 +4,7 @@ use std::fmt::{self, Write as _};
 
 use super::document::{AnimationClip, Dialect, Document, Keyframe, Material, Reflectance, Vertex};
 use super::label::Section;
+use crate::slices::{Slices, at_once};
 
 /// Writes `document` in its dialect, laid out as the dialect's own exporter does.
 ///
@@ -12,13 +13,18 @@ use super::label::Section;
 /// dialect where the first material contradicts it. Counts are those of the lists; weights and indices are written only when
 /// there are bones.
 pub fn write(document: &Document) -> String {
+    at_once(write_in(document, &Slices::ENDLESS))
+}
+
+/// The same, in slices.
+pub async fn write_in(document: &Document, slices: &Slices) -> String {
     let mut text = String::new();
     let mut writer = Writer {
         text: &mut text,
         imm: document.dialect == Dialect::Imm,
     };
     // Writing to a String does not fail.
-    let written = writer.document(document);
+    let written = writer.document(document, slices).await;
     debug_assert!(written.is_ok());
     text
 }
@@ -29,7 +35,7 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    fn document(&mut self, document: &Document) -> fmt::Result {
+    async fn document(&mut self, document: &Document, slices: &Slices) -> fmt::Result {
         let bones = document.bone_offsets.len();
         let sign = if self.imm { "" } else { "#" };
         self.ruler(Section::Header)?;
@@ -64,17 +70,19 @@ impl Writer<'_> {
             if index > 0 {
                 writeln!(self.text)?;
             }
+            slices.pause_before(index).await;
             self.vertex(vertex, bones > 0)?;
         }
         self.section(Section::Triangles)?;
-        for [a, b, c] in &document.triangles {
+        for (index, [a, b, c]) in document.triangles.iter().enumerate() {
+            slices.pause_before(index).await;
             writeln!(self.text, "{a} {b} {c}")?;
         }
         if bones > 0 || !document.clips.is_empty() {
             self.skeleton(document)?;
             self.section(Section::AnimationClips)?;
             for clip in &document.clips {
-                self.clip(clip)?;
+                self.clip(clip, slices).await?;
             }
         }
         Ok(())
@@ -189,7 +197,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    fn clip(&mut self, clip: &AnimationClip) -> fmt::Result {
+    async fn clip(&mut self, clip: &AnimationClip, slices: &Slices) -> fmt::Result {
         let (bone_label, count_label) = if self.imm { ("B", "#K") } else { ("Bone", "#Keyframes") };
         writeln!(self.text, "AnimationClip {}\n{{", line(&clip.name))?;
         for (bone, animation) in clip.bones.iter().enumerate() {
@@ -198,7 +206,8 @@ impl Writer<'_> {
                 "\t{bone_label}{bone} {count_label}: {}\n\t{{",
                 animation.keyframes.len()
             )?;
-            for keyframe in &animation.keyframes {
+            for (index, keyframe) in animation.keyframes.iter().enumerate() {
+                slices.pause_before(index).await;
                 self.keyframe(keyframe)?;
             }
             writeln!(self.text, "\t}}\n")?;

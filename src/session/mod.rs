@@ -50,7 +50,7 @@ pub use published::verdicts::limits_once_converted;
 pub use published::view_state::{AppearanceState, CameraState, PlaybackState, SelectionState, ViewState};
 pub use write::export::{Export, ExportCommand, ExportOptions, ExportRange};
 pub use write::export_job::{
-    ExportFormat, ExportJob, ExportRefusal, ExportStep, ExportedFile, Progress, ToExport, WrittenModel,
+    ExportFormat, ExportJob, ExportRefusal, ExportedFile, PlannedExport, ToExport, WrittenModel,
 };
 pub use write::export_plan::ExportPlan;
 

@@ -1,5 +1,6 @@
 //! Exporting: the open model as a file of another format, for scripts.
 
+use std::cell::Cell;
 use std::rc::Rc;
 
 use js_sys::{Array, Promise, Uint8Array};
@@ -7,10 +8,12 @@ use wasm_bindgen::prelude::*;
 
 use super::arguments::{checked, given, optional};
 use super::shared::Shared;
+use super::timings::SLICE_SECS;
 use super::viewer::Viewer;
-use super::{field, is_absent, next_task, object, promise};
+use super::{field, is_absent, next_task, now_secs, object, promise};
 use crate::script::{self, Misuse};
-use crate::session::{ExportFormat, ExportJob, ExportOptions, ExportRange, ExportStep, ExportedFile};
+use crate::session::{ExportFormat, ExportJob, ExportOptions, ExportRange, ExportRefusal, ExportedFile};
+use crate::slices::{Sliced, Slices};
 
 #[wasm_bindgen]
 impl Viewer {
@@ -35,17 +38,25 @@ impl Viewer {
     }
 }
 
-/// Does the steps of an export, each in a task of its own.
-async fn written(shared: &Shared, mut job: ExportJob) -> Result<JsValue, JsError> {
+/// Plans and writes a file in slices, each in a task of its own.
+async fn written(shared: &Shared, job: ExportJob) -> Result<JsValue, JsError> {
+    let ends_secs = Rc::new(Cell::new(0.0));
+    let slices = Slices::new({
+        let ends_secs = Rc::clone(&ends_secs);
+        move || now_secs() >= ends_secs.get()
+    });
+    let mut work = Sliced::new(&slices, async move |slices| {
+        job.plan(&slices).await?.write(&slices).await
+    });
     loop {
         next_task().await;
         if shared.is_silenced() {
             return Err(JsError::new("the viewer was freed"));
         }
-        match job.step() {
-            ExportStep::Working(next) => job = *next,
-            ExportStep::Ended(Ok(file)) => return Ok(told(&file)),
-            ExportStep::Ended(Err(refusal)) => return Err(JsError::new(&refusal.to_string())),
+        ends_secs.set(now_secs() + SLICE_SECS);
+        if let Some(written) = work.advance() {
+            let written = written.map_err(|refusal: ExportRefusal| JsError::new(&refusal.to_string()));
+            return Ok(told(&written?));
         }
     }
 }

@@ -9,8 +9,8 @@ use super::now_secs;
 use crate::session::Session;
 use crate::slices::{Slices, Stage};
 
-/// How long one slice of an opening is: half a frame of most displays.
-const SLICE_SECS: f64 = 0.008;
+/// How long one slice of work is: half a frame of most displays.
+pub(super) const SLICE_SECS: f64 = 0.008;
 
 /// What comes behind the stages of the core: a frame draws the model, and that is the end.
 const DRAWING: &str = "drawing";

@@ -7,7 +7,7 @@ use super::stream::{Stream, Trouble};
 use crate::diagnostic::Entry;
 use crate::format::quick;
 use crate::format::{AnimationClip, BoneAnimation, Dialect, Document, Keyframe, Material, Reflectance, Subset, Vertex};
-use crate::slices::{BLOCK, Slices, at_once};
+use crate::slices::{Slices, at_once};
 
 /// What a loader made of a file.
 #[derive(Clone, Debug)]
@@ -145,9 +145,7 @@ impl Loader<'_> {
         list: impl Fn(&mut Document) -> &mut Vec<T>,
     ) {
         for index in 0..count {
-            if (index as usize).is_multiple_of(BLOCK) {
-                self.slices.pause().await;
-            }
+            self.slices.pause_before(index as usize).await;
             self.stream.entry = entry(index);
             let value = read(&mut self.stream, self.document.dialect);
             if self.stream.has_failed() {
@@ -276,9 +274,7 @@ impl Loader<'_> {
                     keyframes.extend_from_slice(track);
                 }
                 for key in keyframes.len() as u32..keys {
-                    if (key as usize).is_multiple_of(BLOCK) {
-                        self.slices.pause().await;
-                    }
+                    self.slices.pause_before(key as usize).await;
                     stream.entry = Entry::Key { clip, bone, key };
                     let quick = stream.quick(quick::keyframe::<false>);
                     let keyframe = quick.map_or_else(|| read_key(stream), |(keyframe, _)| keyframe);

@@ -7,27 +7,28 @@ use serde_json::{Value, json};
 use super::binary::{Binary, Target};
 use super::space::Space;
 use crate::model::{Channel, ChannelValue, Clip, LocalJoint, Model, Track, Way};
+use crate::slices::Slices;
 
 /// The animations of all clips that have keys.
-pub(super) fn animations(model: &Model, space: &Space, binary: &mut Binary) -> Vec<Value> {
-    let clips = model.clips.iter().filter(|clip| has_keys(clip));
-    clips
-        .map(|clip| {
-            let mut writer = Writer {
-                // glTF has no time before 0.
-                shift_secs: clip.start_secs.min(0.0),
-                binary,
-                inputs: HashMap::new(),
-                samplers: Vec::new(),
-                channels: Vec::new(),
-            };
-            for (bone, joint) in model.skeleton.joint_of_bone().iter().enumerate() {
-                let rest = space.joint(&model.skeleton.rest()[joint.index()]);
-                writer.track(bone, &clip.tracks[joint.index()], &rest, space);
-            }
-            json!({ "name": clip.name, "samplers": writer.samplers, "channels": writer.channels })
-        })
-        .collect()
+pub(super) async fn animations(model: &Model, space: &Space, binary: &mut Binary, slices: &Slices) -> Vec<Value> {
+    let mut animations = Vec::new();
+    for clip in model.clips.iter().filter(|clip| has_keys(clip)) {
+        let mut writer = Writer {
+            // glTF has no time before 0.
+            shift_secs: clip.start_secs.min(0.0),
+            binary,
+            inputs: HashMap::new(),
+            samplers: Vec::new(),
+            channels: Vec::new(),
+        };
+        for (bone, joint) in model.skeleton.joint_of_bone().iter().enumerate() {
+            slices.pause().await;
+            let rest = space.joint(&model.skeleton.rest()[joint.index()]);
+            writer.track(bone, &clip.tracks[joint.index()], &rest, space);
+        }
+        animations.push(json!({ "name": clip.name, "samplers": writer.samplers, "channels": writer.channels }));
+    }
+    animations
 }
 
 /// Whether any bone has keys in a clip.

@@ -6,9 +6,10 @@ use serde_json::{Value, json};
 
 use super::binary::Binary;
 use super::number::{number, numbers};
-use super::pictures::{EncodedMaps, Pictures, Use};
+use super::pictures::{Pictures, Use};
 use crate::export::{ExportError, MapImages};
 use crate::model::{AlphaMode, MapSlot, Material, MaterialMap, MetallicSurface, Model, Reflectance, Sampling, Wrap};
+use crate::slices::{Slices, Stage};
 
 const UNLIT: &str = "KHR_materials_unlit";
 const EMISSIVE_STRENGTH: &str = "KHR_materials_emissive_strength";
@@ -22,20 +23,6 @@ pub(super) struct Materials {
     pub(super) samplers: Vec<Value>,
     pub(super) images: Vec<Value>,
     pub(super) extensions: BTreeSet<&'static str>,
-}
-
-/// The pictures that [`materials`] writes: the place of each map, and what it is for.
-pub(super) fn pictures<'a>(
-    model: &'a Model,
-    maps: &'a MapImages<'_>,
-    turned: &'a [bool],
-) -> impl Iterator<Item = ((usize, MapSlot), Use)> + 'a {
-    model.materials.iter().enumerate().flat_map(move |(index, material)| {
-        let named = MapSlot::ALL.into_iter().filter(|&slot| material.map(slot).is_some());
-        let as_named = named.map(move |slot| ((index, slot), purpose(slot, turned[index])));
-        let gloss = gloss(index, material, maps).map(|purpose| ((index, MapSlot::Normal), purpose));
-        as_named.chain(gloss).filter(|(place, _)| maps.contains_key(place))
-    })
 }
 
 /// What a map is used for. Of a normal map the green may be turned.
@@ -62,17 +49,17 @@ fn gloss(index: usize, material: &Material, maps: &MapImages<'_>) -> Option<Use>
     }
 }
 
-/// Writes all materials, and the maps that have pictures.
-pub(super) fn materials(
+/// Writes all materials, and the maps that have pictures. `turned` says which materials' normal maps are turned.
+pub(super) async fn materials(
     model: &Model,
-    maps: &MapImages<'_>,
-    turned: &[bool],
-    encoded: EncodedMaps,
+    (maps, turned): (&MapImages<'_>, &[bool]),
+    pictures: Pictures,
     binary: &mut Binary,
+    slices: &Slices,
 ) -> Result<Materials, ExportError> {
     let mut writer = Writer {
         written: Materials::default(),
-        pictures: Pictures::new(encoded),
+        pictures,
         maps,
         turned,
         samplers: Places::default(),
@@ -80,9 +67,11 @@ pub(super) fn materials(
         has_second: !model.mesh.second_tex_coords.is_empty(),
         double_sided: model.needs_both_sides(&model.turned_submeshes()),
         binary,
+        slices,
     };
     for (index, material) in model.materials.iter().enumerate() {
-        let material = writer.material(index, material)?;
+        slices.pause_at(Stage::Writing, index, model.materials.len()).await;
+        let material = writer.material(index, material).await?;
         writer.written.materials.push(material);
     }
     Ok(Materials {
@@ -102,10 +91,11 @@ struct Writer<'a> {
     /// Of each material.
     double_sided: Vec<bool>,
     binary: &'a mut Binary,
+    slices: &'a Slices,
 }
 
 impl Writer<'_> {
-    fn material(&mut self, index: usize, material: &Material) -> Result<Value, ExportError> {
+    async fn material(&mut self, index: usize, material: &Material) -> Result<Value, ExportError> {
         let MetallicSurface {
             base_color,
             metallic,
@@ -119,29 +109,29 @@ impl Writer<'_> {
             "roughnessFactor": number(unit(roughness)),
         });
         let mut written = json!({ "name": material.name });
-        if let Some(info) = self.info(index, material, MapSlot::Diffuse)? {
+        if let Some(info) = self.info(index, material, MapSlot::Diffuse).await? {
             surface["baseColorTexture"] = info;
         }
-        if let Some(info) = self.info(index, material, MapSlot::MetallicRoughness)? {
+        if let Some(info) = self.info(index, material, MapSlot::MetallicRoughness).await? {
             surface["metallicRoughnessTexture"] = info;
-        } else if let Some(info) = self.gloss(index, material)? {
+        } else if let Some(info) = self.gloss(index, material).await? {
             surface["metallicRoughnessTexture"] = info;
             surface["roughnessFactor"] = json!(1.0);
         }
         written["pbrMetallicRoughness"] = surface;
-        if let Some(mut info) = self.info(index, material, MapSlot::Normal)? {
+        if let Some(mut info) = self.info(index, material, MapSlot::Normal).await? {
             if material.normal_scale != 1.0 {
                 info["scale"] = number(material.normal_scale);
             }
             written["normalTexture"] = info;
         }
-        if let Some(mut info) = self.info(index, material, MapSlot::Occlusion)? {
+        if let Some(mut info) = self.info(index, material, MapSlot::Occlusion).await? {
             if material.occlusion_strength != 1.0 {
                 info["strength"] = number(unit(material.occlusion_strength));
             }
             written["occlusionTexture"] = info;
         }
-        if let Some(info) = self.info(index, material, MapSlot::Emissive)? {
+        if let Some(info) = self.info(index, material, MapSlot::Emissive).await? {
             written["emissiveTexture"] = info;
         }
         self.light(material, &mut written);
@@ -181,24 +171,27 @@ impl Writer<'_> {
     }
 
     /// The texture of a map that has a picture.
-    fn info(&mut self, index: usize, material: &Material, slot: MapSlot) -> Result<Option<Value>, ExportError> {
+    async fn info(&mut self, index: usize, material: &Material, slot: MapSlot) -> Result<Option<Value>, ExportError> {
         match material.map(slot) {
-            Some(map) => self.texture((index, slot), map, purpose(slot, self.turned[index]), &map.name),
+            Some(map) => {
+                let purpose = purpose(slot, self.turned[index]);
+                self.texture((index, slot), map, purpose, &map.name).await
+            }
             None => Ok(None),
         }
     }
 
-    fn gloss(&mut self, index: usize, material: &Material) -> Result<Option<Value>, ExportError> {
+    async fn gloss(&mut self, index: usize, material: &Material) -> Result<Option<Value>, ExportError> {
         match (gloss(index, material, self.maps), &material.normal_map) {
             (Some(purpose), Some(map)) => {
                 let name = format!("{} (roughness)", map.name);
-                self.texture((index, MapSlot::Normal), map, purpose, &name)
+                self.texture((index, MapSlot::Normal), map, purpose, &name).await
             }
             _ => Ok(None),
         }
     }
 
-    fn texture(
+    async fn texture(
         &mut self,
         place: (usize, MapSlot),
         map: &MaterialMap,
@@ -208,6 +201,7 @@ impl Writer<'_> {
         let Some(image) = self.maps.get(&place) else {
             return Ok(None);
         };
+        self.slices.pause().await;
         let source = self.pictures.picture(image, purpose, name, self.binary)?;
         let sampler = self.samplers.place(&mut self.written.samplers, sampler(&map.sampling));
         let texture = json!({ "source": source, "sampler": sampler });

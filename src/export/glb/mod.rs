@@ -18,17 +18,17 @@ mod skeleton;
 mod space;
 
 use std::collections::BTreeSet;
-use std::sync::Arc;
 
 use serde_json::{Value, json};
 
-use super::{ExportError, Exported, MapImages};
+use super::{ExportError, Exported, MapImages, MapSources};
 use crate::model::{Front, Green, JointNames, MapSlot, Model, Skeleton, Tag};
+use crate::slices::{Slices, at_once};
 use binary::Binary;
+use pictures::Pictures;
 use space::Space;
 
 pub use losses::glb_losses;
-pub use pictures::EncodedMaps;
 
 const MAGIC: u32 = 0x4654_6c67;
 const JSON_CHUNK: u32 = 0x4e4f_534a;
@@ -39,36 +39,19 @@ const BINARY_CHUNK: u32 = 0x004e_4942;
 /// # Errors
 /// When a picture cannot be written, a number overflows, there are more joints than a vertex can name, or the file would have more than 4 GiB.
 pub fn glb(model: &Model, names: &JointNames, maps: &MapImages<'_>) -> Result<Exported, ExportError> {
-    glb_with(model, names, maps, EncodedMaps::default())
+    at_once(glb_in(model, names, maps, &MapSources::new(), &Slices::ENDLESS))
 }
 
-/// Encodes the next picture of such a file. Whether there was one left.
-///
-/// # Errors
-/// When a picture cannot be written.
-pub fn encode_map(model: &Model, maps: &MapImages<'_>, encoded: &mut EncodedMaps) -> Result<bool, ExportError> {
-    let turned = Arc::clone(
-        encoded
-            .turned
-            .get_or_insert_with(|| turned_materials(model, maps).into()),
-    );
-    for (place, purpose) in material::pictures(model, maps, &turned) {
-        if encoded.encode(maps[&place], purpose)? {
-            return Ok(true);
-        }
-    }
-    Ok(false)
-}
-
-/// The same file as [`glb`] writes, with pictures that were encoded before.
+/// The same, in slices. A map is written as the file that it was read from, where that is known and its texels are those that glTF has.
 ///
 /// # Errors
 /// As [`glb`].
-pub fn glb_with(
+pub async fn glb_in(
     model: &Model,
     names: &JointNames,
     maps: &MapImages<'_>,
-    encoded: EncodedMaps,
+    sources: &MapSources,
+    slices: &Slices,
 ) -> Result<Exported, ExportError> {
     let space = Space::of(model);
     let mut binary = Binary::default();
@@ -86,6 +69,7 @@ pub fn glb_with(
     }
     let mut nodes = bones.nodes;
     let mut scene_nodes = bones.roots;
+    slices.pause().await;
     let turned = turned_materials(model, maps);
     let objects = geometry::meshes(model, &space, (&turned, !maps.is_empty()), bones.unmoving, &mut binary);
     if let Some(skin) = bones.skin.filter(|_| !objects.is_empty()) {
@@ -115,8 +99,9 @@ pub fn glb_with(
         }});
     }
     root["scenes"] = json!([scene]);
-    let animations = animation::animations(model, &space, &mut binary);
-    let written = material::materials(model, maps, &turned, encoded, &mut binary)?;
+    let animations = animation::animations(model, &space, &mut binary, slices).await;
+    let pictures = Pictures::new(maps, sources);
+    let written = material::materials(model, (maps, &turned), pictures, &mut binary, slices).await?;
     for (key, list) in [
         ("meshes", meshes),
         ("nodes", nodes),

@@ -1,13 +1,12 @@
 //! Maps as pictures, each once: PNG, or the file as it is.
 
 use std::collections::HashMap;
-use std::sync::Arc;
 
 use serde_json::{Value, json};
 
 use super::binary::{Binary, Target};
-use crate::export::ExportError;
 use crate::export::directions::directions;
+use crate::export::{ExportError, MapImages, MapSources};
 use crate::image::{Image, encode_png};
 
 /// What a picture is made of a map for.
@@ -23,45 +22,6 @@ pub(super) enum Use {
         roughness: u32,
         metal: bool,
     },
-}
-
-/// Pictures that were encoded before their file is written, by the map's place in memory and what they are for.
-#[derive(Clone, Debug, Default)]
-pub struct EncodedMaps {
-    encoded: HashMap<(usize, Use), bytes::Bytes>,
-    /// Files that glTF takes as they are.
-    files: HashMap<usize, bytes::Bytes>,
-    /// Which materials' normal maps are turned, once it is known.
-    pub(super) turned: Option<Arc<[bool]>>,
-}
-
-impl EncodedMaps {
-    /// The file that a map was read from. A PNG is written as it is where its texels are, and a JPEG that has nothing to forgive.
-    pub fn add_file(&mut self, image: &Image, bytes: bytes::Bytes) {
-        if is_strict_jpeg(&bytes).unwrap_or_default() || bytes.starts_with(b"\x89PNG") {
-            self.files.insert(place(image), bytes);
-        }
-    }
-
-    /// Encodes a picture. Whether it was not there yet.
-    pub(super) fn encode(&mut self, image: &Image, purpose: Use) -> Result<bool, ExportError> {
-        let key = (place(image), purpose);
-        if self.encoded.contains_key(&key) {
-            return Ok(false);
-        }
-        let file = self.files.get(&key.0).filter(|_| purpose == Use::AsIs);
-        let bytes = match file {
-            Some(file) => file.clone(),
-            None => encode_png(&texels(image, purpose), image.width(), image.height())?.into(),
-        };
-        self.encoded.insert(key, bytes);
-        Ok(true)
-    }
-
-    /// How many there are.
-    pub fn count(&self) -> usize {
-        self.encoded.len()
-    }
 }
 
 fn is_jpeg(bytes: &[u8]) -> bool {
@@ -136,17 +96,21 @@ fn place(image: &Image) -> usize {
 #[derive(Default)]
 pub(super) struct Pictures {
     pub(super) images: Vec<Value>,
-    encoded: EncodedMaps,
+    /// Files that glTF takes as they are, by their maps' places in memory.
+    files: HashMap<usize, bytes::Bytes>,
     /// By the map's place in memory and what it is for.
     made: HashMap<(usize, Use), usize>,
     by_bytes: HashMap<bytes::Bytes, usize>,
 }
 
 impl Pictures {
-    /// No picture yet, and some that are encoded.
-    pub(super) fn new(encoded: EncodedMaps) -> Self {
+    /// No picture yet. A PNG can be written as it is where its texels are, and a JPEG that has nothing to forgive.
+    pub(super) fn new(maps: &MapImages<'_>, sources: &MapSources) -> Self {
+        let is_taken = |bytes: &[u8]| is_strict_jpeg(bytes).unwrap_or_default() || bytes.starts_with(b"\x89PNG");
+        let files = sources.iter().filter(|(_, bytes)| is_taken(bytes));
+        let files = files.filter_map(|(map, bytes)| Some((place(maps.get(map)?), bytes.clone())));
         Self {
-            encoded,
+            files: files.collect(),
             ..Self::default()
         }
     }
@@ -163,8 +127,11 @@ impl Pictures {
         if let Some(&made) = self.made.get(&key) {
             return Ok(made);
         }
-        self.encoded.encode(image, purpose)?;
-        let bytes = self.encoded.encoded.remove(&key).unwrap_or_default();
+        let file = self.files.get(&key.0).filter(|_| purpose == Use::AsIs);
+        let bytes = match file {
+            Some(file) => file.clone(),
+            None => encode_png(&texels(image, purpose), image.width(), image.height())?.into(),
+        };
         let index = match self.by_bytes.get(&bytes) {
             Some(&index) => index,
             None => {

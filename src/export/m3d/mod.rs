@@ -7,6 +7,7 @@ mod losses;
 use super::{ExportError, Exported, MapImages};
 use crate::format::{self, Dialect};
 use crate::model::{JointNames, Model};
+use crate::slices::{Slices, at_once};
 use document::document;
 
 pub use look::{Bake, Look, looks};
@@ -21,16 +22,25 @@ pub use losses::m3d_losses;
 /// # Errors
 /// None at present.
 pub fn m3d(model: &Model, names: &JointNames, dialect: Dialect) -> Result<Exported, ExportError> {
-    m3d_with(model, names, dialect, &looks(model, &MapImages::default()))
+    let looks = looks(model, &MapImages::default());
+    at_once(m3d_in(model, names, dialect, &looks, &Slices::ENDLESS))
 }
 
-/// The same file, of materials that look so.
+/// The same file, of materials that look so, in slices.
 ///
 /// # Errors
 /// As [`m3d`].
-pub fn m3d_with(model: &Model, names: &JointNames, dialect: Dialect, looks: &[Look]) -> Result<Exported, ExportError> {
+pub async fn m3d_in(
+    model: &Model,
+    names: &JointNames,
+    dialect: Dialect,
+    looks: &[Look],
+    slices: &Slices,
+) -> Result<Exported, ExportError> {
+    let losses = m3d_losses(model, names, dialect);
+    let document = document(model, dialect, looks);
     Ok(Exported {
-        losses: m3d_losses(model, names, dialect),
-        bytes: format::write(&document(model, dialect, looks)).into_bytes(),
+        losses,
+        bytes: format::write_in(&document, slices).await.into_bytes(),
     })
 }

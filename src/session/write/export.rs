@@ -1,9 +1,10 @@
 //! What is asked about writing a file of another format, and how far that is.
 
-use super::export_job::{ExportFormat, ExportJob, ExportedFile, Progress};
+use super::export_job::{ExportFormat, ExportRefusal, ExportedFile, PlannedExport};
 use super::export_plan::ExportPlan;
 use crate::edit::Edits;
 use crate::model::{Handedness, UpAxis};
+use crate::slices::{Sliced, StageProgress};
 
 /// How a model is to be written.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -63,8 +64,25 @@ impl Clone for Exporting {
 pub(in crate::session) enum Made {
     #[default]
     Nothing,
-    Job(Box<ExportJob>),
+    Planning(Sliced<Result<PlannedExport, ExportRefusal>>),
+    Planned(Box<PlannedExport>),
+    Writing {
+        name: String,
+        plan: Box<ExportPlan>,
+        work: Sliced<Result<ExportedFile, ExportRefusal>>,
+    },
     Refused(String),
+}
+
+impl Made {
+    /// The plan and the name of its file, once they are known.
+    pub(in crate::session) fn plan(&self) -> Option<(&ExportPlan, String)> {
+        match self {
+            Self::Planned(planned) => Some((planned.plan(), planned.file_name())),
+            Self::Writing { name, plan, .. } => Some((plan, name.clone())),
+            Self::Nothing | Self::Planning(_) | Self::Refused(_) => None,
+        }
+    }
 }
 
 /// What a file depends on, to compare.
@@ -88,5 +106,5 @@ pub struct Export<'a> {
     /// Why it cannot be written.
     pub refusal: Option<&'a str>,
     /// How far it is, while it is written.
-    pub saving: Option<Progress>,
+    pub saving: Option<StageProgress>,
 }

@@ -1,16 +1,17 @@
-//! From what is open to a file of another format, in steps, without a session.
+//! From what is open to a file of another format, in slices, without a session.
 
 use std::sync::Arc;
 
-use super::export_files::Archive;
+use super::export_files::pack;
 use super::export_maps::{KnownMaps, MapFiles, MapsAsked, plan_maps, unreadable_maps};
 use super::export_plan::ExportPlan;
-use crate::edit::{Change, EditError, EditJob, Edited, Edits};
-use crate::export::{self, EncodedMaps, ExportError, Exported, Loss};
+use crate::edit::{Change, EditError, Edited, Edits, apply_in};
+use crate::export::{self, ExportError, Loss};
 use crate::format::Dialect;
 use crate::model::{JointNames, MapSlot, Model};
 use crate::modes::modes;
 use crate::session::open::maps::Maps;
+use crate::slices::{Slices, Stage, at_once};
 
 modes! {
     /// What a model is written as.
@@ -38,22 +39,6 @@ impl ExportFormat {
     /// The extension of its files.
     pub fn extension(self) -> &'static str {
         if self == Self::Glb { "glb" } else { "m3d" }
-    }
-}
-
-/// How far a job is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress {
-    /// Steps that are done.
-    pub done: usize,
-    /// All steps that are known of.
-    pub total: usize,
-}
-
-impl Progress {
-    /// How much is done, rounded down.
-    pub fn percent(self) -> usize {
-        100 * self.done / self.total.max(1)
     }
 }
 
@@ -103,28 +88,6 @@ pub enum ExportRefusal {
     Archive(#[from] std::io::Error),
 }
 
-/// Writes a model as a file, in steps: it can tell how far it is and be dropped between two of them. What it writes was taken when it
-/// began, whatever happens to the session meanwhile.
-#[derive(Debug)]
-pub struct ExportJob {
-    stem: String,
-    format: ExportFormat,
-    maps: KnownMaps,
-    asked: MapsAsked,
-    state: State,
-}
-
-#[derive(Debug)]
-enum State {
-    /// What was changed and lost before, and the edits.
-    Edit(ExportPlan, Box<EditJob>),
-    /// The pictures of a `.glb` are encoded one by one first.
-    Glb(Box<Edited>, EncodedMaps, ExportPlan),
-    /// So are those beside a file of the books.
-    M3d(Box<Edited>, MapFiles, ExportPlan),
-    Pack(Box<Archive>, ExportPlan),
-}
-
 /// What is written, and how.
 #[derive(Debug)]
 pub struct ToExport<'a> {
@@ -148,12 +111,29 @@ pub struct ToExport<'a> {
     pub turns_green: bool,
 }
 
-/// What became of a job in a step.
+/// A model on its way to a file. What is written was taken when it began, whatever happens to the session meanwhile.
 #[derive(Debug)]
-pub enum ExportStep {
-    /// There is more to do.
-    Working(Box<ExportJob>),
-    Ended(Result<Box<ExportedFile>, ExportRefusal>),
+pub struct ExportJob {
+    stem: String,
+    format: ExportFormat,
+    model: Model,
+    names: JointNames,
+    edits: Edits,
+    /// What was changed and lost before.
+    before: ExportPlan,
+    maps: KnownMaps,
+    asked: MapsAsked,
+}
+
+/// A model as it will be written, with all edits made.
+#[derive(Debug)]
+pub struct PlannedExport {
+    stem: String,
+    format: ExportFormat,
+    edited: Edited,
+    maps: KnownMaps,
+    files: MapFiles,
+    plan: ExportPlan,
 }
 
 impl ExportJob {
@@ -186,171 +166,133 @@ impl ExportJob {
                 dialect: format.dialect().unwrap_or(Dialect::D3d12),
                 turns_green,
             },
-            state: State::Edit(
-                ExportPlan {
-                    changes,
-                    losses,
-                    maps: 0,
-                },
-                Box::new(EditJob::new(model, names, edits)),
-            ),
+            names: names.clone(),
+            before: ExportPlan {
+                changes,
+                losses,
+                maps: 0,
+            },
+            model,
+            edits,
         }
     }
 
-    /// What will be otherwise in the file, once all edits are made.
-    pub fn plan(&self) -> Option<&ExportPlan> {
-        match &self.state {
-            State::Edit(..) => None,
-            State::Glb(_, _, plan) | State::M3d(_, _, plan) | State::Pack(_, plan) => Some(plan),
-        }
+    /// Makes all edits, and finds out what will be otherwise in the file.
+    ///
+    /// # Errors
+    /// When an edit cannot be made.
+    pub async fn plan(self, slices: &Slices) -> Result<PlannedExport, ExportRefusal> {
+        let Self {
+            stem,
+            format,
+            model,
+            names,
+            edits,
+            before: mut plan,
+            maps,
+            asked,
+        } = self;
+        let mut edited = apply_in(model, &names, &edits, slices).await?;
+        slices.pause_at(Stage::Writing, 0, 1).await;
+        plan.changes.append(&mut edited.changes);
+        let files = match format.dialect() {
+            None => {
+                plan_glb(&edited.model, &maps, &mut plan);
+                MapFiles::default()
+            }
+            Some(dialect) => {
+                let files = plan_maps(&mut edited.model, &maps, asked, &mut plan);
+                plan.maps = files.waiting.len();
+                let of_format = export::m3d_losses(&edited.model, &edited.names, dialect);
+                plan.losses.extend(of_format);
+                files
+            }
+        };
+        Ok(PlannedExport {
+            stem,
+            format,
+            edited,
+            maps,
+            files,
+            plan,
+        })
     }
 
-    /// The name of the file that it writes; that of the model alone until it is planned.
+    /// Plans and writes it at once.
+    ///
+    /// # Errors
+    /// When an edit cannot be made, or the format cannot hold what comes out.
+    pub fn run(self) -> Result<ExportedFile, ExportRefusal> {
+        at_once(async { self.plan(&Slices::ENDLESS).await?.write(&Slices::ENDLESS).await })
+    }
+
+    /// The same, and packs nothing.
+    ///
+    /// # Errors
+    /// As [`ExportJob::run`].
+    pub fn run_apart(self) -> Result<WrittenModel, ExportRefusal> {
+        at_once(async { self.plan(&Slices::ENDLESS).await?.write_apart(&Slices::ENDLESS).await })
+    }
+}
+
+impl PlannedExport {
+    /// What will be otherwise in the file.
+    pub fn plan(&self) -> &ExportPlan {
+        &self.plan
+    }
+
+    /// The name of the file that it writes.
     pub fn file_name(&self) -> String {
-        let packs = self.plan().is_some_and(|plan| plan.maps > 0);
+        let packs = self.plan.maps > 0;
         let extension = if packs { "zip" } else { self.format.extension() };
         format!("{}.{extension}", self.stem)
     }
 
-    /// How far it is.
-    pub fn progress(&self) -> Progress {
-        let parts = |done: usize, more: usize| Progress {
-            done,
-            total: done + more,
-        };
-        match &self.state {
-            State::Edit(_, edits) => {
-                let [done, total] = edits.progress();
-                parts(done, total - done + 1)
-            }
-            State::Glb(_, encoded, _) => {
-                let done = encoded.count();
-                parts(1 + done, 1 + self.maps.images.len().saturating_sub(done))
-            }
-            State::M3d(_, files, _) => {
-                let [done, waiting] = files.progress();
-                parts(1 + done, 1 + waiting)
-            }
-            State::Pack(archive, _) => {
-                let [done, total] = archive.progress();
-                parts(done, total - done)
-            }
-        }
-    }
-
-    /// Makes an edit, thins the keys of a clip, makes a picture, writes the model, or packs a part.
-    pub fn step(mut self) -> ExportStep {
-        match self.next() {
-            Ok(None) => ExportStep::Working(Box::new(self)),
-            Ok(Some(file)) => ExportStep::Ended(Ok(Box::new(file))),
-            Err(refusal) => ExportStep::Ended(Err(refusal)),
-        }
-    }
-
-    /// Does all steps.
+    /// Writes the file: an archive, where pictures come along.
     ///
     /// # Errors
-    /// When an edit cannot be made, or the format cannot hold what comes out.
-    pub fn run(mut self) -> Result<ExportedFile, ExportRefusal> {
-        loop {
-            if let Some(file) = self.next()? {
-                return Ok(file);
-            }
-        }
+    /// When the format cannot hold it.
+    pub async fn write(self, slices: &Slices) -> Result<ExportedFile, ExportRefusal> {
+        let name = self.file_name();
+        let of_model = format!("{}.{}", self.stem, self.format.extension());
+        let WrittenModel { bytes, maps, plan } = self.write_apart(slices).await?;
+        let bytes = if maps.is_empty() {
+            bytes
+        } else {
+            let files: Vec<_> = [(of_model, bytes.into())].into_iter().chain(maps).collect();
+            pack(&files, slices).await?
+        };
+        Ok(ExportedFile { name, bytes, plan })
     }
 
-    /// Does all steps, and packs nothing.
+    /// Writes the model and the pictures beside it.
     ///
     /// # Errors
-    /// As [`ExportJob::run`].
-    pub fn run_apart(mut self) -> Result<WrittenModel, ExportRefusal> {
-        loop {
-            if let Some(written) = self.write_next()? {
-                return Ok(written);
+    /// When the format cannot hold it.
+    pub async fn write_apart(self, slices: &Slices) -> Result<WrittenModel, ExportRefusal> {
+        let Edited { model, names, .. } = &self.edited;
+        let mut maps = Vec::new();
+        let exported = match self.format.dialect() {
+            None => {
+                let pictures = self.maps.pictures.iter();
+                let sources = pictures.map(|(&place, file)| (place, file.bytes.clone()));
+                export::glb_in(model, names, &self.maps.lent(), &sources.collect(), slices).await?
             }
-        }
-    }
-
-    fn next(&mut self) -> Result<Option<ExportedFile>, ExportRefusal> {
-        if let State::Pack(archive, plan) = &mut self.state {
-            let Some(bytes) = archive.step()? else { return Ok(None) };
-            let plan = std::mem::take(plan);
-            return Ok(Some(ExportedFile {
-                name: format!("{}.zip", self.stem),
-                bytes,
-                plan,
-            }));
-        }
-        let Some(WrittenModel { bytes, maps, plan }) = self.write_next()? else {
-            return Ok(None);
+            Some(dialect) => {
+                let count = self.files.waiting.len();
+                for (name, content) in self.files.waiting {
+                    slices.pause_at(Stage::Writing, maps.len(), 1 + count).await;
+                    maps.push((name, content.bytes()?));
+                }
+                slices.pause_at(Stage::Writing, count, 1 + count).await;
+                export::m3d_in(model, names, dialect, &self.files.looks, slices).await?
+            }
         };
-        let name = format!("{}.{}", self.stem, self.format.extension());
-        if maps.is_empty() {
-            return Ok(Some(ExportedFile { name, bytes, plan }));
-        }
-        let files = [(name, bytes.into())].into_iter().chain(maps);
-        self.state = State::Pack(Box::new(Archive::new(files)), plan);
-        Ok(None)
-    }
-
-    /// A step up to the model's file, but for those that pack it.
-    fn write_next(&mut self) -> Result<Option<WrittenModel>, ExportRefusal> {
-        let images = self.maps.lent();
-        match &mut self.state {
-            State::Edit(before, edits) => {
-                if !edits.step()? {
-                    let mut edited = edits.clone().finish();
-                    let mut plan = std::mem::take(before);
-                    plan.changes.append(&mut edited.changes);
-                    self.state = match self.format.dialect() {
-                        None => {
-                            plan_glb(&edited.model, &self.maps, &mut plan);
-                            let mut encoded = EncodedMaps::default();
-                            for (place, image) in &self.maps.images {
-                                if let Some(file) = self.maps.pictures.get(place) {
-                                    encoded.add_file(image, file.bytes.clone());
-                                }
-                            }
-                            State::Glb(Box::new(edited), encoded, plan)
-                        }
-                        Some(dialect) => {
-                            let files = plan_maps(&mut edited.model, &self.maps, self.asked, &mut plan);
-                            plan.maps = files.count();
-                            let of_format = export::m3d_losses(&edited.model, &edited.names, dialect);
-                            plan.losses.extend(of_format);
-                            State::M3d(Box::new(edited), files, plan)
-                        }
-                    };
-                }
-                Ok(None)
-            }
-            State::Glb(edited, encoded, plan) => {
-                let Edited { model, names, .. } = &**edited;
-                if export::encode_map(model, &images, encoded)? {
-                    return Ok(None);
-                }
-                let Exported { bytes, .. } = export::glb_with(model, names, &images, std::mem::take(encoded))?;
-                Ok(Some(WrittenModel {
-                    bytes,
-                    maps: Vec::new(),
-                    plan: std::mem::take(plan),
-                }))
-            }
-            State::M3d(edited, files, plan) => {
-                if files.make_next()? {
-                    return Ok(None);
-                }
-                let dialect = self.format.dialect().unwrap_or(Dialect::D3d12);
-                let Exported { bytes, .. } = export::m3d_with(&edited.model, &edited.names, dialect, &files.looks)?;
-                Ok(Some(WrittenModel {
-                    bytes,
-                    maps: std::mem::take(&mut files.made),
-                    plan: std::mem::take(plan),
-                }))
-            }
-            // What is packed was written before.
-            State::Pack(..) => Ok(None),
-        }
+        Ok(WrittenModel {
+            bytes: exported.bytes,
+            maps,
+            plan: self.plan,
+        })
     }
 }
 

@@ -1,6 +1,6 @@
 //! Pictures beside a file of the books: which there are, what they hold, and their names in its materials.
 
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use super::picture_files::{Content, Names, Texels, stem};
 use crate::diagnostic::codes;
 use crate::diagnostic::collect::counted;
 use crate::edit::Change;
-use crate::export::{self, Bake, ExportError, Look, Loss, MapImages};
+use crate::export::{self, Bake, Look, Loss, MapImages};
 use crate::format::Dialect;
 use crate::image::Image;
 use crate::model::{Green, MapSlot, Material, MaterialMap, Model};
@@ -55,34 +55,13 @@ pub(in crate::session) struct MapsAsked {
     pub(in crate::session) turns_green: bool,
 }
 
-/// Pictures on their way to their files.
+/// Pictures that are to be written beside a file.
 #[derive(Debug, Default)]
 pub(in crate::session) struct MapFiles {
-    waiting: VecDeque<(String, Content)>,
-    pub(in crate::session) made: Vec<(String, bytes::Bytes)>,
+    /// The name of each and what it will hold.
+    pub(in crate::session) waiting: Vec<(String, Content)>,
     /// What the materials look like, with the pictures that are written.
     pub(in crate::session) looks: Vec<Look>,
-}
-
-impl MapFiles {
-    /// How many files are made, and how many are waiting.
-    pub(in crate::session) fn progress(&self) -> [usize; 2] {
-        [self.made.len(), self.waiting.len()]
-    }
-
-    /// How many files there are or will be.
-    pub(in crate::session) fn count(&self) -> usize {
-        self.made.len() + self.waiting.len()
-    }
-
-    /// Makes the next file. Whether there was one.
-    pub(in crate::session) fn make_next(&mut self) -> Result<bool, ExportError> {
-        let Some((name, content)) = self.waiting.pop_front() else {
-            return Ok(false);
-        };
-        self.made.push((name, content.bytes()?));
-        Ok(true)
-    }
 }
 
 /// Names the pictures of a model's materials by the files that are to be written, and turns green and bitangents where glTF has them up and
@@ -162,7 +141,6 @@ pub(in crate::session) fn plan_maps(
     say_looks(model, &looks, known, plan);
     MapFiles {
         waiting: files.files,
-        made: Vec::new(),
         looks,
     }
 }

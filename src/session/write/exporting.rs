@@ -1,11 +1,11 @@
-//! Writing what is open as a file of another format: what would be otherwise, and the work, which somebody does in steps.
+//! Writing what is open as a file of another format: what would be otherwise, and the work, which somebody does piece by piece.
 
 use super::export::{Export, ExportCommand, ExportOptions, ExportRange, Exporting, Made, Stamp};
-use super::export_job::Progress;
-use super::export_job::{ExportJob, ExportStep, ExportedFile, ToExport};
+use super::export_job::{ExportJob, ExportRefusal, ExportedFile, ToExport};
 use crate::edit::{Change, Edits};
 use crate::model::Front;
 use crate::session::Session;
+use crate::slices::{Sliced, Slices, Stage, StageProgress};
 
 impl Session {
     pub(in crate::session) fn apply_to_export(&mut self, command: ExportCommand) {
@@ -35,29 +35,28 @@ impl Session {
             options, made, saves, ..
         } = &self.exporting;
         self.open_model()?;
-        let options = options.as_ref()?;
-        let (plan, refusal, progress) = match made {
-            Made::Nothing => (None, None, Progress { done: 0, total: 1 }),
-            Made::Job(job) => (job.plan(), None, job.progress()),
-            Made::Refused(refusal) => (None, Some(refusal.as_str()), Progress { done: 0, total: 1 }),
+        let progress = match made {
+            Made::Planning(work) => work.progress(),
+            Made::Writing { work, .. } => work.progress(),
+            Made::Nothing | Made::Planned(_) | Made::Refused(_) => StageProgress::new(Stage::Editing, 0, 1),
         };
         Some(Export {
-            options,
-            plan,
-            refusal,
+            options: options.as_ref()?,
+            plan: made.plan().map(|(plan, _)| plan),
+            refusal: match made {
+                Made::Refused(refusal) => Some(refusal),
+                _ => None,
+            },
             saving: saves.then_some(progress),
         })
     }
 
     /// The name of the file that is planned.
     pub fn export_name(&self) -> Option<String> {
-        match &self.exporting.made {
-            Made::Job(job) => Some(job.file_name()),
-            _ => None,
-        }
+        self.exporting.made.plan().map(|(_, name)| name)
     }
 
-    /// Does one step of what is planned or written, for what is open now. Whether there was one to do.
+    /// Does one piece of what is planned or written, for what is open now. Whether there was one to do.
     pub fn step_export(&mut self) -> bool {
         let Some(options) = self.exporting.options.clone() else {
             return false;
@@ -71,29 +70,45 @@ impl Session {
         if !is_known && !is_saved_from_it {
             (exporting.made, exporting.saves) = (Made::Nothing, false);
         }
-        let job = match std::mem::take(&mut exporting.made) {
+        // Each slice is one piece of work: who calls this has the clock.
+        let slices = Slices::new(|| true);
+        let made = match std::mem::take(&mut exporting.made) {
             Made::Nothing => {
+                let Some(job) = self.export_job(&options) else {
+                    return false;
+                };
                 self.exporting.of = stamp;
-                self.export_job(&options).map(Box::new)
+                Made::Planning(Sliced::new(&slices, async move |slices| job.plan(&slices).await))
             }
-            Made::Job(job) if exporting.saves || job.plan().is_none() => Some(job),
-            idle => {
+            Made::Planned(planned) if exporting.saves => Made::Writing {
+                name: planned.file_name(),
+                plan: Box::new(planned.plan().clone()),
+                work: Sliced::new(&slices, async move |slices| planned.write(&slices).await),
+            },
+            idle @ (Made::Planned(_) | Made::Refused(_)) => {
                 (exporting.made, exporting.saves) = (idle, false);
-                None
+                return false;
             }
+            underway => underway,
         };
-        let Some(job) = job else { return false };
         let exporting = &mut self.exporting;
-        match job.step() {
-            ExportStep::Working(job) => exporting.made = Made::Job(job),
-            ExportStep::Ended(Ok(file)) => {
-                // A job ends with its file. What the next one would be is planned anew.
-                (exporting.written, exporting.saves) = (Some(*file), false);
-            }
-            ExportStep::Ended(Err(refusal)) => {
-                (exporting.made, exporting.saves) = (Made::Refused(refusal.to_string()), false);
-            }
-        }
+        exporting.made = match made {
+            Made::Planning(mut work) => match work.advance() {
+                None => Made::Planning(work),
+                Some(Ok(planned)) => Made::Planned(Box::new(planned)),
+                Some(Err(refusal)) => exporting.refused(&refusal),
+            },
+            Made::Writing { name, plan, mut work } => match work.advance() {
+                None => Made::Writing { name, plan, work },
+                Some(Ok(file)) => {
+                    // A job ends with its file. What the next one would be is planned anew.
+                    (exporting.written, exporting.saves) = (Some(file), false);
+                    Made::Nothing
+                }
+                Some(Err(refusal)) => exporting.refused(&refusal),
+            },
+            idle => idle,
+        };
         true
     }
 
@@ -194,5 +209,12 @@ impl Session {
             ],
             clip_count: self.content.clip_count(),
         })
+    }
+}
+
+impl Exporting {
+    fn refused(&mut self, refusal: &ExportRefusal) -> Made {
+        self.saves = false;
+        Made::Refused(refusal.to_string())
     }
 }

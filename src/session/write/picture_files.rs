@@ -1,6 +1,6 @@
 //! Files of pictures: what each holds, and its name, a word that every system takes. Each file is there once.
 
-use std::collections::{HashMap, VecDeque};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use crate::export::{Bake, ExportError, directions, one_word};
@@ -9,7 +9,7 @@ use crate::model::{MapSlot, Taken};
 
 /// What a file of a picture holds.
 #[derive(Debug)]
-pub(super) enum Content {
+pub(in crate::session) enum Content {
     AsItIs(bytes::Bytes),
     TurnedPng(Arc<Image>),
     Dds(Arc<Image>, Texels, MapKind),
@@ -20,7 +20,7 @@ pub(super) enum Content {
 
 /// Which texels of a picture are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Texels {
+pub(in crate::session) enum Texels {
     Same,
     /// Directions alone, with green the other way.
     Turned,
@@ -70,7 +70,7 @@ const LONGEST_STEM: usize = 120;
 /// The files of pictures that are to be written, each once, and their names.
 #[derive(Default)]
 pub(super) struct Names {
-    pub(super) files: VecDeque<(String, Content)>,
+    pub(super) files: Vec<(String, Content)>,
     /// Names by the picture that they stand for, its use and its texels.
     names: HashMap<(String, MapSlot, Texels), String>,
     taken: Taken,
@@ -100,7 +100,7 @@ impl Names {
         };
         // Files are told apart without case on some systems.
         let name = named(self.taken.free(|number| named(number).to_lowercase()));
-        self.files.push_back((name.clone(), content));
+        self.files.push((name.clone(), content));
         self.names.insert(key, name.clone());
         name
     }

@@ -1,10 +1,11 @@
 //! What materials of glTF look like in the books' words: by the formulas of both books' lights, and by their pictures.
 
-use bindpose::export::{Look, MapImages, glb, looks, m3d, m3d_with};
+use bindpose::export::{Look, MapImages, glb, looks, m3d, m3d_in};
 use bindpose::format::{self, Dialect, parse};
 use bindpose::image::Image;
 use bindpose::import::import;
 use bindpose::model::{JointNames, MapSlot, Material, Model, Reflectance};
+use bindpose::slices::{Slices, at_once};
 use glam::{Vec2, Vec3};
 
 use super::glb::chunks;
@@ -43,7 +44,8 @@ fn told(model: &Model, dialect: Dialect) -> format::Material {
 }
 
 fn told_with(model: &Model, dialect: Dialect, looks: &[Look]) -> format::Material {
-    let written = m3d_with(model, &JointNames::default(), dialect, looks).expect("it can be written");
+    let names = JointNames::default();
+    let written = at_once(m3d_in(model, &names, dialect, looks, &Slices::ENDLESS)).expect("it can be written");
     first(&written.bytes)
 }
 

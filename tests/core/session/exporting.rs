@@ -1,4 +1,4 @@
-//! Exporting what is open: what is known before, the file, and its steps.
+//! Exporting what is open: what is known before, the file, and its slices.
 
 use std::io::{Cursor, Read as _};
 
@@ -8,9 +8,10 @@ use bindpose::format::Dialect;
 use bindpose::image::encode_png;
 use bindpose::model::{Handedness, JointNames, MapSlot, UpAxis};
 use bindpose::session::{
-    Command, ExportCommand, ExportFormat, ExportOptions, ExportRange, ExportStep, ExportedFile, File, FileCommand,
-    HistoryCommand, LookCommand, MaterialCommand, NameCommand, PlayCommand, Session,
+    Command, ExportCommand, ExportFormat, ExportOptions, ExportRange, ExportedFile, File, FileCommand, HistoryCommand,
+    LookCommand, MaterialCommand, NameCommand, PlayCommand, Session,
 };
+use bindpose::slices::{Sliced, Slices, Stage};
 
 use image::{ImageFormat, Rgb, RgbImage};
 use serde_json::json;
@@ -251,20 +252,26 @@ fn what_cannot_be_written_says_why_and_saves_nothing() {
 }
 
 #[test]
-fn it_goes_in_steps_and_can_be_dropped_between_two() {
+fn it_goes_in_slices_and_can_be_dropped_between_two() {
     let mut session = mapped();
     let asked = options(ExportFormat::D3d12);
-    let mut job = Box::new(session.export_job(&asked).expect("a model is open"));
-    let mut told = vec![job.progress()];
-    loop {
-        match job.step() {
-            ExportStep::Working(next) => job = next,
-            ExportStep::Ended(file) => break assert!(file.is_ok()),
+    let at_once = written(&session, &asked);
+    let job = session.export_job(&asked).expect("a model is open");
+    let mut work = Sliced::new(&Slices::new(|| true), async move |slices| {
+        job.plan(&slices).await?.write(&slices).await
+    });
+    let mut told = Vec::new();
+    let file = loop {
+        match work.advance() {
+            None => told.push(work.progress()),
+            Some(file) => break file.expect("it can be written"),
         }
-        told.push(job.progress());
-    }
-    assert!(told.len() > 4, "edits, the model, two files: {told:?}");
-    assert!(told.iter().all(|told| told.done < told.total), "{told:?}");
+    };
+    assert_eq!(file, at_once);
+    let mut stages: Vec<_> = told.iter().map(|told| told.stage).collect();
+    stages.dedup();
+    assert_eq!(stages, [Stage::Editing, Stage::Writing, Stage::Packing]);
+    assert!(told.is_sorted_by_key(|told| told.percent()), "{told:?}");
 
     plan(&mut session, asked);
     session.apply(ExportCommand::Save);
