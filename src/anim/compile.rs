@@ -1,10 +1,13 @@
 //! A clip made ready for sampling: four tracks side by side, on one time line.
 
-use glam::DQuat;
+use std::borrow::Cow;
+use std::sync::Arc;
 
-use super::lanes::{ArcLanes, JointLanes, angle_between};
-use super::straight::straight;
-use crate::model::{Clip, JointIndex, LocalJoint, Track};
+use glam::{DQuat, Vec4};
+
+use super::lanes::{ArcLanes, JointLanes, angle_between, straight_between};
+use super::straight::unbent;
+use crate::model::{Clip, JointIndex, LocalJoint, Track, Way};
 use crate::slices::{Slices, Stage, at_once};
 
 /// Probe times of a clip at most.
@@ -25,19 +28,28 @@ pub struct CompiledClip {
 /// The tracks of four neighbouring joints with their keys at the same times, so that one search and one blend serve all
 /// four. Where a track lacks a time of the others, its value at that time becomes a key: the motion is the same.
 /// A group therefore has no more keys than its tracks together.
+///
+/// What stays is there once, and so are the times of neighbouring groups with the same ones. Besides these, a key takes of each joint
+/// 24 bytes for a rotation, 12 for a translation and 12 for a scale, as far as one of the four has it move.
 #[derive(Clone, Debug)]
 pub(super) struct TrackGroup {
-    times_secs: Vec<f32>,
-    keys: Vec<KeyLanes>,
+    times_secs: Arc<[f32]>,
+    rotations: Values<RotationLanes>,
+    translations: Values<[Vec4; 3]>,
+    scales: Values<[Vec4; 3]>,
+    /// Of rotations, translations and scales: 0 in lanes that hold a value up to the next key, else 1. `None` where none holds.
+    goes: Option<Box<[Vec4; 3]>>,
 }
 
-/// One key of four tracks, and the way to the next.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct KeyLanes {
-    /// The joints. Neighbouring keys have rotations on the same side.
-    pub(super) joints: JointLanes,
-    /// From this key to the next.
-    pub(super) arc: ArcLanes,
+/// One value at each key, or a single one that stays.
+#[derive(Clone, Debug)]
+struct Values<T>(Vec<T>);
+
+/// Rotations of four joints at a key, and the way to the next one. Neighbouring keys have rotations on the same side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct RotationLanes {
+    rotation: [Vec4; 4],
+    arc: ArcLanes,
 }
 
 impl CompiledClip {
@@ -56,9 +68,12 @@ impl CompiledClip {
         let mut all = Vec::with_capacity(clips.len());
         for (done, clip) in clips.iter().enumerate() {
             let mut groups = Vec::with_capacity(clip.tracks.len().div_ceil(JointLanes::COUNT));
+            let mut times_secs = Arc::default();
             for tracks in clip.tracks.chunks(JointLanes::COUNT) {
                 slices.pause_at(Stage::Compiling, done, clips.len()).await;
-                groups.push(TrackGroup::new(tracks, slices).await);
+                let group = TrackGroup::new(tracks, &times_secs, slices).await;
+                times_secs = Arc::clone(&group.times_secs);
+                groups.push(group);
             }
             all.push(Self {
                 start_secs: clip.start_secs,
@@ -78,6 +93,15 @@ impl CompiledClip {
     /// The clip's end: the greatest key time.
     pub fn end_secs(&self) -> f32 {
         self.end_secs
+    }
+
+    /// Bytes that its keys take: of each key and joint 24 for a rotation, 12 for a translation and 12 for a scale, as far as these move in
+    /// one of four joints, and 4 for each time that a group of four does not share with the one before.
+    pub fn byte_count(&self) -> usize {
+        let mut lists: Vec<&Arc<[f32]>> = self.groups.iter().map(|group| &group.times_secs).collect();
+        lists.dedup_by(|list, other| Arc::ptr_eq(list, other));
+        let times: usize = lists.iter().map(|times_secs| size_of_val(&***times_secs)).sum();
+        times + self.groups.iter().map(TrackGroup::byte_count).sum::<usize>()
     }
 
     pub(super) fn joint_count(&self) -> usize {
@@ -100,7 +124,7 @@ impl CompiledClip {
     /// others of its group have one, too.
     pub(super) fn key_times_of(&self, joints: &[JointIndex]) -> Vec<f32> {
         let groups = joints.iter().filter_map(|&joint| Some(self.lane_of(joint)?.0));
-        let times_secs = groups.flat_map(TrackGroup::times_secs).copied().chain([self.end_secs]);
+        let times_secs = groups.flat_map(TrackGroup::corner_times_secs).chain([self.end_secs]);
         let mut times_secs: Vec<f32> = times_secs
             .filter(|&time_secs| self.start_secs < time_secs && time_secs <= self.end_secs)
             .collect();
@@ -112,10 +136,10 @@ impl CompiledClip {
     /// Times inside the clip at which to pose it to learn all that it reaches: the distinct key times, in order; at least
     /// the start. A clip with more than 1 000 of them has as many times, evenly spread over its length, instead.
     pub(crate) fn probe_times_secs(&self) -> Vec<f32> {
-        let times_secs = self.groups.iter().flat_map(TrackGroup::times_secs);
+        let times_secs = self.groups.iter().flat_map(TrackGroup::corner_times_secs);
         // The key of a joint at rest may lie outside.
-        let inside = times_secs.filter(|&&time_secs| (self.start_secs..=self.end_secs).contains(&time_secs));
-        let mut times_secs: Vec<f32> = inside.copied().chain([self.start_secs]).collect();
+        let inside = times_secs.filter(|time_secs| (self.start_secs..=self.end_secs).contains(time_secs));
+        let mut times_secs: Vec<f32> = inside.chain([self.start_secs]).collect();
         times_secs.sort_unstable_by(f32::total_cmp);
         times_secs.dedup();
         if times_secs.len() > MOST_PROBE_TIMES {
@@ -129,20 +153,46 @@ impl CompiledClip {
 }
 
 impl TrackGroup {
-    /// Up to four tracks; the lanes of missing ones are identities.
-    async fn new(tracks: &[Track], slices: &Slices) -> Self {
-        let tracks: Vec<_> = tracks.iter().map(straight).collect();
-        let tracks: Vec<&Track> = tracks.iter().map(AsRef::as_ref).collect();
-        let times_secs = common_times(&tracks);
-        let still = KeyLanes {
-            joints: JointLanes::IDENTITY,
+    /// Up to four tracks; the lanes of missing ones are identities. `times_before` are those of another group, to share.
+    async fn new(tracks: &[Track], times_before: &Arc<[f32]>, slices: &Slices) -> Self {
+        let tracks: Vec<_> = tracks.iter().map(unbent).collect();
+        let times_secs = match common_times(&tracks) {
+            same if same[..] == times_before[..] => Arc::clone(times_before),
+            other => other.into(),
+        };
+        let JointLanes {
+            rotation,
+            translation,
+            scale,
+        } = JointLanes::IDENTITY;
+        let still = RotationLanes {
+            rotation,
             arc: ArcLanes::NONE,
         };
-        let mut keys = vec![still; times_secs.len()];
+        let mut rotations = vec![still; times_secs.len()];
+        let mut translations = vec![translation; times_secs.len()];
+        let mut scales = vec![scale; times_secs.len()];
+        let mut goes = [Vec4::ONE; 3];
         for (lane, track) in tracks.iter().enumerate() {
-            fill_lane(lane, track, &times_secs, &mut keys, slices).await;
+            let holds = [
+                *track.rotation().way() == Way::Held,
+                *track.translation().way() == Way::Held,
+                *track.scale().way() == Way::Held,
+            ];
+            for (goes, holds) in goes.iter_mut().zip(holds) {
+                goes[lane] = if holds { 0.0 } else { 1.0 };
+            }
+            let [holds_rotation, ..] = holds;
+            let places = rotations.iter_mut().zip(translations.iter_mut().zip(&mut scales));
+            fill_lane(lane, places.zip(track.at_times(&times_secs)), holds_rotation, slices).await;
         }
-        Self { times_secs, keys }
+        Self {
+            times_secs,
+            rotations: Values::new(rotations),
+            translations: Values::new(translations),
+            scales: Values::new(scales),
+            goes: (goes != [Vec4::ONE; 3]).then(|| Box::new(goes)),
+        }
     }
 
     /// Key times in seconds, strictly increasing; at least one.
@@ -150,31 +200,113 @@ impl TrackGroup {
         &self.times_secs
     }
 
-    /// One per time.
-    pub(super) fn keys(&self) -> &[KeyLanes] {
-        &self.keys
+    /// The times between which all goes straight: key times, and the last moment before each where something is held up to it.
+    fn corner_times_secs(&self) -> impl Iterator<Item = f32> {
+        let before_key = |&time_secs: &f32| self.goes.is_some().then_some(time_secs.next_down());
+        let times_secs = self.times_secs.iter();
+        times_secs.flat_map(move |time_secs| before_key(time_secs).into_iter().chain([*time_secs]))
+    }
+
+    /// The joints at a key.
+    #[inline]
+    pub(super) fn joints_at(&self, key: usize) -> JointLanes {
+        JointLanes {
+            rotation: self.rotations.at(key).rotation,
+            translation: *self.translations.at(key),
+            scale: *self.scales.at(key),
+        }
+    }
+
+    /// Joints between a key and the next one. `fraction` is 0…1.
+    #[inline(always)]
+    pub(super) fn set_between(&self, key: usize, fraction: f32, joints: &mut JointLanes) {
+        let part = Vec4::splat(fraction);
+        let [turned, moved, scaled] = match &self.goes {
+            None => [part; 3],
+            Some(goes) => [part * goes[0], part * goes[1], part * goes[2]],
+        };
+        match self.rotations.span(key) {
+            Ok([from, to]) => joints.set_rotation_between(&from.rotation, &to.rotation, &from.arc, turned),
+            Err(still) => joints.rotation = still.rotation,
+        }
+        joints.translation = match self.translations.span(key) {
+            Ok([from, to]) => straight_between(from, to, moved),
+            Err(still) => *still,
+        };
+        joints.scale = match self.scales.span(key) {
+            Ok([from, to]) => straight_between(from, to, scaled),
+            Err(still) => *still,
+        };
+    }
+
+    /// Bytes of its values.
+    fn byte_count(&self) -> usize {
+        size_of_val(&*self.rotations.0) + size_of_val(&*self.translations.0) + size_of_val(&*self.scales.0)
     }
 }
 
-/// Every time at which a track has a key.
-fn common_times(tracks: &[&Track]) -> Vec<f32> {
-    let mut times_secs: Vec<f32> = tracks.iter().flat_map(|track| track.times_secs()).copied().collect();
-    // A stable sort merges runs that are sorted, as these are.
-    times_secs.sort_by(f32::total_cmp);
-    times_secs.dedup();
-    times_secs
+impl<T: PartialEq> Values<T> {
+    fn new(mut values: Vec<T>) -> Self {
+        if let Some((first, rest)) = values.split_first()
+            && rest.iter().all(|value| value == first)
+        {
+            values.truncate(1);
+            values.shrink_to_fit();
+        }
+        Self(values)
+    }
 }
 
-async fn fill_lane<'a>(lane: usize, track: &Track, times_secs: &[f32], keys: &'a mut [KeyLanes], slices: &Slices) {
-    let mut before: Option<(&'a mut KeyLanes, DQuat)> = None;
-    let keyed = keys.iter_mut().zip(track.at_times(times_secs));
-    let fill = |(key, joint): (&'a mut KeyLanes, LocalJoint)| {
-        key.joints.set_joint(lane, joint);
+impl<T> Values<T> {
+    #[inline]
+    fn at(&self, key: usize) -> &T {
+        &self.0[key.min(self.0.len() - 1)]
+    }
+
+    /// The values of a key and of the next one, or the one that stays.
+    #[inline]
+    fn span(&self, key: usize) -> Result<[&T; 2], &T> {
+        match &*self.0 {
+            [still] => Err(still),
+            values => Ok([&values[key], &values[key + 1]]),
+        }
+    }
+}
+
+type Places<'a> = (&'a mut RotationLanes, (&'a mut [Vec4; 3], &'a mut [Vec4; 3]));
+
+/// Puts a joint into one lane at each key. No arc leads to the next one where rotations hold.
+async fn fill_lane<'a>(
+    lane: usize,
+    keyed: impl Iterator<Item = (Places<'a>, LocalJoint)>,
+    holds_rotation: bool,
+    slices: &Slices,
+) {
+    let mut before: Option<(&'a mut RotationLanes, DQuat)> = None;
+    let fill = |((key, (translation, scale)), joint): (Places<'a>, LocalJoint)| {
+        set_lane(&mut key.rotation, lane, joint.rotation.to_array());
+        set_lane(translation, lane, joint.translation.to_array());
+        set_lane(scale, lane, joint.scale.to_array());
         let rotation = joint.rotation.as_dquat();
-        if let Some((key, start)) = before.take() {
+        if let Some((key, start)) = before.take().filter(|_| !holds_rotation) {
             key.arc.set(lane, angle_between(start, rotation));
         }
         before = Some((key, rotation));
     };
     slices.for_each(keyed, fill).await;
+}
+
+fn set_lane<const N: usize>(lanes: &mut [Vec4; N], lane: usize, values: [f32; N]) {
+    for (lanes, value) in lanes.iter_mut().zip(values) {
+        lanes[lane] = value;
+    }
+}
+
+/// Every time at which a track has a key.
+fn common_times(tracks: &[Cow<'_, Track>]) -> Vec<f32> {
+    let mut times_secs: Vec<f32> = tracks.iter().flat_map(|track| track.times_secs()).copied().collect();
+    // A stable sort merges runs that are sorted, as these are.
+    times_secs.sort_by(f32::total_cmp);
+    times_secs.dedup();
+    times_secs
 }

@@ -63,23 +63,22 @@ impl JointLanes {
     /// two, which must lie on one side ([`ArcLanes::to_same_side`]). `fraction` is 0…1.
     #[inline]
     pub(super) fn toward(&self, other: &Self, arc: &ArcLanes, fraction: f32) -> Self {
-        let mut between = Self::IDENTITY;
-        between.set_between(self, other, arc, fraction);
+        let part = Vec4::splat(fraction);
+        let mut between = Self {
+            translation: straight_between(&self.translation, &other.translation, part),
+            scale: straight_between(&self.scale, &other.scale, part),
+            ..Self::IDENTITY
+        };
+        between.set_rotation_between(&self.rotation, &other.rotation, arc, part);
         between
     }
 
-    /// Becomes what lies between four joints and four others: [`JointLanes::toward`] without a copy.
+    /// Takes rotations on the arc between four and four others on the same side.
     #[inline(always)]
-    pub(super) fn set_between(&mut self, from: &Self, to: &Self, arc: &ArcLanes, fraction: f32) {
-        let part = Vec4::splat(fraction);
-        let rest = Vec4::ONE - part;
+    pub(super) fn set_rotation_between(&mut self, from: &[Vec4; 4], to: &[Vec4; 4], arc: &ArcLanes, part: Vec4) {
         let [from_weight, to_weight] = arc.weights(part);
-        let turned = |i: usize| from.rotation[i] * from_weight + to.rotation[i] * to_weight;
-        let moved = |i: usize| from.translation[i] * rest + to.translation[i] * part;
-        let scaled = |i: usize| from.scale[i] * rest + to.scale[i] * part;
+        let turned = |i: usize| from[i] * from_weight + to[i] * to_weight;
         self.rotation = [turned(0), turned(1), turned(2), turned(3)];
-        self.translation = [moved(0), moved(1), moved(2)];
-        self.scale = [scaled(0), scaled(1), scaled(2)];
     }
 
     /// The parts of each joint as one matrix: [`LocalJoint::parent_from_joint`] of all four.
@@ -128,12 +127,20 @@ impl MatrixLanes {
     }
 }
 
+/// Vectors in a straight line between four and four others, each lane at its own part of the way, 0…1.
+#[inline(always)]
+pub(super) fn straight_between(from: &[Vec4; 3], to: &[Vec4; 3], part: Vec4) -> [Vec4; 3] {
+    let rest = Vec4::ONE - part;
+    let between = |i: usize| from[i] * rest + to[i] * part;
+    [between(0), between(1), between(2)]
+}
+
 /// The arcs between four unit quaternions and four others on the same side.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ArcLanes {
     /// Square of the angle between the quaternions, radians², 0…(π/2)².
     angle_squared: Vec4,
-    /// angle / sin(angle), 1 for equal rotations.
+    /// angle / sin(angle), 1 for equal rotations. From the square it could be had in fewer bits alone.
     angle_over_sine: Vec4,
 }
 

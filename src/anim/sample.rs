@@ -32,14 +32,14 @@ pub fn sample_joint(skeleton: &Skeleton, clip: &CompiledClip, joint: JointIndex,
 
 #[inline(always)]
 fn sample_group(group: &TrackGroup, time_secs: f32, guess: &mut usize, joints: &mut JointLanes) {
-    let (times_secs, keys) = (group.times_secs(), group.keys());
+    let times_secs = group.times_secs();
     let last = times_secs.len() - 1;
     if time_secs >= times_secs[last] {
-        *joints = keys[last].joints;
+        *joints = group.joints_at(last);
         return;
     }
     if time_secs.is_nan() || time_secs <= times_secs[0] {
-        *joints = keys[0].joints;
+        *joints = group.joints_at(0);
         return;
     }
     let from = span_at(times_secs, time_secs, *guess);
@@ -48,8 +48,7 @@ fn sample_group(group: &TrackGroup, time_secs: f32, guess: &mut usize, joints: &
     // In f64 neither the least nor the greatest step between two f32 can overflow or vanish.
     let start_secs = f64::from(times_secs[from]);
     let fraction = (f64::from(time_secs) - start_secs) / (f64::from(times_secs[to]) - start_secs);
-    let key = &keys[from];
-    joints.set_between(&key.joints, &keys[to].joints, &key.arc, fraction as f32);
+    group.set_between(from, fraction as f32, joints);
 }
 
 /// The key at or before a time that lies between the first and the last key: the guess where it holds, else a binary

@@ -16,20 +16,35 @@ const MOST_HALVINGS: u32 = 9;
 /// A track whose channels all go straight from key to key, and that strays from the given one by less than [`MOST_ERROR`]. A value that
 /// is held has a second key, which is the last number before the time of the next.
 pub fn straight(track: &Track) -> Cow<'_, Track> {
-    if !track.holds() && !track.bends() {
-        return Cow::Borrowed(track);
+    if track.holds() {
+        Cow::Owned(of_pieces(track, true))
+    } else {
+        unbent(track)
     }
+}
+
+/// The same, but values that are held stay so.
+pub(super) fn unbent(track: &Track) -> Cow<'_, Track> {
+    if track.bends() {
+        Cow::Owned(of_pieces(track, false))
+    } else {
+        Cow::Borrowed(track)
+    }
+}
+
+/// `splits_steps`: a value that is held gets a second key.
+fn of_pieces(track: &Track, splits_steps: bool) -> Track {
     let vectors = |channel: &Channel<Vec3>| {
         let range = range(channel.values());
         let part = |distance: f32| if range > 0.0 { distance / range } else { 0.0 };
-        in_pieces(channel, |a, b| part(a.distance(b)))
+        in_pieces(channel, splits_steps, |a, b| part(a.distance(b)))
     };
     let turn = |a: Quat, b: Quat| 2.0 * (a - b).length().min((a + b).length());
-    Cow::Owned(Track::of_channels(
+    Track::of_channels(
         vectors(track.translation()),
-        in_pieces(track.rotation(), turn),
+        in_pieces(track.rotation(), splits_steps, turn),
         vectors(track.scale()),
-    ))
+    )
 }
 
 /// What values range over, in their units.
@@ -45,7 +60,7 @@ fn range(values: &[Vec3]) -> f32 {
 }
 
 /// `apart` measures how far apart two values are.
-fn in_pieces<T: ChannelValue>(channel: &Channel<T>, apart: impl Fn(T, T) -> f32) -> Channel<T> {
+fn in_pieces<T: ChannelValue>(channel: &Channel<T>, splits_steps: bool, apart: impl Fn(T, T) -> f32) -> Channel<T> {
     let key_at = |secs: f32| (secs, channel.at(secs));
     let mut keys = Vec::with_capacity(channel.times_secs().len());
     for pair in channel.times_secs().windows(2) {
@@ -53,6 +68,7 @@ fn in_pieces<T: ChannelValue>(channel: &Channel<T>, apart: impl Fn(T, T) -> f32)
         keys.push(start);
         match channel.way() {
             Way::Straight => return channel.clone(),
+            Way::Held if !splits_steps => return channel.clone(),
             Way::Held if pair[1].next_down() > pair[0] => keys.push(key_at(pair[1].next_down())),
             Way::Held => {}
             Way::Spline(_) => add_between(channel, &apart, start, key_at(pair[1]), MOST_HALVINGS, &mut keys),

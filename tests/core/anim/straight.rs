@@ -1,7 +1,7 @@
 //! Curves as straight pieces.
 
-use bindpose::anim::{LocalJoint, STRAIGHT_ERROR, straight};
-use bindpose::model::{Channel, Track};
+use bindpose::anim::{CompiledClip, LocalJoint, LocalPose, STRAIGHT_ERROR, sample, straight};
+use bindpose::model::{Channel, Clip, Track};
 use glam::{Quat, Vec3};
 
 use crate::documents::{with_rotation, with_translation};
@@ -47,4 +47,90 @@ fn a_held_value_is_held_to_the_last_number_before_the_next_key() {
         assert_eq!(straight.at(time_secs), track.at(time_secs), "{time_secs}");
     }
     assert_eq!(straight.key_count(), 5);
+}
+
+/// Twenty joints with a key at each of 240 frames; each channel moves or stays.
+fn compiled(moves: [bool; 3], held: bool) -> CompiledClip {
+    let times = || (0_u16..240).map(|frame| f32::from(frame) / 60.0);
+    let vectors = |moves: bool, first: Vec3| {
+        let step = if moves { Vec3::splat(0.25) } else { Vec3::ZERO };
+        let keys = times().map(|secs| (secs, first + step * secs));
+        if held {
+            Channel::held(keys)
+        } else {
+            Channel::straight(keys)
+        }
+    };
+    let angle = if moves[0] { 0.5 } else { 0.0 };
+    let turns = times().map(|secs| (secs, Quat::from_rotation_y(angle * secs)));
+    let rotation = if held {
+        Channel::held(turns)
+    } else {
+        Channel::straight(turns)
+    };
+    let channels = with_translation(&still(), vectors(moves[1], Vec3::ZERO));
+    let track = Track::of_channels(
+        channels.translation().clone(),
+        rotation.expect("times increase"),
+        vectors(moves[2], Vec3::ONE).expect("times increase"),
+    );
+    CompiledClip::new(&Clip::new("way", vec![track; 20]))
+}
+
+#[test]
+fn compiled_keys_take_the_bytes_of_what_moves_and_steps_take_no_more() {
+    for (moves, most) in [
+        ([true, false, false], 24.5),
+        ([true, true, false], 36.5),
+        ([false, true, false], 12.5),
+        ([true; 3], 48.5),
+        ([false; 3], 0.5),
+    ] {
+        for held in [false, true] {
+            let bytes = compiled(moves, held).byte_count() as f32 / (20.0 * 240.0);
+            assert!((most - 0.6..most).contains(&bytes), "{moves:?}, held: {held}: {bytes}");
+        }
+    }
+}
+
+#[test]
+fn a_compiled_clip_holds_steps_beside_joints_that_go_on() {
+    let held = with_translation(
+        &still(),
+        Channel::held([(0.0, Vec3::X), (1.0, Vec3::Y), (2.0, Vec3::Z)]),
+    );
+    let turned = |radians: f32| Quat::from_rotation_z(radians);
+    let jumps = with_rotation(&still(), Channel::held([(0.25, turned(0.0)), (1.25, turned(3.0))]));
+    let goes = with_rotation(&still(), Channel::straight([(0.5, turned(0.5)), (1.75, turned(1.75))]));
+    let tracks = vec![held, jumps, goes];
+    let clip = CompiledClip::new(&Clip::new("steps", tracks.clone()));
+    let mut local = LocalPose::default();
+    for secs in [
+        0.0,
+        0.3,
+        0.9,
+        1.0_f32.next_down(),
+        1.0,
+        1.25_f32.next_down(),
+        1.25,
+        1.5,
+        2.0,
+    ] {
+        sample(&clip, secs, &mut local);
+        for (joint, track) in local.joints().zip(&tracks) {
+            let expected = track.at(secs);
+            assert!(
+                joint.translation.abs_diff_eq(expected.translation, 1e-6),
+                "{secs}: {joint:?}"
+            );
+            assert!(
+                joint.rotation.dot(expected.rotation).abs() > 1.0 - 1e-6,
+                "{secs}: {joint:?}"
+            );
+        }
+        assert_eq!(
+            local.joints().next().expect("a joint").translation,
+            tracks[0].at(secs).translation
+        );
+    }
 }
