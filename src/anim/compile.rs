@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, Vec4};
 
-use super::lanes::{ArcLanes, JointLanes, angle_between, straight_between};
+use super::lanes::{ArcLanes, JointLanes, angle_between, set_straight_between};
 use super::straight::unbent;
 use crate::model::{Clip, JointIndex, LocalJoint, Track, Way};
 use crate::slices::{Slices, Stage, at_once};
@@ -220,23 +220,29 @@ impl TrackGroup {
     /// Joints between a key and the next one. `fraction` is 0…1.
     #[inline(always)]
     pub(super) fn set_between(&self, key: usize, fraction: f32, joints: &mut JointLanes) {
-        let part = Vec4::splat(fraction);
-        let [turned, moved, scaled] = match &self.goes {
-            None => [part; 3],
-            Some(goes) => [part * goes[0], part * goes[1], part * goes[2]],
-        };
-        match self.rotations.span(key) {
-            Ok([from, to]) => joints.set_rotation_between(&from.rotation, &to.rotation, &from.arc, turned),
-            Err(still) => joints.rotation = still.rotation,
+        // Where the compiler keeps the program small, `splat` is a loop.
+        let part = Vec4::ONE * fraction;
+        // Two copies of the same: in the first all parts are one.
+        match &self.goes {
+            None => self.set_at_parts(key, [part; 3], joints),
+            Some(goes) => self.set_at_parts(key, [part * goes[0], part * goes[1], part * goes[2]], joints),
         }
-        joints.translation = match self.translations.span(key) {
-            Ok([from, to]) => straight_between(from, to, moved),
-            Err(still) => *still,
-        };
-        joints.scale = match self.scales.span(key) {
-            Ok([from, to]) => straight_between(from, to, scaled),
-            Err(still) => *still,
-        };
+    }
+
+    #[inline(always)]
+    fn set_at_parts(&self, key: usize, [turned, moved, scaled]: [Vec4; 3], joints: &mut JointLanes) {
+        match self.rotations.span(key) {
+            Some([from, to]) => joints.set_rotation_between(&from.rotation, &to.rotation, &from.arc, turned),
+            None => joints.rotation = self.rotations.0[0].rotation,
+        }
+        match self.translations.span(key) {
+            Some([from, to]) => set_straight_between(&mut joints.translation, from, to, moved),
+            None => joints.translation = self.translations.0[0],
+        }
+        match self.scales.span(key) {
+            Some([from, to]) => set_straight_between(&mut joints.scale, from, to, scaled),
+            None => joints.scale = self.scales.0[0],
+        }
     }
 
     /// Bytes of its values.
@@ -263,13 +269,10 @@ impl<T> Values<T> {
         &self.0[key.min(self.0.len() - 1)]
     }
 
-    /// The values of a key and of the next one, or the one that stays.
-    #[inline]
-    fn span(&self, key: usize) -> Result<[&T; 2], &T> {
-        match &*self.0 {
-            [still] => Err(still),
-            values => Ok([&values[key], &values[key + 1]]),
-        }
+    /// The values of a key and of the next one; `None` of one that stays.
+    #[inline(always)]
+    fn span(&self, key: usize) -> Option<[&T; 2]> {
+        Some([self.0.get(key)?, self.0.get(key + 1)?])
     }
 }
 

@@ -63,12 +63,10 @@ impl JointLanes {
     /// two, which must lie on one side ([`ArcLanes::to_same_side`]). `fraction` is 0…1.
     #[inline]
     pub(super) fn toward(&self, other: &Self, arc: &ArcLanes, fraction: f32) -> Self {
-        let part = Vec4::splat(fraction);
-        let mut between = Self {
-            translation: straight_between(&self.translation, &other.translation, part),
-            scale: straight_between(&self.scale, &other.scale, part),
-            ..Self::IDENTITY
-        };
+        let part = Vec4::ONE * fraction;
+        let mut between = Self::IDENTITY;
+        set_straight_between(&mut between.translation, &self.translation, &other.translation, part);
+        set_straight_between(&mut between.scale, &self.scale, &other.scale, part);
         between.set_rotation_between(&self.rotation, &other.rotation, arc, part);
         between
     }
@@ -127,12 +125,13 @@ impl MatrixLanes {
     }
 }
 
-/// Vectors in a straight line between four and four others, each lane at its own part of the way, 0…1.
+/// Takes vectors in a straight line between four and four others, each lane at its own part of the way, 0…1.
 #[inline(always)]
-pub(super) fn straight_between(from: &[Vec4; 3], to: &[Vec4; 3], part: Vec4) -> [Vec4; 3] {
+pub(super) fn set_straight_between(vectors: &mut [Vec4; 3], from: &[Vec4; 3], to: &[Vec4; 3], part: Vec4) {
     let rest = Vec4::ONE - part;
-    let between = |i: usize| from[i] * rest + to[i] * part;
-    [between(0), between(1), between(2)]
+    vectors[0] = from[0] * rest + to[0] * part;
+    vectors[1] = from[1] * rest + to[1] * part;
+    vectors[2] = from[2] * rest + to[2] * part;
 }
 
 /// The arcs between four unit quaternions and four others on the same side.

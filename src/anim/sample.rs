@@ -55,7 +55,7 @@ fn sample_group(group: &TrackGroup, time_secs: f32, guess: &mut usize, joints: &
 /// search.
 #[inline]
 fn span_at(times_secs: &[f32], time_secs: f32, guess: usize) -> usize {
-    if let Some(&[from, to]) = times_secs.get(guess..).and_then(|rest| rest.first_chunk())
+    if let (Some(&from), Some(&to)) = (times_secs.get(guess), times_secs.get(guess + 1))
         && from <= time_secs
         && time_secs < to
     {

@@ -253,7 +253,7 @@ impl MovedBox {
 
     /// A box with room for errors of numbers as large as those of another one.
     fn grown(&self, min: Vec3A, max: Vec3A, least: Vec3A, greatest: Vec3A) -> Aabb {
-        let error = Vec3A::splat(self.error * least.abs().max(greatest.abs()).max_element());
+        let error = Vec3A::ONE * (self.error * least.abs().max(greatest.abs()).max_element());
         Aabb {
             min: Vec3::from(min - error),
             max: Vec3::from(max + error),
