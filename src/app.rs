@@ -141,7 +141,8 @@ impl App {
         } else if let Some(secs) = session.quality().rests_in_secs() {
             ui.ctx().request_repaint_after_secs(secs);
         } else {
-            let is_idle = cost.is_none() && ui.input(|input| input.events.is_empty());
+            // What is being opened will want other pipelines, and must not wait for these.
+            let is_idle = cost.is_none() && !session.is_opening() && ui.input(|input| input.events.is_empty());
             if self.painter.prepares(&session, is_idle) {
                 ui.ctx().request_repaint_after_secs(PREPARE_PAUSE_SECS);
             }

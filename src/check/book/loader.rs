@@ -12,8 +12,13 @@ use crate::slices::{Slices, at_once};
 /// What a loader made of a file.
 #[derive(Clone, Debug)]
 pub struct Reading {
-    /// What was read before it went wrong. Names of maps are kept as they stand, `None` too.
+    /// What was read before it went wrong. Names of maps are kept as they stand, `None` too. Of rows that are known the vertices and
+    /// triangles are left out, and of each bone all keys but the first.
     pub document: Document,
+    /// How many vertices were read whole.
+    pub vertices: usize,
+    /// How many triangles were read whole.
+    pub triangles: usize,
     /// The counts of the header, as the loader believes them.
     pub counts: Counts,
     /// The read that failed: nothing after it was read.
@@ -71,11 +76,8 @@ const MATERIAL: [&str; 13] = [
 ];
 const KEY: [&str; 4] = ["Time", "Pos", "Scale", "Quat"];
 
-/// So many rows are taken over between two places at which that can stop.
-const ROWS_A_PIECE: usize = 1 << 14;
-
 /// Reads a file as a book's loader does. Makes room only for what is there. Rows of which is known that it reads them as they are meant are
-/// taken over.
+/// passed over.
 pub fn read(book: Book, bytes: &[u8], known: &Known<'_>) -> Reading {
     at_once(read_in(book, bytes, known, &Slices::ENDLESS))
 }
@@ -92,6 +94,7 @@ pub(super) async fn read_in(book: Book, bytes: &[u8], known: &Known<'_>, slices:
             },
             ..Document::default()
         },
+        passed: [0; 2],
     };
     let counts = loader.header();
     loader.materials(counts.materials).await;
@@ -103,9 +106,16 @@ pub(super) async fn read_in(book: Book, bytes: &[u8], known: &Known<'_>, slices:
         loader.hierarchy(counts.bones).await;
         loader.clips(counts.clips, counts.bones, known).await;
     }
-    let Loader { stream, document, .. } = loader;
+    let Loader {
+        stream,
+        document,
+        passed: [vertices, triangles],
+        ..
+    } = loader;
     let (stop, mistake) = stream.into_troubles();
     Reading {
+        vertices: vertices + document.vertices.len(),
+        triangles: triangles + document.triangles.len(),
         document,
         counts,
         stop,
@@ -117,6 +127,8 @@ struct Loader<'a> {
     stream: Stream<'a>,
     slices: &'a Slices,
     document: Document,
+    /// Vertices and triangles that were passed over.
+    passed: [usize; 2],
 }
 
 impl Loader<'_> {
@@ -182,10 +194,7 @@ impl Loader<'_> {
             && let (Some(last), Some(rows)) = (count.checked_sub(1), &quick.vertices)
             && self.stream.pass_over(rows, Entry::Vertex(last))
         {
-            for rows in document.vertices.chunks(ROWS_A_PIECE) {
-                self.slices.pause().await;
-                self.document.vertices.extend_from_slice(rows);
-            }
+            self.passed[0] = document.vertices.len();
             return;
         }
         let read = |stream: &mut Stream<'_>, _| {
@@ -206,7 +215,7 @@ impl Loader<'_> {
             && let (Some(last), Some(rows)) = (count.checked_sub(1), &quick.triangles)
             && self.stream.pass_over(rows, Entry::Triangle(last))
         {
-            self.document.triangles.clone_from(&document.triangles);
+            self.passed[1] = document.triangles.len();
             return;
         }
         let read = |stream: &mut Stream<'_>, _| {
@@ -263,7 +272,7 @@ impl Loader<'_> {
                 if stream.has_failed() {
                     return;
                 }
-                let mut keyframes = Vec::new();
+                let (mut keyframes, mut passed) = (Vec::new(), 0);
                 let track = known
                     .track(clip, bone)
                     .filter(|(track, _)| track.len() == keys as usize);
@@ -271,9 +280,10 @@ impl Loader<'_> {
                     && let Some(key) = keys.checked_sub(1)
                     && stream.pass_over(rows, Entry::Key { clip, bone, key })
                 {
-                    keyframes.extend_from_slice(track);
+                    keyframes.push(track[0]);
+                    passed = keys;
                 }
-                for key in keyframes.len() as u32..keys {
+                for key in passed..keys {
                     self.slices.pause_before(key as usize).await;
                     stream.entry = Entry::Key { clip, bone, key };
                     let quick = stream.quick(quick::keyframe::<false>);

@@ -14,6 +14,7 @@ pub(super) fn shows(reading: &Reading) -> String {
         counts,
         stop,
         mistake,
+        ..
     } = reading;
     let stopped_at = stop.as_ref().filter(|_| !is_complete(reading)).map(|stop| stop.entry);
     match stopped_at {
@@ -58,8 +59,8 @@ pub(super) fn is_complete(reading: &Reading) -> bool {
     header_was_read
         && has(document.materials.len(), materials)
         && has(document.subsets.len(), materials)
-        && has(document.vertices.len(), vertices)
-        && has(document.triangles.len(), triangles)
+        && has(reading.vertices, vertices)
+        && has(reading.triangles, triangles)
         && has(document.bone_offsets.len(), bones)
         && has(document.bone_parents.len(), bones)
         && (!is_skinned || has(document.clips.len(), clips))
