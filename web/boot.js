@@ -44,7 +44,8 @@ let onCanvas = null; // Starts and restarts the viewer on the page's canvas.
 let openName = ""; // Of the open model: a drag reads it many times a second.
 let mirror = null; // The viewer's controls as elements, of its present canvas.
 let gpuWasLost = false;
-let handing = 0; // How much of the person's is being opened.
+let handed = 0; // How often the person gave something.
+let handing = 0; // How much of it is being opened.
 let replaced = []; // Names of what was dropped before something else, and gave way to it.
 let received = false; // Whether the person opened anything, readable or not.
 const sources = rememberSources();
@@ -97,12 +98,14 @@ const receive = async (files, addsClips = false) => {
 /** Opens the person's files in the viewer, and remembers them for R. */
 const hand = async (files, addsClips) => {
   const { name } = files[0];
+  const mine = ++handed;
   handing += 1;
   try {
     await give(files, addsClips ? "addClips" : "open", (before, after) => sources.add(files, addsClips, before, after));
     replaced = replaced.filter((other) => other !== name);
   } catch (error) {
-    if (error.name === "AbortError") replaced.push(name);
+    // What the person gave up needs no words.
+    if (error.name === "AbortError") mine !== handed && replaced.push(name);
     else refuse(wordsOf(error));
   }
   handing -= 1;

@@ -136,7 +136,7 @@ enum OnTop {
 fn on_top(ui: &Ui, session: &Session, state: &UiState) -> Option<OnTop> {
     // A key of the first pass that has the opening in it can have been pressed before the file came: it is meant for what was seen then.
     let now_secs = ui.input(|input| input.time);
-    if state.opening_since.is_some_and(|(_, since_secs)| since_secs < now_secs) {
+    if state.opening_since.is_some_and(|since_secs| since_secs < now_secs) {
         Some(OnTop::Opening)
     } else if session.error().is_some() {
         Some(OnTop::Error)

@@ -105,8 +105,8 @@ pub struct UiState {
     pub diagnostics_open: bool,
     /// What was just done, in a few words.
     pub messages: Messages,
-    /// By [`Session::openings`], since when something is being opened, in the seconds of the context.
-    pub(in crate::ui) opening_since: Option<(u64, f64)>,
+    /// Since when something is being opened, in the seconds of the context.
+    pub(in crate::ui) opening_since: Option<f64>,
     /// What the drawer of a narrow window shows. None while it is closed.
     pub drawer: Option<DrawerPage>,
     /// How much contrast the person asks for.

@@ -59,6 +59,14 @@ test("while a large file opens the page goes on, tells how far it is, and Esc gi
   assert.equal((await state(page)).model.name, "figure.m3d");
   await chip.waitFor({ state: "detached" });
 
+  // What the person gave the page and gave up again was not replaced by anything, and the page does not say so.
+  await page.setInputFiles("#files", large());
+  await chip.waitFor({ state: "attached" });
+  await page.keyboard.press("Escape");
+  await until(page, ({ opening }) => !opening);
+  await chip.waitFor({ state: "detached" });
+  assert.equal(await page.isHidden("#notice"), true);
+
   await begin();
   assert.equal(await outcome(page), "large.m3d");
 });

@@ -173,3 +173,23 @@ fn esc_gives_up_what_is_opened_but_not_what_came_after_the_key() {
     assert_eq!(window.session().being_opened(), None, "it is given up");
     assert_eq!(window.session().open_model().expect("it stays").file.path, "a.m3d");
 }
+
+#[test]
+fn an_opening_that_is_read_and_then_made_keeps_its_chip() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    let session = &mut window.harness.state_mut().session;
+    session.open_in(&Slices::new(|| true));
+    session.begin_fetching("b.m3d".to_owned(), 2_000_000, true);
+    session.note_fetched(500_000);
+    window.wait(0.1);
+    assert!(!window.shows("Cancel opening b.m3d"), "a short one is not told");
+    window.wait(0.2);
+    assert!(window.shows("Cancel opening b.m3d"));
+    let session = &mut window.harness.state_mut().session;
+    session.end_fetching();
+    session.apply(FileCommand::Add(vec![moving("b.m3d")]));
+    window.frame([]);
+    assert!(window.shows("Cancel opening b.m3d"), "it goes on");
+    window.click("Cancel opening b.m3d");
+    assert_eq!(window.session().being_opened(), None);
+}

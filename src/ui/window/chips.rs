@@ -27,7 +27,7 @@ const GAP: f32 = 6.0;
 /// Room between chips.
 const SPACING: f32 = 6.0;
 /// Height of the bar of a chip that counts.
-const BAR: f32 = 2.0;
+const BAR: f32 = 3.0;
 /// An opening that takes longer is told.
 const SHOWN_AFTER_SECS: f64 = 0.2;
 /// Letters of the name of a file that is being opened, at most.
@@ -103,6 +103,7 @@ fn export(session: &Session) -> Option<Mode> {
 /// What a person reads of a stage.
 fn words(stage: Stage) -> &'static str {
     match stage {
+        Stage::Reading => "parsing",
         Stage::Compiling => Stage::Checking.as_str(),
         Stage::Joining => "adding clips",
         Stage::Judging => "finishing",
@@ -116,28 +117,28 @@ fn opening(session: &Session, state: &mut UiState, now_secs: f64) -> Option<Mode
         state.opening_since = None;
         return None;
     };
-    let openings = session.openings();
-    let since_secs = match state.opening_since {
-        Some((of, since_secs)) if of == openings => since_secs,
-        _ => now_secs,
-    };
-    state.opening_since = Some((openings, since_secs));
+    let since_secs = *state.opening_since.get_or_insert(now_secs);
     if now_secs - since_secs < SHOWN_AFTER_SECS {
         return None;
     }
     let StageProgress { stage, done, total, .. } = opened.progress;
     let mega = |bytes: usize| format!("{:.1}", bytes as f64 * 1e-6);
     let percent = opened.progress.percent();
+    // The number of the bar stands beside that of the stage.
     let stage = match stage {
         Stage::Fetching => format!("{} of {} MB", mega(done), mega(total)),
         Stage::Decoding => format!("picture {} of {total}", total.min(done + 1)),
-        stage => format!("{} · {percent} %", words(stage)),
+        stage => words(stage).to_owned(),
     };
     let name = shortened(opened.name, MOST_NAME);
     Some(Mode {
         name: format!("Cancel opening {name}"),
         done: Some(percent as f32 * 0.01),
-        ..Mode::new(format!("Opening {name}: {stage}"), None, FileCommand::CancelOpening)
+        ..Mode::new(
+            format!("Opening {name}: {stage} · {percent} %"),
+            None,
+            FileCommand::CancelOpening,
+        )
     })
 }
 
@@ -277,7 +278,7 @@ impl Chip {
             let part = chip.with_max_x(chip.min.x + done * chip.width());
             painter
                 .with_clip_rect(part)
-                .rect_filled(chip, radius, tokens.field_hovered);
+                .rect_filled(chip, radius, tokens.accent_ground);
             let bar = Rect::from_min_max(pos2(chip.min.x, chip.max.y - BAR), part.max);
             painter.with_clip_rect(bar).rect_filled(chip, radius, tokens.accent);
         }
