@@ -15,13 +15,15 @@ const OUT = path("out/");
 const PATIENCE_MS = 120_000;
 
 let page;
-before(async () => {
+before(start, { timeout: PATIENCE_MS });
+async function start() {
   mkdirSync(OUT, { recursive: true });
   page = await launch(BROWSER, PROGRAM);
   // Nothing moves but what a test moves, and WebGL2 is what these browsers draw with here.
   await page.open(`${PAGE}?backend=webgl2&scale=0.2`);
-});
-after(() => page?.close());
+}
+// Firefox was seen not to end.
+after(() => page?.close(), { timeout: PATIENCE_MS });
 
 const state = () => page.evaluate(() => JSON.parse(JSON.stringify(globalThis.bindpose?.state() ?? null)));
 const call = (name, ...values) => page.evaluate((name, ...values) => void globalThis.bindpose[name](...values), name, ...values);

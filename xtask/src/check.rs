@@ -194,7 +194,8 @@ fn clippy(what: &[&str]) -> Result<(), Failure> {
 
 /// The line that runs a file of tests in a browser.
 fn node(run: BrowserRun, only: Option<&str>, tests: &str, page: &str) -> Line {
-    let node = ["--test", "--test-reporter=spec"]
+    // A browser that does not end would keep node waiting for it.
+    let node = ["--test", "--test-force-exit", "--test-reporter=spec"]
         .into_iter()
         .chain(only)
         .chain([tests]);
