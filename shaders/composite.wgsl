@@ -4,6 +4,8 @@
 @group(0) @binding(1) var picture_sampler: sampler;
 // The part of the texture that the picture fills, from the top left, and its last texels' centres.
 @group(0) @binding(2) var<uniform> filled: Filled;
+// What lies over the picture, transparent elsewhere.
+@group(0) @binding(3) var layer: texture_2d<f32>;
 
 struct Filled {
     part: vec2<f32>,
@@ -22,7 +24,9 @@ fn nearly_srgb(linear: vec3<f32>) -> vec3<f32> {
 fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     let uv = min((view.ndc * vec2<f32>(0.5, -0.5) + 0.5) * filled.part, filled.last);
     // The picture is premultiplied in linear light. What is transparent shows black, which is what lies under it.
-    let texel = textureSampleLevel(picture, picture_sampler, uv, 0.0);
+    let under = textureSampleLevel(picture, picture_sampler, uv, 0.0);
+    let over = textureSampleLevel(layer, picture_sampler, uv, 0.0);
+    let texel = over + under * (1.0 - over.a);
     let straight = texel.rgb / max(texel.a, 1e-6);
     return vec4<f32>(nearly_srgb(straight) * texel.a, 1.0);
 }

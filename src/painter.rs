@@ -15,6 +15,7 @@ const SMALL_SHADOW_MAP_SIDE: u32 = 1024;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Drawn {
+    scene: u64,
     picture: u64,
     size: [u32; 2],
 }
@@ -73,8 +74,8 @@ impl SessionPainter {
         }
         Self {
             renderer: Renderer::new(device, queue, of_renderer),
-            target: Target::with_samples(device, 1, 1, samples),
-            plain_target: Target::with_samples(device, 1, 1, SampleCount::One),
+            target: Target::with_samples(device, 1, 1, samples).with_layer(),
+            plain_target: Target::with_samples(device, 1, 1, SampleCount::One).with_layer(),
             device: device.clone(),
             queue: queue.clone(),
             samples,
@@ -107,6 +108,7 @@ impl SessionPainter {
         let sizes = self.sizes(session.quality(), window);
         self.update(session);
         let wanted = Drawn {
+            scene: session.scene_revision(),
             picture: session.picture_revision(),
             size: sizes.now,
         };
@@ -114,6 +116,9 @@ impl SessionPainter {
         if self.drawn == Some(wanted) {
             return None;
         }
+        let scene_stays = self
+            .drawn
+            .is_some_and(|drawn| (drawn.scene, drawn.size) == (wanted.scene, wanted.size));
         let (target, largest) = if session.quality().smooths_edges_now() {
             (&mut self.target, sizes.at_rest)
         } else {
@@ -122,7 +127,12 @@ impl SessionPainter {
         let start_secs = (self.now_secs)();
         let mut cost;
         if target.size() == sizes.now {
-            cost = self.renderer.render(&session.frame(), target);
+            let frame = session.frame();
+            cost = if scene_stays && target.can_draw_over(frame.has_overlays()) {
+                self.renderer.render_over(&frame, target)
+            } else {
+                self.renderer.render(&frame, target)
+            };
         } else {
             let device = self.device.clone();
             let stayed;

@@ -1,7 +1,7 @@
 //! Brings a finished picture onto a surface.
 
 use super::buffers::uniform_buffer;
-use super::target::Target;
+use super::target::{COLOR_FORMAT, Target, flat_texture};
 use crate::shaders;
 
 /// Draws a target's picture into someone else's render pass, encoded as egui's surface wants it, over black.
@@ -12,8 +12,10 @@ pub struct Compositor {
     sampler: wgpu::Sampler,
     /// The part of the texture that the picture fills, and where its last texels are.
     filled: wgpu::Buffer,
-    /// The view that the group shows, and the group.
-    source: Option<(wgpu::TextureView, wgpu::BindGroup)>,
+    /// Lies over the picture where nothing else does.
+    nothing: wgpu::TextureView,
+    /// The views that the group shows, and the group.
+    source: Option<([wgpu::TextureView; 2], wgpu::BindGroup)>,
 }
 
 impl Compositor {
@@ -45,6 +47,16 @@ impl Compositor {
                         ty: wgpu::BufferBindingType::Uniform,
                         has_dynamic_offset: false,
                         min_binding_size: None,
+                    },
+                    count: None,
+                },
+                wgpu::BindGroupLayoutEntry {
+                    binding: 3,
+                    visibility: wgpu::ShaderStages::FRAGMENT,
+                    ty: wgpu::BindingType::Texture {
+                        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+                        view_dimension: wgpu::TextureViewDimension::D2,
+                        multisampled: false,
                     },
                     count: None,
                 },
@@ -97,6 +109,14 @@ impl Compositor {
             layout,
             sampler,
             filled: uniform_buffer::<shaders::Filled>(device, "filled"),
+            // Textures begin transparent.
+            nothing: flat_texture(
+                device,
+                "nothing",
+                [1; 2],
+                COLOR_FORMAT,
+                wgpu::TextureUsages::TEXTURE_BINDING,
+            ),
             source: None,
         }
     }
@@ -110,7 +130,8 @@ impl Compositor {
             last: [width - half_texel[0], height - half_texel[1]],
         };
         queue.write_buffer(&self.filled, 0, bytemuck::bytes_of(&filled));
-        if self.source.as_ref().is_some_and(|(view, _)| view == target.view()) {
+        let views = [target.view(), target.over().unwrap_or(&self.nothing)];
+        if self.source.as_ref().is_some_and(|(shown, _)| shown.each_ref() == views) {
             return;
         }
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -119,7 +140,7 @@ impl Compositor {
             entries: &[
                 wgpu::BindGroupEntry {
                     binding: 0,
-                    resource: wgpu::BindingResource::TextureView(target.view()),
+                    resource: wgpu::BindingResource::TextureView(views[0]),
                 },
                 wgpu::BindGroupEntry {
                     binding: 1,
@@ -129,9 +150,13 @@ impl Compositor {
                     binding: 2,
                     resource: self.filled.as_entire_binding(),
                 },
+                wgpu::BindGroupEntry {
+                    binding: 3,
+                    resource: wgpu::BindingResource::TextureView(views[1]),
+                },
             ],
         });
-        self.source = Some((target.view().clone(), group));
+        self.source = Some((views.map(Clone::clone), group));
     }
 
     /// Fills the pass's viewport with the picture; the caller has set it (egui sets it to the callback's rectangle).

@@ -17,12 +17,13 @@ use super::timing::FrameEncoder;
 type Columns = (Light, std::ops::Range<u32>);
 
 impl Renderer {
-    /// Draws a frame. Returns what is known of its cost.
+    /// Draws a frame, or what lies over the model alone where the scene stays. Returns what is known of its cost.
     pub(super) fn draw(
         &mut self,
         frame: &RenderFrame<'_>,
         target: &mut Target,
         encoder: &mut FrameEncoder,
+        scene_stays: bool,
     ) -> FrameCost {
         self.common.environments.write(&self.common.queue, frame);
         let Common { device, queue, .. } = &self.common;
@@ -72,7 +73,7 @@ impl Renderer {
             (model, posed)
         });
         let columns_of = |light| parts.iter().find(|part| part.0 == light).map(|(_, columns)| columns);
-        for passes in &mut self.lights {
+        for passes in self.lights.iter_mut().filter(|_| !scene_stays) {
             if columns_of(passes.light()).is_none() {
                 continue;
             }
@@ -83,7 +84,7 @@ impl Renderer {
                 passes.draw_geometry(&self.common, encoder, map, (self.shape.revision_in_sight, model));
             }
         }
-        for passes in &mut self.lights {
+        for passes in self.lights.iter_mut().filter(|_| !scene_stays) {
             if let Some(columns) = columns_of(passes.light()) {
                 let (geometry, shape) = (self.geometry.as_ref(), (self.shape.revision, model));
                 passes.draw(&self.common, encoder, frame, (columns, geometry), shape);
@@ -91,7 +92,14 @@ impl Renderer {
         }
         let own = model.map(|model| with(model, self.instances.own()));
         pipelines.set_samples(target.samples());
-        self.draw_picture(frame, target, &parts, own, encoder);
+        target.set_overlays(frame.has_overlays(), !scene_stays);
+        if !scene_stays {
+            self.draw_picture(frame, target, &parts, own, encoder);
+        }
+        let size = target.size();
+        target.draw_layer(&self.common.device, encoder, frame.has_overlays(), |pass, kind| {
+            self.draw_over(frame, size, &parts, own, pass, [kind == 0, kind == 1]);
+        });
         let [draws, vertices] = model.map_or([0; 2], |(model, _)| model.take_drawn());
         FrameCost {
             draws,
@@ -111,27 +119,13 @@ impl Renderer {
     ) {
         let height = target.size()[1];
         let options = &frame.options;
-        let Common {
-            device,
-            pipelines,
-            nothing,
-            ..
-        } = &self.common;
+        let Common { pipelines, nothing, .. } = &self.common;
         let is_lit = options.view_mode == ViewMode::Lit;
         // Colours of the skin are the own instance's alone.
         let colored = frame.vertex_colors.is_some();
         // The backdrop replaces all that the model leaves, alpha too. Smooth edges store no alpha: it is there from the beginning.
         let mut pass = target.begin_pass(encoder, wgpu::Color::BLACK);
-        let begin_part = |pass: &mut wgpu::RenderPass<'_>, (light, columns): &Columns| {
-            let passes = self.lights.iter().find(|passes| passes.light() == *light);
-            let Some((passes, lighting)) = passes.and_then(|passes| Some((passes, passes.lighting_group()?))) else {
-                return false;
-            };
-            pass.set_scissor_rect(columns.start, 0, columns.len() as u32, height);
-            pass.set_bind_group(0, passes.frame_group(), &[]);
-            pass.set_bind_group(2, lighting, &[]);
-            true
-        };
+        let begin_part = |pass: &mut wgpu::RenderPass<'_>, part: &Columns| self.begin_part(pass, part, height);
         for part in parts {
             if let Some((model, own)) = model
                 && begin_part(&mut pass, part)
@@ -174,20 +168,59 @@ impl Renderer {
                 model.draw_blended(&mut pass, posed, order, draw);
             }
         }
-        for part in parts {
-            if !begin_part(&mut pass, part) {
-                continue;
-            }
-            if let Some(model) = model {
-                pass.set_bind_group(2, nothing, &[]);
-                self.overlays
-                    .draw_on_model(device, &mut pass, frame, model, &self.instances);
-            }
-            self.overlays.draw_shapes(&mut pass, pipelines, nothing, target.size());
+        if !target.has_layer() {
+            self.draw_over(frame, target.size(), parts, model, &mut pass, [true; 2]);
         }
         // GL resolves the samples by a copy, which the scissor would cut.
         let [width, height] = target.size();
         pass.set_scissor_rect(0, 0, width, height);
+    }
+
+    /// Draws what lies over the model: what it can hide, what is seen through it, or both.
+    fn draw_over(
+        &self,
+        frame: &RenderFrame<'_>,
+        size: [u32; 2],
+        parts: &[Columns],
+        model: Option<(&GpuModel, Posed<'_>)>,
+        pass: &mut wgpu::RenderPass<'_>,
+        [on_model, seen_through]: [bool; 2],
+    ) {
+        let Common {
+            device,
+            pipelines,
+            nothing,
+            ..
+        } = &self.common;
+        for part in parts {
+            if !self.begin_part(pass, part, size[1]) {
+                continue;
+            }
+            if let Some(model) = model.filter(|_| on_model) {
+                pass.set_bind_group(2, nothing, &[]);
+                self.overlays.draw_on_model(device, pass, frame, model, &self.instances);
+            }
+            for through in [on_model.then_some(false), seen_through.then_some(true)]
+                .into_iter()
+                .flatten()
+            {
+                self.overlays.draw_shapes(pass, pipelines, nothing, size, through);
+            }
+        }
+        // As above.
+        pass.set_scissor_rect(0, 0, size[0], size[1]);
+    }
+
+    /// Begins to draw into these columns, under their light. False where that was never drawn.
+    fn begin_part(&self, pass: &mut wgpu::RenderPass<'_>, (light, columns): &Columns, height: u32) -> bool {
+        let passes = self.lights.iter().find(|passes| passes.light() == *light);
+        let Some((passes, lighting)) = passes.and_then(|passes| Some((passes, passes.lighting_group()?))) else {
+            return false;
+        };
+        pass.set_scissor_rect(columns.start, 0, columns.len() as u32, height);
+        pass.set_bind_group(0, passes.frame_group(), &[]);
+        pass.set_bind_group(2, lighting, &[]);
+        true
     }
 }
 

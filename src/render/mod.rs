@@ -290,13 +290,22 @@ impl Renderer {
     /// Draws a frame and submits it. A skinned model with an empty palette is drawn in bind space. Returns what it cost; nobody waits
     /// for the GPU's times, which are those of an earlier frame.
     pub fn render(&mut self, frame: &RenderFrame<'_>, target: &mut Target) -> FrameCost {
+        self.render_window(frame, target, false)
+    }
+
+    /// Draws what lies over the model anew, where the target [can](Target::can_draw_over) and the rest of the picture would be the same.
+    pub fn render_over(&mut self, frame: &RenderFrame<'_>, target: &mut Target) -> FrameCost {
+        self.render_window(frame, target, true)
+    }
+
+    fn render_window(&mut self, frame: &RenderFrame<'_>, target: &mut Target, scene_stays: bool) -> FrameCost {
         self.window = Some(target.capacity());
         self.drop_view_textures(MOST_TIMES, target.capacity());
         let mut encoder = FrameEncoder::new(&self.common.device, "frame");
         if let Some(timer) = &mut self.timer {
             timer.begin_frame(&mut encoder);
         }
-        let cost = self.draw(frame, target, &mut encoder);
+        let cost = self.draw(frame, target, &mut encoder, scene_stays);
         let Some(timer) = &mut self.timer else {
             self.common.queue.inner.submit([encoder.commands.finish()]);
             return cost;
@@ -330,7 +339,7 @@ impl Renderer {
         Picture::start(&device, &queue, self.options.samples, target, |target| {
             // Its times would be taken for those of the window.
             let mut encoder = FrameEncoder::new(&self.common.device, "picture");
-            self.draw(frame, target, &mut encoder);
+            self.draw(frame, target, &mut encoder, false);
             self.common.queue.inner.submit([encoder.commands.finish()]);
             // A window at rest would hold what a large picture took.
             if let Some(window) = self.window {

@@ -91,16 +91,19 @@ impl Overlays {
         }
     }
 
-    /// Draws the shapes of the world. The caller sets group 0. `size` is the target's, pixels.
+    /// Draws the shapes of the world that the model can hide, or those that are seen `through` it. The caller sets group 0. `size` is the
+    /// target's, pixels.
     pub(super) fn draw_shapes(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         pipelines: &Pipelines,
         nothing: &wgpu::BindGroup,
         size: [u32; 2],
+        through: bool,
     ) {
         // Their vertices have colours of their own, but the lines' layout has a style all the same.
-        self.shapes.draw(pass, pipelines, nothing, &self.wire.group, size);
+        self.shapes
+            .draw(pass, pipelines, (nothing, &self.wire.group), size, through);
     }
 }
 
@@ -196,9 +199,9 @@ impl WorldShapes {
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         pipelines: &Pipelines,
-        nothing: &wgpu::BindGroup,
-        line_group: &wgpu::BindGroup,
-        size: [u32; 2],
+        (nothing, line_group): (&wgpu::BindGroup, &wgpu::BindGroup),
+        [width, height]: [u32; 2],
+        through: bool,
     ) {
         if self.lines.count + self.triangles.count == 0 {
             return;
@@ -206,28 +209,24 @@ impl WorldShapes {
         pass.set_bind_group(1, nothing, &[]);
         pass.set_bind_group(2, nothing, &[]);
         pass.set_bind_group(3, line_group, &[]);
-        let [width, height] = size.map(|side| side as f32);
-        for through in [false, true] {
-            if through {
-                pass.set_viewport(0.0, 0.0, width, height, 0.0, THROUGH_DEPTH);
-            }
-            for (shape, shapes) in [
-                (WorldShape::Triangles, &self.triangles),
-                (WorldShape::Lines, &self.lines),
-            ] {
-                let vertices = if through {
-                    shapes.depth_tested_count..shapes.count
-                } else {
-                    0..shapes.depth_tested_count
-                };
-                if !vertices.is_empty() {
-                    pass.set_pipeline(&pipelines.get(Draw::World { shape, through }));
-                    pass.set_vertex_buffer(0, shapes.buffer.slice(..));
-                    pass.draw(vertices, 0..1);
-                }
+        let farthest = if through { THROUGH_DEPTH } else { 1.0 };
+        pass.set_viewport(0.0, 0.0, width as f32, height as f32, 0.0, farthest);
+        for (shape, shapes) in [
+            (WorldShape::Triangles, &self.triangles),
+            (WorldShape::Lines, &self.lines),
+        ] {
+            let vertices = if through {
+                shapes.depth_tested_count..shapes.count
+            } else {
+                0..shapes.depth_tested_count
+            };
+            if !vertices.is_empty() {
+                pass.set_pipeline(&pipelines.get(Draw::World { shape, through }));
+                pass.set_vertex_buffer(0, shapes.buffer.slice(..));
+                pass.draw(vertices, 0..1);
             }
         }
-        pass.set_viewport(0.0, 0.0, width, height, 0.0, 1.0);
+        pass.set_viewport(0.0, 0.0, width as f32, height as f32, 0.0, 1.0);
     }
 }
 

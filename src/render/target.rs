@@ -34,11 +34,23 @@ pub(super) const FRACTION_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8U
 pub(super) fn flat_texture(
     device: &wgpu::Device,
     label: &str,
-    [width, height]: [u32; 2],
+    size: [u32; 2],
     format: wgpu::TextureFormat,
     usage: wgpu::TextureUsages,
 ) -> wgpu::TextureView {
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
+    texture(device, label, size, format, 1, usage).create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+/// A texture with one level.
+fn texture(
+    device: &wgpu::Device,
+    label: &str,
+    [width, height]: [u32; 2],
+    format: wgpu::TextureFormat,
+    sample_count: u32,
+    usage: wgpu::TextureUsages,
+) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
         size: wgpu::Extent3d {
             width,
@@ -46,13 +58,12 @@ pub(super) fn flat_texture(
             depth_or_array_layers: 1,
         },
         mip_level_count: 1,
-        sample_count: 1,
+        sample_count,
         dimension: wgpu::TextureDimension::D2,
         format,
         usage,
         view_formats: &[],
-    });
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
+    })
 }
 
 /// What a render pass draws into. All of it is cleared first.
@@ -60,12 +71,16 @@ pub(super) fn flat_texture(
 pub(super) struct PassTargets<'a> {
     /// Colours, and what they are cleared to.
     pub(super) color: Option<(&'a wgpu::TextureView, wgpu::Color)>,
+    /// Whether the colours are what an earlier pass left; they are then not cleared.
+    pub(super) color_is_there: bool,
     /// The samples of `color` are resolved into this and then dropped: tilers never write them to memory.
     pub(super) resolved: Option<&'a wgpu::TextureView>,
     /// Depth, cleared to the farthest.
     pub(super) depth: Option<&'a wgpu::TextureView>,
     /// Whether a later pass reads the depth.
     pub(super) depth_is_kept: bool,
+    /// Whether the depth is what an earlier pass kept; it is then not cleared.
+    pub(super) depth_is_there: bool,
     /// Width and height of the part that is filled, from the top left; without it, all.
     pub(super) filled: Option<[u32; 2]>,
     /// Left, top, width and height of the pixels that are drawn; without it, all.
@@ -90,14 +105,22 @@ pub(super) fn begin_pass<'a>(
         depth_slice: None,
         resolve_target: targets.resolved,
         ops: wgpu::Operations {
-            load: wgpu::LoadOp::Clear(clear),
+            load: if targets.color_is_there {
+                wgpu::LoadOp::Load
+            } else {
+                wgpu::LoadOp::Clear(clear)
+            },
             store: store(targets.resolved.is_none()),
         },
     });
     let depth = targets.depth.map(|view| wgpu::RenderPassDepthStencilAttachment {
         view,
         depth_ops: Some(wgpu::Operations {
-            load: wgpu::LoadOp::Clear(1.0),
+            load: if targets.depth_is_there {
+                wgpu::LoadOp::Load
+            } else {
+                wgpu::LoadOp::Clear(1.0)
+            },
             store: store(targets.depth_is_kept),
         }),
         stencil_ops: None,
@@ -138,6 +161,47 @@ pub struct Target {
     /// None with one sample: then `resolved` is drawn into.
     multisampled_view: Option<wgpu::TextureView>,
     depth_view: wgpu::TextureView,
+    over: Over,
+}
+
+/// How what lies over the model is drawn.
+enum Over {
+    /// With the model.
+    Together,
+    /// Into a layer of its own, so that it can be drawn anew where the model stays.
+    Apart {
+        /// None until something lies over the model.
+        layer: Option<Layer>,
+        /// Whether something lies over the model now.
+        is_shown: bool,
+        /// Whether the model's depth was kept for it.
+        has_depth: bool,
+    },
+}
+
+/// A picture of what lies over the model, transparent elsewhere.
+struct Layer {
+    resolved_view: wgpu::TextureView,
+    multisampled_view: Option<wgpu::TextureView>,
+    /// Of what is seen through the model.
+    depth_view: wgpu::TextureView,
+}
+
+impl Layer {
+    fn new(device: &wgpu::Device, size: [u32; 2], samples: SampleCount) -> Self {
+        let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        let view = |label, format, sample_count, usage| {
+            let texture = texture(device, label, size, format, sample_count, usage);
+            texture.create_view(&wgpu::TextureViewDescriptor::default())
+        };
+        let read = attachment | wgpu::TextureUsages::TEXTURE_BINDING;
+        Self {
+            resolved_view: view("layer", COLOR_FORMAT, 1, read),
+            multisampled_view: (samples != SampleCount::One)
+                .then(|| view("layer, multisampled", COLOR_FORMAT, samples.count(), attachment)),
+            depth_view: view("layer, depth", DEPTH_FORMAT, samples.count(), attachment),
+        }
+    }
 }
 
 impl Target {
@@ -149,22 +213,8 @@ impl Target {
     /// With so many samples a pixel; see [`device::sample_count`](super::device::sample_count).
     pub fn with_samples(device: &wgpu::Device, width: u32, height: u32, samples: SampleCount) -> Self {
         let [width, height] = within_limit(device, [width, height]);
-        let texture = |label, format, sample_count, usage| {
-            device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size: wgpu::Extent3d {
-                    width,
-                    height,
-                    depth_or_array_layers: 1,
-                },
-                mip_level_count: 1,
-                sample_count,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage,
-                view_formats: &[],
-            })
-        };
+        let texture =
+            |label, format, sample_count, usage| texture(device, label, [width, height], format, sample_count, usage);
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let resolved = texture(
             "picture",
@@ -182,7 +232,41 @@ impl Target {
             resolved_view: view(&resolved),
             multisampled_view: multisampled.as_ref().map(view),
             depth_view: view(&depth),
+            over: Over::Together,
             resolved,
+        }
+    }
+
+    /// Draws what lies over the model into a layer of its own.
+    #[must_use]
+    pub fn with_layer(mut self) -> Self {
+        self.over = Over::Apart {
+            layer: None,
+            is_shown: false,
+            has_depth: false,
+        };
+        self
+    }
+
+    /// Whether what lies over the model is a layer of its own.
+    pub(super) fn has_layer(&self) -> bool {
+        matches!(self.over, Over::Apart { .. })
+    }
+
+    /// Whether what lies over the model can be drawn anew, and the model stays.
+    pub fn can_draw_over(&self, [needs_depth, _]: [bool; 2]) -> bool {
+        matches!(self.over, Over::Apart { has_depth, .. } if has_depth || !needs_depth)
+    }
+
+    /// What lies over the model, to be laid over the picture; none where nothing does.
+    pub(super) fn over(&self) -> Option<&wgpu::TextureView> {
+        match &self.over {
+            Over::Apart {
+                layer: Some(layer),
+                is_shown: true,
+                ..
+            } => Some(&layer.resolved_view),
+            _ => None,
         }
     }
 
@@ -216,7 +300,10 @@ impl Target {
         let wanted = within_limit(device, largest.map(|side| side.next_multiple_of(CAPACITY_STEP)));
         let stays = has_room && pixels(capacity) <= 2 * pixels(wanted);
         if !stays {
-            *self = Self::with_samples(device, wanted[0], wanted[1], self.samples);
+            let fresh = Self::with_samples(device, wanted[0], wanted[1], self.samples);
+            *self = if self.has_layer() { fresh.with_layer() } else { fresh };
+        } else if let Over::Apart { has_depth, .. } = &mut self.over {
+            *has_depth = false;
         }
         self.size = within_limit(device, size);
         stays
@@ -247,6 +334,52 @@ impl Target {
         queue.submit([encoder.commands.finish()]);
     }
 
+    /// The passes into the layer over the model, one for each kind of [`RenderFrame::has_overlays`](crate::scene::RenderFrame::has_overlays)
+    /// that is there: `draw` is told which. What the model can hide meets the depth that was kept of it; what is seen through it has depth of its own.
+    pub(super) fn draw_layer(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut FrameEncoder,
+        are_there: [bool; 2],
+        draw: impl Fn(&mut wgpu::RenderPass<'_>, usize),
+    ) {
+        let (size, samples) = (self.capacity(), self.samples);
+        let Over::Apart { layer, .. } = &mut self.over else {
+            return;
+        };
+        let layer = layer.get_or_insert_with(|| Layer::new(device, size, samples));
+        let last = are_there.iter().rposition(|&is_there| is_there);
+        for kind in (0..2).filter(|&kind| are_there[kind]) {
+            let view = layer.multisampled_view.as_ref().unwrap_or(&layer.resolved_view);
+            let is_resolved = layer.multisampled_view.is_some() && last == Some(kind);
+            let on_model = kind == 0;
+            let targets = PassTargets {
+                color: Some((view, wgpu::Color::TRANSPARENT)),
+                color_is_there: kind == 1 && are_there[0],
+                resolved: is_resolved.then_some(&layer.resolved_view),
+                depth: Some(if on_model { &self.depth_view } else { &layer.depth_view }),
+                depth_is_kept: on_model,
+                depth_is_there: on_model,
+                filled: Some(self.size),
+                ..PassTargets::default()
+            };
+            draw(&mut begin_pass(encoder, TimedPass::Picture, targets), kind);
+        }
+    }
+
+    /// Says what lies over the model in the next picture, whose depth is kept where it can hide something.
+    pub(super) fn set_overlays(&mut self, are_there: [bool; 2], scene_is_drawn: bool) {
+        if let Over::Apart {
+            is_shown, has_depth, ..
+        } = &mut self.over
+        {
+            *is_shown = are_there.contains(&true);
+            if scene_is_drawn {
+                [*has_depth, _] = are_there;
+            }
+        }
+    }
+
     /// A pass over a picture of this colour.
     pub(super) fn begin_pass<'a>(&self, encoder: &'a mut FrameEncoder, color: wgpu::Color) -> wgpu::RenderPass<'a> {
         let (view, resolved) = match &self.multisampled_view {
@@ -257,6 +390,7 @@ impl Target {
             color: Some((view, color)),
             resolved,
             depth: Some(&self.depth_view),
+            depth_is_kept: matches!(self.over, Over::Apart { has_depth: true, .. }),
             filled: Some(self.size),
             ..PassTargets::default()
         };

@@ -5,7 +5,7 @@ use std::f32::consts::TAU;
 use bytemuck::{Pod, Zeroable};
 use glam::{Affine3A, Quat, Vec3};
 
-use super::appearance::{Background, Detail, Light, Overlays, Pass, Passes, Theme, ViewMode};
+use super::appearance::{Background, Detail, Light, Overlay, Overlays, Pass, Passes, Theme, ViewMode};
 use super::{Aabb, Camera};
 use crate::anim::Palette;
 
@@ -84,6 +84,18 @@ pub struct RenderFrame<'a> {
 }
 
 impl RenderFrame<'_> {
+    /// Whether anything lies over the model: what it can hide (ghosts, a highlight, lines, its box), and what is seen through it.
+    pub fn has_overlays(&self) -> [bool; 2] {
+        let lines = [Overlay::Wireframe, Overlay::Normals, Overlay::Tangents, Overlay::Bounds];
+        let has = |overlay: Overlay| self.options.overlays.has(overlay);
+        let is_on_model = !self.ghosts.palettes.is_empty() || self.highlighted_submesh.is_some();
+        let is_seen_through = self.seen_through.is_some_and(|shapes| !shapes.is_empty());
+        [
+            is_on_model || lines.into_iter().any(has),
+            is_seen_through || has(Overlay::Axes),
+        ]
+    }
+
     /// Whether a pass is drawn in the part of the picture that has this light: [`FrameOptions::draws_under`], and not only colours of
     /// vertices are shown, which do not use it.
     pub fn draws_under(&self, pass: Pass, light: Light) -> bool {
@@ -139,6 +151,11 @@ impl OverlayGeometry {
     pub fn clear(&mut self) {
         self.lines.clear();
         self.triangles.clear();
+    }
+
+    /// Whether nothing is in it.
+    pub fn is_empty(&self) -> bool {
+        self.lines.is_empty() && self.triangles.is_empty()
     }
 
     /// Adds a line, world space.

@@ -1,6 +1,7 @@
 //! The one place where things change.
 
 use super::look::quality::QualityNow;
+use super::look::skeleton_cache::SkinColorsKey;
 use super::look::view::View;
 use super::play::actor::{PlaybackSettings, PoseInputs};
 use super::{Changes, Command, Event, Session};
@@ -73,6 +74,7 @@ struct Before {
     settings: PlaybackSettings,
     clip_count: usize,
     quality: QualityNow,
+    skin_colors: Option<SkinColorsKey>,
 }
 
 impl Session {
@@ -84,27 +86,30 @@ impl Session {
             settings: self.actor.settings(),
             clip_count: self.content.clip_count(),
             quality: self.quality.now(),
+            skin_colors: self.skin_colors_key(),
         }
     }
 
     /// What differs from before, and what the parts recorded.
     fn changes_since(&mut self, before: &Before) -> Changes {
         let mut changes = self.content.changes.take();
-        changes.picture |= self.selection.joints.take_redraw();
-        changes.picture |= self.selection.submeshes.take_redraw();
+        let [others_drawn, others_stand_out] = self.selection.submeshes.take_redraw();
+        changes.picture |= others_stand_out || self.selection.joints.take_redraw();
         changes.pose |= changes.clips || self.actor.pose_inputs() != before.pose;
         changes.pose |= self.actor.mixer.take_changed();
         changes.pose |= self.instances.take_changed();
         changes.playback |=
             changes.clips || self.actor.settings() != before.settings || self.content.clip_count() != before.clip_count;
-        changes.picture |= changes.pose
+        changes.scene |= changes.pose
             || changes.maps
             || changes.materials
             || changes.sky
-            || changes.names
+            || others_drawn
             || (self.handedness(), self.up_axis()) != before.space
             || self.quality.now() != before.quality
-            || !self.view.shows_the_same_as(&before.view);
+            || self.skin_colors_key() != before.skin_colors
+            || !self.view.shows_the_same_scene_as(&before.view);
+        changes.picture |= changes.scene || changes.names || !self.view.shows_the_same_as(&before.view);
         changes
     }
 

@@ -24,6 +24,8 @@ pub struct Changes {
     pub pose: bool,
     /// Which clips there are, which one plays and how: range, speed, what happens at the end.
     pub playback: bool,
+    /// What is drawn of the model, its light and its ground: all of the picture but what lies over it.
+    pub scene: bool,
     /// The picture. True whenever one of the others changed what is seen.
     pub picture: bool,
 }
@@ -38,6 +40,7 @@ impl Changes {
         names: false,
         pose: false,
         playback: false,
+        scene: false,
         picture: false,
     };
 
@@ -48,6 +51,7 @@ impl Changes {
         maps: true,
         materials: true,
         pose: true,
+        scene: true,
         picture: true,
         ..Self::NONE
     };
@@ -79,6 +83,7 @@ impl BitOrAssign for Changes {
         self.names |= other.names;
         self.pose |= other.pose;
         self.playback |= other.playback;
+        self.scene |= other.scene;
         self.picture |= other.picture;
     }
 }
@@ -94,6 +99,7 @@ pub(super) struct Revisions {
     pub(super) materials: u64,
     pub(super) names: u64,
     pub(super) pose: u64,
+    pub(super) scene: u64,
     pub(super) picture: u64,
     pub(super) openings: u64,
     pub(super) beginnings: u64,
@@ -108,6 +114,7 @@ impl Revisions {
         self.materials += u64::from(changes.materials);
         self.names += u64::from(changes.names);
         self.pose += u64::from(changes.pose);
+        self.scene += u64::from(changes.scene);
         self.picture += u64::from(changes.picture);
     }
 }

@@ -328,6 +328,11 @@ impl Session {
         self.revisions.maps
     }
 
+    /// Counts changes of the model, its light and its ground: the same number, the same picture but for what lies over it.
+    pub fn scene_revision(&self) -> u64 {
+        self.revisions.scene
+    }
+
     /// Counts changes of the picture: the same number, the same picture.
     pub fn picture_revision(&self) -> u64 {
         self.revisions.picture

@@ -1,10 +1,15 @@
 //! A session on a surface without a window and without an interface, as a page has it that brings its own controls.
 
+use std::ops::RangeInclusive;
 use std::task::Waker;
 
+use bindpose::model::JointIndex;
 use bindpose::painter::{PainterOptions, SessionPainter};
 use bindpose::render::Compositor;
-use bindpose::session::{File, FileCommand, LookCommand, Session};
+use bindpose::scene::{FrameCost, Overlay};
+use bindpose::session::{
+    CameraCommand, Command, File, FileCommand, JointCommand, LookCommand, Session, SubmeshCommand,
+};
 
 use crate::gpu::{Gpu, Picture, without_blocks};
 use crate::picture::{SURFACE_FORMAT, on_surface};
@@ -13,6 +18,8 @@ struct Easel {
     gpu: Gpu,
     painter: SessionPainter,
     compositor: Compositor,
+    /// Of the last frame that was drawn.
+    cost: FrameCost,
 }
 
 impl Easel {
@@ -27,6 +34,7 @@ impl Easel {
         Self {
             painter: SessionPainter::new(&gpu.open.device, &gpu.open.queue, options, Waker::noop().clone()),
             compositor: Compositor::new(&gpu.open.device, SURFACE_FORMAT),
+            cost: FrameCost::default(),
             gpu,
         }
     }
@@ -34,7 +42,9 @@ impl Easel {
     /// What is on a surface of this size, and whether it was drawn for that.
     fn show(&mut self, session: &mut Session, size: [u32; 2]) -> (Picture, bool) {
         let window = size.map(|side| side as f32);
-        let drawn = self.painter.draw(session, window, &mut self.compositor).is_some();
+        let cost = self.painter.draw(session, window, &mut self.compositor);
+        self.cost = cost.unwrap_or(self.cost);
+        let drawn = cost.is_some();
         assert!(session.error().is_none());
         assert!(self.painter.is_current(session));
         (on_surface(&self.gpu, &self.compositor, size), drawn)
@@ -80,5 +90,59 @@ on_both_backends! {
         let (other, drawn) = easel.show(&mut session, small);
         assert!(drawn && other.rgba != first.rgba, "and goes on");
         assert_eq!(easel.painter.frames_rendered(), 3);
+    }
+
+    fn what_lies_over_the_model_is_drawn_anew_and_the_model_stays(gpu) {
+        let mut session = opened();
+        let size = [160, 120];
+        let mut easel = Easel::new(gpu);
+        let (mut before, _) = easel.show(&mut session, size);
+        let wire = |is_on| LookCommand::SetOverlay(Overlay::Wireframe, is_on).into();
+        // What is seen through the model needs none of it. The first thing that it can hide needs its depth, which is kept from then on: the
+        // model and the highlight, then the highlight alone, with edges, and alone.
+        let steps: [(Command, RangeInclusive<u64>); 8] = [
+            (LookCommand::SetBonesVisible(true).into(), 0..=0),
+            (JointCommand::Select(Some(JointIndex(1))).into(), 0..=0),
+            (JointCommand::Hover(Some(JointIndex(0))).into(), 0..=0),
+            (SubmeshCommand::Hover(Some(0)).into(), 2..=2),
+            (SubmeshCommand::Hover(None).into(), 0..=0),
+            (SubmeshCommand::Hover(Some(0)).into(), 1..=1),
+            (wire(true), 1..=2),
+            (wire(false), 1..=1),
+        ];
+        for (step, draws_of_model) in steps {
+            let words = format!("{step:?}");
+            session.apply(step);
+            let (picture, drawn) = easel.show(&mut session, size);
+            assert!(drawn && draws_of_model.contains(&easel.cost.draws), "{words}: {:?}", easel.cost);
+            assert!(picture.rgba != before.rgba, "{words}");
+            let (anew, _) = Easel::new(gpu).show(&mut session, size);
+            assert!(picture.rgba == anew.rgba, "{words}");
+            before = picture;
+        }
+
+        // Saved pictures are drawn in one pass.
+        let saved = easel.painter.draw_snapshot(&mut session, size, |_| ()).expect("it is small");
+        let saved = saved.pixels_blocking().expect("it is small");
+        let off = saved.iter().zip(&before.rgba).map(|(&a, &b)| a.abs_diff(b));
+        let (most, sum) = off.fold((0, 0.0), |(most, sum), off| (most.max(off), sum + f64::from(off)));
+        assert!(most < 40 && sum / (saved.len() as f64) < 0.1, "{most}, {sum}");
+
+        session.apply(CameraCommand::Orbit { yaw_radians: 0.5, pitch_radians: 0.0 });
+        let (moved, _) = easel.show(&mut session, size);
+        assert!(easel.cost.draws > 1 && moved.rgba != before.rgba, "the model is drawn with its depth");
+        let gone: [Command; 4] = [
+            LookCommand::SetBonesVisible(false).into(),
+            JointCommand::Select(None).into(),
+            JointCommand::Hover(None).into(),
+            SubmeshCommand::Hover(None).into(),
+        ];
+        for command in gone {
+            session.apply(command);
+        }
+        let (clear, _) = easel.show(&mut session, size);
+        assert_eq!(easel.cost.draws, 0);
+        let (anew, _) = Easel::new(gpu).show(&mut session, size);
+        assert!(clear.rgba == anew.rgba, "nothing of it is left");
     }
 }

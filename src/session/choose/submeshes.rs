@@ -30,8 +30,8 @@ pub struct Submeshes {
     selected: Option<usize>,
     selected_at: Option<Hit>,
     hovered: Option<usize>,
-    /// Other submeshes are drawn, or stand out, since the last [`Submeshes::take_redraw`].
-    redraw: bool,
+    /// Other submeshes are drawn, and stand out, since the last [`Submeshes::take_redraw`].
+    redraw: [bool; 2],
 }
 
 impl Submeshes {
@@ -81,8 +81,8 @@ impl Submeshes {
         self.hovered.filter(|&submesh| self.is_visible(submesh))
     }
 
-    /// Whether other submeshes are drawn, or stand out, since the last call.
-    pub(in crate::session) fn take_redraw(&mut self) -> bool {
+    /// Whether other submeshes are drawn, and whether others stand out, since the last call.
+    pub(in crate::session) fn take_redraw(&mut self) -> [bool; 2] {
         std::mem::take(&mut self.redraw)
     }
 
@@ -152,7 +152,7 @@ impl Submeshes {
         if submesh.is_none_or(|submesh| submesh < self.count()) && submesh != self.hovered {
             let before = self.highlighted();
             self.hovered = submesh;
-            self.redraw |= self.highlighted() != before;
+            self.redraw[1] |= self.highlighted() != before;
         }
     }
 
@@ -160,7 +160,7 @@ impl Submeshes {
         let left_out = self.visibility.left_out();
         if left_out != self.left_out {
             self.left_out = left_out;
-            self.redraw = true;
+            self.redraw[0] = true;
         }
     }
 }

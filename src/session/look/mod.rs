@@ -114,6 +114,22 @@ impl Look {
         self.labels_wanted && self.bones_visible
     }
 
+    /// Whether the model, its light and its ground look the same, whatever lies over them: lines, ghosts, bones and trails.
+    pub(super) fn lights_as(&self, other: &Self) -> bool {
+        let of_scene = |look: &Self| {
+            let turns_radians = [look.environment_turn_radians, look.book_lights_turn_radians];
+            let shown = (
+                look.view_mode,
+                look.skin_view,
+                look.background,
+                look.overlays.has(Overlay::Grid),
+            );
+            let light = (look.light, look.split, turns_radians, look.exposure_stops);
+            (light, shown, look.normal_green_flipped)
+        };
+        of_scene(self) == of_scene(other)
+    }
+
     /// Applies a command, for a model with `joint_count` joints. NaN and infinity are ignored; other numbers are clamped to their
     /// range.
     pub(super) fn apply(&mut self, command: LookCommand, joint_count: usize) {

@@ -62,6 +62,14 @@ impl View {
             && self.theme == other.theme
     }
 
+    /// The same, but for what lies over the model.
+    pub(in crate::session) fn shows_the_same_scene_as(&self, other: &Self) -> bool {
+        self.camera == other.camera
+            && self.aspect == other.aspect
+            && self.look.lights_as(&other.look)
+            && self.theme == other.theme
+    }
+
     /// The handedness in force: chosen, or else found.
     pub(in crate::session) fn handedness(&self, open: Option<&OpenModel>) -> Handedness {
         let found = || open.map(|open| open.model.handedness);

@@ -1,7 +1,7 @@
 //! What was recorded plays again: the same commands and times give the same state, to the bit.
 
 use bindpose::anim::Palette;
-use bindpose::scene::RenderFrame;
+use bindpose::scene::{FrameOptions, Overlay, Overlays, RenderFrame};
 use bindpose::session::{CameraCommand, Changes, Command, CrowdCommand, File, FileCommand, PlayCommand, Session};
 use glam::Vec3;
 use proptest::prelude::*;
@@ -93,8 +93,8 @@ fn take(session: &mut Session, step: Step) -> Changes {
     }
 }
 
-/// All that a renderer is told, but for the counter of the vertex colours.
-fn told_to_renderer(session: &mut Session) -> String {
+/// All that a renderer is told, but for the counter of the vertex colours: of the scene, and of what lies over it.
+fn told_to_renderer(session: &mut Session) -> [String; 2] {
     let RenderFrame {
         camera,
         world_from_model,
@@ -109,10 +109,21 @@ fn told_to_renderer(session: &mut Session) -> String {
         options,
     } = session.frame();
     let colors = vertex_colors.map(|colors| colors.colors_srgb);
-    format!(
-        "{camera:?} {world_from_model:?} {world_bounds:?} {palette:?} {crowd:?} {hidden_submeshes:?} {highlighted_submesh:?} {colors:?} \
-         {ghosts:?} {seen_through:?} {options:?}"
-    )
+    let mut lines = Overlays::default();
+    lines.set(Overlay::Grid, options.overlays.has(Overlay::Grid));
+    let of_scene = FrameOptions {
+        overlays: lines,
+        ..options
+    };
+    [
+        format!(
+            "{camera:?} {world_from_model:?} {world_bounds:?} {palette:?} {crowd:?} {hidden_submeshes:?} {colors:?} {of_scene:?}"
+        ),
+        format!(
+            "{highlighted_submesh:?} {ghosts:?} {seen_through:?} {:?}",
+            options.overlays
+        ),
+    ]
 }
 
 fn steps(most: usize) -> impl Strategy<Value = Vec<Step>> {
@@ -144,15 +155,19 @@ proptest! {
     }
 }
 
-/// After each step the picture is told as changed if the frame differs.
+/// After each step the picture is told as changed if the frame differs, and the scene if that does.
 fn each_change_is_told(steps: Vec<Step>) -> Result<(), TestCaseError> {
     let mut session = dropped(vec![moving("a.m3d"), still("c.m3d")]);
-    let mut before = (told_to_renderer(&mut session), session.picture_revision());
+    let revisions = |session: &Session| [session.scene_revision(), session.picture_revision()];
+    let mut before = (told_to_renderer(&mut session), revisions(&session));
     for step in steps {
         let changes = take(&mut session, step.clone());
-        let now = (told_to_renderer(&mut session), session.picture_revision());
+        let now = (told_to_renderer(&mut session), revisions(&session));
         prop_assert!(now.0 == before.0 || changes.picture, "{:?}: {changes:?}", step);
-        prop_assert_eq!(now.1 > before.1, changes.picture);
+        prop_assert!(now.0[0] == before.0[0] || changes.scene, "{:?}: {changes:?}", step);
+        prop_assert!(changes.picture || !changes.scene);
+        let told = [changes.scene, changes.picture];
+        prop_assert_eq!([0, 1].map(|of| now.1[of] > before.1[of]), told);
         before = now;
     }
     Ok(())
