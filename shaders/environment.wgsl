@@ -13,10 +13,10 @@ struct Environment {
 }
 
 @group(2) @binding(4) var<uniform> environment: Environment;
-// Level l of n is blurred for roughness l / (n - 1).
+// Level l of n is blurred for the roughness r whose r (2 - r) is l / (n - 1).
 @group(2) @binding(5) var environment_specular: texture_cube<f32>;
 // Scale and bias of fresnel0: the root of n·v to the right, roughness down; entries lie in the middles of texels, the first at
-// 0, the last at 1.
+// 0, the last at 1. In blue how much of a lobe the lamp fills: to the right the root of the sine of half the angle between them.
 @group(2) @binding(6) var brdf_table: texture_2d<f32>;
 // Linear and clamped, for both textures.
 @group(2) @binding(7) var environment_sampler: sampler;
@@ -42,13 +42,23 @@ fn environment_specular_light(direction: vec3<f32>, roughness: f32) -> vec3<f32>
     if environment.specular_level_count < 1.0 {
         return max(environment.sh[0].rgb, vec3<f32>(0.0)) * environment.intensity;
     }
-    let level = roughness * (environment.specular_level_count - 1.0);
+    let level = roughness * (2.0 - roughness) * (environment.specular_level_count - 1.0);
     let towards = environment_from_world(direction);
     return textureSampleLevel(environment_specular, environment_sampler, towards, level).rgb * environment.intensity;
 }
 
-fn brdf_lookup(n_dot_v: f32, roughness: f32) -> vec2<f32> {
+fn brdf_entry(across: f32, down: f32) -> vec3<f32> {
     let side = vec2<f32>(textureDimensions(brdf_table));
-    let place = (vec2<f32>(sqrt(max(n_dot_v, 0.0)), roughness) * (side - 1.0) + 0.5) / side;
-    return textureSampleLevel(brdf_table, environment_sampler, place, 0.0).rg;
+    let place = (vec2<f32>(across, down) * (side - 1.0) + 0.5) / side;
+    return textureSampleLevel(brdf_table, environment_sampler, place, 0.0).rgb;
+}
+
+fn brdf_lookup(n_dot_v: f32, roughness: f32) -> vec2<f32> {
+    return brdf_entry(sqrt(max(n_dot_v, 0.0)), roughness).rg;
+}
+
+// The fraction of what a surface of this roughness mirrors that the lamp fills. `mirrored` is where its lobe is strongest; both
+// directions are of unit length.
+fn lamp_lookup(mirrored: vec3<f32>, to_lamp: vec3<f32>, roughness: f32) -> f32 {
+    return brdf_entry(sqrt(0.5 * distance(mirrored, to_lamp)), roughness).b;
 }

@@ -27,6 +27,9 @@ struct Light {
     fine_occlusion: u32,
     // Samples of the shadow map for each point.
     @size(12) shadow_taps: u32,
+    // What a white surface shows that faces one of the studio's lights.
+    @size(16) key_color: vec3<f32>,
+    @size(16) rim_color: vec3<f32>,
 }
 
 @group(0) @binding(1) var<uniform> light: Light;

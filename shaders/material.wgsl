@@ -17,6 +17,8 @@ struct Material {
     // Channels of the normal map: 4 (alpha is gloss), 3, 2 (z follows from x and y), or 0 without one.
     normal_channels: u32,
     reflectivity: vec3<f32>,
+    // 1 when smaller levels of the normal map are means of directions, which are the shorter the more these differ.
+    normal_lengths: u32,
     // sRGB, a colour to tell the material from others.
     identity_srgb: vec4<f32>,
 }

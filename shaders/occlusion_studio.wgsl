@@ -6,7 +6,6 @@ const SLICES: i32 = 3;
 const STEPS: i32 = 5;
 const FEW_SLICES: i32 = 2;
 const FEW_STEPS: i32 = 3;
-const DEEPENING: f32 = 1.6;
 const HALF_PI: f32 = 1.5707963;
 // Farther pixels would cost more than they add.
 const MAX_REACH_PIXELS: f32 = 128.0;
@@ -76,6 +75,5 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         let behind_angle = normal_angle + max(behind - normal_angle, -HALF_PI);
         open += projected_length * (open_arc(ahead_angle, normal_angle) + open_arc(behind_angle, normal_angle));
     }
-    // Occluders beyond the radius are not found. Darkening the rest makes up for them.
-    return vec4<f32>(pow(clamp(open / f32(slices), 0.0, 1.0), DEEPENING));
+    return vec4<f32>(clamp(open / f32(slices), 0.0, 1.0));
 }

@@ -1,7 +1,8 @@
 // The studio: its environment, a soft key that casts shadows, a cool rim. Twin: `tests/common/twins/studio.rs`.
 
-// The key is a soft box, not a point: its mirror image is spread by this much of alpha.
-const KEY_SIZE: f32 = 0.08;
+// The lamp is a disc that is seen under 9 degrees from its middle to its edge: 1 / sin² of that is its radiance where a white surface that
+// faces it shows 1.
+const LAMP_RADIANCE: f32 = 40.863458;
 
 struct StudioSurface {
     albedo: vec3<f32>,
@@ -35,31 +36,29 @@ struct StudioLights {
 fn studio_light(surface: StudioSurface, lights: StudioLights) -> vec3<f32> {
     let n_dot_v = clamp(dot(surface.normal, surface.to_eye), 1e-3, 1.0);
     let weights = reflectance(surface.albedo, surface.fresnel0, brdf_lookup(n_dot_v, surface.roughness));
-    return studio_environment(surface, weights, n_dot_v)
-        + studio_key(surface, weights, n_dot_v, lights)
-        + studio_rim(surface, weights, n_dot_v, lights);
-}
-
-fn studio_environment(surface: StudioSurface, weights: Reflectance, n_dot_v: f32) -> vec3<f32> {
     let alpha = surface.roughness * surface.roughness;
     let mirrored = reflect(-surface.to_eye, surface.normal);
-    let towards = dominant_direction(surface.normal, mirrored, alpha);
-    let seen = specular_occlusion(n_dot_v, surface.ambient_occlusion, alpha) * horizon_fade(mirrored, surface.smooth_normal);
+    let towards = normalize(dominant_direction(surface.normal, mirrored, alpha));
+    let above = horizon_fade(mirrored, surface.smooth_normal);
+
+    let seen = specular_occlusion(n_dot_v, surface.ambient_occlusion, alpha) * above;
     let mirror_light = environment_specular_light(towards, surface.roughness) * seen;
-    let diffuse_light = environment_diffuse(surface.normal) * surface.ambient_occlusion;
-    return weights.single * mirror_light + (weights.multiple + weights.diffuse) * diffuse_light;
+    let diffuse_light = environment_diffuse(surface.normal) * multi_bounce(surface.ambient_occlusion, surface.albedo);
+    let from_environment = weights.single * mirror_light + (weights.multiple + weights.diffuse) * diffuse_light;
+
+    // Of the lamp's light too, what is mirrored once keeps its shape.
+    let n_dot_l = max(dot(surface.normal, lights.to_key), 0.0);
+    let lamp_seen = lamp_lookup(towards, lights.to_key, surface.roughness) * LAMP_RADIANCE * above;
+    let from_key = lights.key_color * lights.key_visible
+        * ((weights.diffuse + weights.multiple) * n_dot_l + weights.single * lamp_seen);
+    return from_environment + from_key + studio_rim(surface, weights, n_dot_v, lights);
 }
 
-fn studio_key(surface: StudioSurface, weights: Reflectance, n_dot_v: f32, lights: StudioLights) -> vec3<f32> {
-    let n_dot_l = dot(surface.normal, lights.to_key);
-    if n_dot_l <= 0.0 {
-        return vec3<f32>(0.0);
-    }
-    let alpha = min(surface.roughness * surface.roughness + KEY_SIZE, 1.0);
-    let lobe = specular_lobe(
-        surface.normal, surface.to_eye, lights.to_key, n_dot_l, n_dot_v, surface.fresnel0, alpha);
-    // The light already includes Lambert's 1/pi. The lobe does not want it, hence the PI.
-    return lights.key_color * (lights.key_visible * n_dot_l) * (weights.diffuse + PI * weights.boost * lobe);
+// The part of the key's light that a surface does not keep from itself, 1 where it faces the key. Where triangles are coarse, so that flat
+// and smooth normals disagree, the light fades out before the surface turns away: the shadow map would show each triangle's edge, jagged.
+fn own_light(flat_normal: vec3<f32>, smooth_normal: vec3<f32>, to_key: vec3<f32>) -> f32 {
+    let coarse = clamp(8.0 * (1.0 - dot(flat_normal, smooth_normal)), 0.02, 1.0);
+    return smoothstep(0.0, 0.4 * coarse, dot(smooth_normal, to_key)) * smoothstep(-0.1, 0.0, dot(flat_normal, to_key));
 }
 
 // The rim has no specular lobe: from so low it would overexpose every flat top. It scales with all that the surface reflects, and is

@@ -32,12 +32,34 @@ struct SurfacePoint {
     flat_normal: vec3<f32>,
     smooth_normal: vec3<f32>,
     normal: vec3<f32>,
+    // How much normals differ within the pixel: what that adds to the square of alpha.
+    widening: f32,
     // Interpolated from the vertices.
     tangent: vec4<f32>,
     tex_coord: vec2<f32>,
     substance: Substance,
     // Ambient occlusion: the fraction of the environment that reaches the point.
     occlusion: f32,
+}
+
+// Of normals that turn from one pixel to the next (Filament's constants, after Kaplanyan et al. 2016).
+fn bend_of(normal: vec3<f32>) -> f32 {
+    let across = dpdx(normal);
+    let down = dpdy(normal);
+    return min(0.3 * (dot(across, across) + dot(down, down)), 0.2);
+}
+
+// Of normals that a smaller level of the normal map has made one of: their mean is the shorter the more they differ (Toksvig 2004).
+fn spread_of(texel: vec3<f32>) -> f32 {
+    if material.normal_lengths == 0u {
+        return 0.0;
+    }
+    var length = length(texel * 2.0 - 1.0);
+    if material.normal_channels == 2u {
+        length = texel.b;
+    }
+    // Less than this is rounding.
+    return 2.0 * max(1.0 / max(length, 0.1) - 1.008, 0.0);
 }
 
 // Samples maps and takes derivatives, so every pixel of a triangle must call it.
@@ -57,6 +79,7 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
         derived_normal * select(-1.0, 1.0, dot(derived_normal, to_eye) > 0.0),
         vertex_normal * side,
         normal,
+        bend_of(normal) + spread_of(of_maps.normal_texel.rgb),
         mesh.world_tangent,
         mesh.tex_coord,
         of_maps,

@@ -13,7 +13,8 @@ use crate::slices::{Slices, at_once};
 pub enum MapKind {
     /// sRGB colours: averaged as linear light, each weighted by its alpha, since a transparent texel has no colour.
     Diffuse,
-    /// Directions of unit length: averaged and normalised. Alpha is averaged by itself.
+    /// Directions of unit length: averaged, and not normalised, so that a mean is the shorter the more they differ. With two channels
+    /// the length is in blue. Alpha is averaged by itself.
     Normal,
     /// Numbers such as roughness: each channel is averaged by itself.
     Data,
@@ -121,7 +122,7 @@ impl Image {
 enum Coding {
     /// sRGB with straight alpha.
     Srgb,
-    /// With two channels z follows from x and y, and is written as 0.
+    /// With two channels z follows from x and y, and blue is the length.
     Direction { two_channels: bool },
     /// Numbers 0…1, each channel by itself.
     Linear,
@@ -200,9 +201,13 @@ impl Coding {
             Self::Direction { two_channels } => {
                 let read = |texel: &[u8; 4]| {
                     let direction = unit(texel) / Vec4::new(127.5, 127.5, 127.5, 255.0) - Vec4::new(1.0, 1.0, 1.0, 0.0);
-                    if two_channels { with_z(direction) } else { direction }
+                    normalized(if two_channels { with_z(direction) } else { direction })
                 };
-                halve(width, height, texels, read, slices).await
+                let halved = halve(width, height, texels, read, slices).await;
+                if two_channels {
+                    data[start..].as_chunks_mut::<4>().0.iter_mut().for_each(|texel| texel[2] = u8::MAX);
+                }
+                halved
             }
             _ => halve(width, height, texels, |texel| unit(texel) / 255.0, slices).await,
         }
@@ -218,10 +223,12 @@ impl Coding {
                     [r, g, b, alpha.to_bits() as u8]
                 });
             }
-            Self::Direction { two_channels } => append_bytes(data, texels, |texel| {
-                let encoded = normalized(texel) * Vec4::new(0.5, 0.5, 0.5, 1.0) + Vec4::new(0.5, 0.5, 0.5, 0.0);
+            Self::Direction { two_channels } => append_bytes(data, texels, |texel: Texel| {
+                let of_unit = if two_channels { normalized(texel) } else { texel };
+                let encoded = of_unit * Vec4::new(0.5, 0.5, 0.5, 1.0) + Vec4::new(0.5, 0.5, 0.5, 0.0);
                 let [x, y, z, alpha] = bytes(encoded);
-                [x, y, if two_channels { 0 } else { z }, alpha]
+                let length = || bytes(Vec4::splat(texel.truncate().length()))[0];
+                [x, y, if two_channels { length() } else { z }, alpha]
             }),
             Self::Linear => append_bytes(data, texels, bytes),
             Self::Half => {

@@ -1,6 +1,7 @@
-//! How much of the environment's light a surface reflects: the second factor of the split sum (Karis 2013).
+//! How much of the environment's light a surface reflects, the second factor of the split sum (Karis 2013), and how much of the
+//! lamp is in what it mirrors.
 
-use std::f32::consts::TAU;
+use std::f32::consts::{PI, TAU};
 
 use glam::{Vec2, Vec3};
 
@@ -12,11 +13,16 @@ pub const BRDF_TABLE_SIDE: usize = 64;
 /// Half vectors that are averaged for each entry.
 const HALF_VECTORS: u32 = 128;
 
-/// The table with its lookup.
+/// Angle between the middle and the edge of the lamp, the disc that is the key light, as surfaces see it: 9°.
+pub const LAMP_RADIUS_RADIANS: f32 = PI / 20.0;
+
+/// The table with its lookups.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BrdfTable {
     side: usize,
     entries: Vec<[f32; 2]>,
+    /// As many, of [`lamp_share`]: roughness as in `entries`, columns by the root of the sine of half the angle.
+    lamp: Vec<f32>,
 }
 
 impl BrdfTable {
@@ -26,6 +32,7 @@ impl BrdfTable {
         Self {
             side,
             entries: brdf_table(side),
+            lamp: lamp_table(side),
         }
     }
 
@@ -34,29 +41,80 @@ impl BrdfTable {
         self.side
     }
 
-    /// The entries, row by row, as pairs of half floats: what a GPU takes as `Rg16Float`.
-    pub fn to_rg16f(&self) -> Vec<u16> {
-        self.entries
-            .iter()
-            .flatten()
-            .map(|&value| half::from_f32(value))
+    /// The entries, row by row, as half floats: what a GPU takes as `Rgba16Float`. Scale, bias, the lamp, nothing.
+    pub fn to_rgba16f(&self) -> Vec<u16> {
+        let texels = self.entries.iter().zip(&self.lamp);
+        texels
+            .flat_map(|(&[scale, bias], &lamp)| [scale, bias, lamp, 0.0])
+            .map(half::from_f32)
             .collect()
     }
 
     /// Scale and bias between the entries, as `brdf_lookup` in `environment.wgsl` has them.
     pub fn lookup(&self, n_dot_v: f32, roughness: f32) -> Vec2 {
+        self.between(n_dot_v.max(0.0).sqrt(), roughness, |index| Vec2::from(self.entries[index]))
+    }
+
+    /// How much of a lobe the lamp fills, between the entries, as `lamp_lookup` in `environment.wgsl` has it. Both directions are of unit
+    /// length.
+    pub fn lamp_lookup(&self, mirrored: Vec3, to_lamp: Vec3, roughness: f32) -> f32 {
+        let sine_of_half = 0.5 * mirrored.distance(to_lamp);
+        self.between(sine_of_half.sqrt(), roughness, |index| Vec2::splat(self.lamp[index])).x
+    }
+
+    fn between(&self, across: f32, down: f32, entry: impl Fn(usize) -> Vec2) -> Vec2 {
         let last = self.side - 1;
         let place = |value: f32| {
             let place = value.clamp(0.0, 1.0) * last as f32;
             let first = (place as usize).min(last - 1);
             (first, place - first as f32)
         };
-        let ((column, right), (row, below)) = (place(n_dot_v.max(0.0).sqrt()), place(roughness));
-        let entry = |row: usize, column: usize| Vec2::from(self.entries[row * self.side + column]);
+        let ((column, right), (row, below)) = (place(across), place(down));
+        let entry = |row: usize, column: usize| entry(row * self.side + column);
         let upper = entry(row, column).lerp(entry(row, column + 1), right);
         let lower = entry(row + 1, column).lerp(entry(row + 1, column + 1), right);
         upper.lerp(lower, below)
     }
+}
+
+/// The entries of [`lamp_share`]: column `c` is for the angle whose half has the sine `(c / (side − 1))²`, since the lamp's edge wants the
+/// finest steps; row `r` for perceptual roughness `r / (side − 1)`.
+fn lamp_table(side: usize) -> Vec<f32> {
+    let last = side.saturating_sub(1).max(1) as f32;
+    let angles: Vec<f32> = (0..side).map(|column| 2.0 * (column as f32 / last).powi(2).asin()).collect();
+    let of_row = |row: usize| {
+        let lobe = lobe(row as f32 / last);
+        angles.iter().map(move |&angle| lamp_share(&lobe, angle)).collect::<Vec<_>>()
+    };
+    (0..side).flat_map(of_row).collect()
+}
+
+/// Sines, cosines and weights of the directions in which a surface of this roughness mirrors, about the normal, for a viewer in its
+/// direction: the lobe with which environments are filtered.
+fn lobe(roughness: f32) -> Vec<[f32; 3]> {
+    let alpha_squared = (roughness * roughness).max(1e-4).powi(2);
+    let direction = |index: u32| {
+        let u = (index as f32 + 0.5) / HALF_VECTORS as f32;
+        let cos_squared = (1.0 - u) / (1.0 + (alpha_squared - 1.0) * u);
+        // The half vector's angle to the normal, doubled.
+        let cos = 2.0 * cos_squared - 1.0;
+        [(1.0 - cos * cos).max(0.0).sqrt(), cos, cos.max(0.0)]
+    };
+    (0..HALF_VECTORS).map(direction).collect()
+}
+
+/// The fraction of a lobe that a lamp fills whose middle is so far from the lobe's, radians.
+fn lamp_share(lobe: &[[f32; 3]], angle: f32) -> f32 {
+    let (sine, cosine) = angle.sin_cos();
+    let edge = LAMP_RADIUS_RADIANS.cos();
+    let (mut filled, mut whole) = (0.0, 0.0);
+    for &[lobe_sine, lobe_cosine, weight] in lobe {
+        // The part of a circle about the lobe's middle that lies within the lamp, by the spherical law of cosines.
+        let turn = (edge - cosine * lobe_cosine) / (sine * lobe_sine).max(1e-9);
+        filled += weight * turn.clamp(-1.0, 1.0).acos() / PI;
+        whole += weight;
+    }
+    filled / whole
 }
 
 /// Scale and bias by which `fresnel0` and `fresnel90` become the fraction of the environment's light that the GGX lobe with

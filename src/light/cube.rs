@@ -3,6 +3,7 @@
 use glam::{FloatExt as _, Vec3, Vec3A};
 
 use crate::image::half;
+use crate::slices::{Slices, at_once};
 
 /// Faces of a cube: +x, −x, +y, −y, +z, −z.
 pub(super) const FACES: usize = 6;
@@ -21,15 +22,25 @@ pub(super) struct Cube {
 impl Cube {
     /// A cube of `side` × `side` texels a face, each as `texel(face, x, y)` says; rows from the top. `side` is not 0.
     pub(super) fn from_texels(side: usize, texel: impl Fn(usize, usize, usize) -> Vec3A) -> Self {
+        at_once(Self::from_texels_in(side, texel, &Slices::ENDLESS))
+    }
+
+    /// The same in slices, each a row or more.
+    pub(super) async fn from_texels_in(
+        side: usize,
+        texel: impl Fn(usize, usize, usize) -> Vec3A,
+        slices: &Slices,
+    ) -> Self {
         let mut cube = Self {
             side,
             bordered: vec![Vec3A::ZERO; FACES * (side + 2) * (side + 2)],
         };
         for face in 0..FACES {
             for y in 0..side {
-                for x in 0..side {
-                    let index = cube.index(face, x + 1, y + 1);
-                    cube.bordered[index] = texel(face, x, y);
+                slices.pause().await;
+                let first = cube.index(face, 1, y + 1);
+                for (x, place) in cube.bordered[first..first + side].iter_mut().enumerate() {
+                    *place = texel(face, x, y);
                 }
             }
         }
@@ -192,12 +203,16 @@ pub(super) fn solid_angles(side: usize) -> Vec<f32> {
     // Of the part of the face between its middle and a corner at (x, y), signed.
     let corner = |x: f32, y: f32| (x * y).atan2((x * x + y * y + 1.0).sqrt());
     let place = |index: usize| 2.0 * index as f32 / side as f32 - 1.0;
-    let texel = |index: usize| {
-        let (left, top) = (place(index % side), place(index / side));
-        let (right, bottom) = (place(index % side + 1), place(index / side + 1));
-        corner(left, top) - corner(right, top) - corner(left, bottom) + corner(right, bottom)
-    };
-    (0..side * side).map(texel).collect()
+    let row = |y: usize| -> Vec<f32> { (0..=side).map(|x| corner(place(x), place(y))).collect() };
+    let mut above = row(0);
+    let mut angles = Vec::with_capacity(side * side);
+    for y in 1..=side {
+        let below = row(y);
+        let texels = above.windows(2).zip(below.windows(2));
+        angles.extend(texels.map(|(above, below)| above[0] - above[1] - below[0] + below[1]));
+        above = below;
+    }
+    angles
 }
 
 /// Resizes a square of texels: each new texel is the mean of the area that it covers. Neither side is 0.

@@ -2,23 +2,24 @@
 
 use glam::{Vec3, Vec3A};
 
-use super::cube::{Cube, FACES, resized, smoothstep, solid_angles};
-use super::studio_set;
+use super::cube::{Cube, FACES, resized, smoothstep, solid_angles, texel_direction};
+use super::studio_set::{Room, Set};
 use crate::image::srgb::{linear_from_srgb, srgb_from_linear};
 use crate::image::{Image, ImageKind};
+use crate::slices::{Slices, at_once};
 
 /// Texels a side of the smallest environment: a smaller one would have no levels for rough surfaces.
 const MIN_SIDE: usize = 16;
 
 /// Texels a side of the largest environment.
-const MAX_SIDE: usize = 128;
+const MAX_SIDE: usize = 256;
+
+/// Texels a side of an environment that is filtered in no time: what is shown until the large one is ready.
+const FIRST_SIDE: usize = 64;
 
 /// Of a larger cube with mips the largest level up to this side is read. Smaller levels may hold filtered light, as cubes
 /// that were made for reflections do.
 const MAX_READ_SIDE: u32 = 512;
-
-/// Texels a side of the generated studio: its lights have soft edges.
-const STUDIO_SIDE: usize = 64;
 
 /// Texels a side of the generated sky.
 const DAYLIGHT_SIDE: usize = 64;
@@ -37,7 +38,7 @@ const NEAR_GROUND: Vec3 = Vec3::new(0.162, 0.156, 0.144);
 /// The largest radiance of a texel of a file: a brighter sun would show as single bright dots.
 const MAX_RADIANCE: f32 = 256.0;
 
-/// A cube of linear radiance, a power of two from 16 to 128 texels a side.
+/// A cube of linear radiance, a power of two from 16 to 256 texels a side.
 ///
 /// Faces are +x, −x, +y, −y, +z, −z, laid out and looked up as in D3D and WebGPU.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,12 +47,44 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// A neutral photo studio, for a viewer who stands at −z and looks along +z, with x to the right and y up.
+    /// A neutral photo studio, for a viewer who stands at −z and looks along +z, with x to the right and y up, with texels of the largest
+    /// cube.
     ///
-    /// A large soft box overhead in front, a fill on the left, cool strips behind, a darker warm floor. The direct lights
-    /// that cast shadows are not in it.
-    pub fn studio() -> Self {
-        Self::from_fn(STUDIO_SIDE, studio_set::radiance)
+    /// A soft box overhead in front, a window beside the viewer, a fill on the left, cool strips behind, a warm floor. The direct lights,
+    /// of which the key casts shadows, are not in it: [`Room::lights`].
+    pub fn studio(room: Room) -> Self {
+        at_once(Self::studio_in(room, &Slices::ENDLESS))
+    }
+
+    /// The same in slices.
+    pub async fn studio_in(room: Room, slices: &Slices) -> Self {
+        Self::studio_of(room, MAX_SIDE, slices).await
+    }
+
+    /// The same with few texels, which is filtered in no time.
+    pub fn coarse_studio(room: Room) -> Self {
+        at_once(Self::studio_of(room, FIRST_SIDE, &Slices::ENDLESS))
+    }
+
+    async fn studio_of(room: Room, side: usize, slices: &Slices) -> Self {
+        let set = Set::new(room, std::f32::consts::FRAC_PI_2 / side as f32);
+        let texel = |face, x, y| {
+            let direction = texel_direction(side, face, x, y).normalize();
+            set.radiance(direction.into()).into()
+        };
+        Self {
+            cube: Cube::from_texels_in(side, texel, slices).await,
+        }
+    }
+
+    /// The same light with few texels, which is filtered in no time.
+    #[must_use]
+    pub fn coarse(&self) -> Self {
+        let mut cube = self.cube.clone();
+        while cube.side() > FIRST_SIDE {
+            cube = cube.halved();
+        }
+        Self { cube }
     }
 
     /// An outdoor sky without sun: blue above, pale at the horizon, neutral ground. No channel exceeds 1.
@@ -60,7 +93,7 @@ impl Environment {
     }
 
     /// The environment with `radiance(direction)` in each direction of unit length. `side` becomes the next power of two
-    /// from 16 to 128.
+    /// from 16 to 256.
     pub fn from_fn(side: usize, radiance: impl Fn(Vec3) -> Vec3) -> Self {
         let side = side.clamp(MIN_SIDE, MAX_SIDE).next_power_of_two();
         let radiance = |direction: Vec3A| Vec3A::from(radiance(direction.into()));

@@ -7,10 +7,10 @@
 //! Radiance is linear and in units where 1 shows as white.
 //!
 //! ```
-//! use bindpose::light::{Environment, Prefiltered};
+//! use bindpose::light::{Environment, Prefiltered, Room};
 //! use glam::Vec3;
 //!
-//! let studio = Prefiltered::of(&Environment::studio());
+//! let studio = Prefiltered::of(&Environment::coarse_studio(Room::Dark));
 //! let (above, below) = (studio.irradiance().towards(Vec3::Y), studio.irradiance().towards(Vec3::NEG_Y));
 //! assert!(above.min_element() > 2.0 * below.max_element());
 //! ```
@@ -24,6 +24,7 @@ mod environment;
 mod prefilter;
 mod studio_set;
 
-pub use brdf_table::{BRDF_TABLE_SIDE, BrdfTable, brdf_table};
+pub use brdf_table::{BRDF_TABLE_SIDE, BrdfTable, LAMP_RADIUS_RADIANS, brdf_table};
 pub use environment::{Environment, sound_radiance};
 pub use prefilter::{Irradiance, Prefiltered};
+pub use studio_set::{Room, RoomLights};

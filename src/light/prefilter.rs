@@ -7,18 +7,23 @@ use glam::{Vec3, Vec3A};
 use super::Environment;
 use super::brdf_table::hammersley;
 use super::cube::{Cube, FACES, solid_angles, texel_direction};
+use crate::slices::{Slices, at_once};
 
-/// Texels a side of the smallest level, the one for roughness 1.
-const LAST_SIDE: usize = 4;
+/// Levels of each chain. The last, for roughness 1, has a sixteenth of the first one's side.
+const LEVEL_COUNT: u32 = 5;
 
 /// Directions that are averaged for each texel of the second level; each level after it, which has a quarter of the texels,
 /// takes twice as many. Each stands for a patch of the environment, not for a point of it.
-const DIRECTIONS: u32 = 64;
+const DIRECTIONS: u32 = 48;
+
+/// Diffuse light is summed up over texels of a cube that has no more a side.
+const IRRADIANCE_SIDE: usize = 64;
 
 /// An environment ready to light surfaces: a copy for each roughness for specular light, and irradiance for diffuse light.
 ///
 /// The copies are the first factor of the split sum (Karis 2013), for a viewer in the direction of the normal. Level `l` of
-/// `n` is for perceptual roughness `l / (n − 1)`; each has half the side of the one before.
+/// `n` is for the perceptual roughness `r` whose `r (2 − r)` is `l / (n − 1)`, as in Filament: most levels are for what is polished, where
+/// a blur that is mixed of a sharp and a soft picture would show. Each has half the side of the one before.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prefiltered {
     levels: Vec<Cube>,
@@ -28,28 +33,35 @@ pub struct Prefiltered {
 impl Prefiltered {
     /// Filters an environment.
     pub fn of(environment: &Environment) -> Self {
+        at_once(Self::of_in(environment, &Slices::ENDLESS))
+    }
+
+    /// The same in slices.
+    pub async fn of_in(environment: &Environment, slices: &Slices) -> Self {
         let sharp = &environment.cube;
         let mut mips = vec![sharp.clone()];
         while let Some(last) = mips.last().filter(|last| last.side() > 1) {
+            slices.pause().await;
             mips.push(last.halved());
         }
-        let level_count = level_count(sharp.side());
-        let filtered = (1..level_count).map(|level| {
-            let roughness = level as f32 / (level_count - 1) as f32;
+        let mut levels = vec![sharp.clone()];
+        for level in 1..LEVEL_COUNT {
+            let roughness = roughness_of(level);
             let directions = DIRECTIONS << (level - 1);
             let lobe = lobe(roughness * roughness, directions, sharp.side(), mips.len() - 1);
             let side = sharp.side() >> level;
-            Cube::from_texels(side, |face, x, y| {
-                gather(&mips, &lobe, texel_direction(side, face, x, y).normalize())
-            })
-        });
+            let texel = |face, x, y| gather(&mips, &lobe, texel_direction(side, face, x, y).normalize());
+            levels.push(Cube::from_texels_in(side, texel, slices).await);
+        }
+        slices.pause().await;
+        let of_diffuse = mips.iter().find(|mip| mip.side() <= IRRADIANCE_SIDE);
         Self {
-            levels: std::iter::once(sharp.clone()).chain(filtered).collect(),
-            irradiance: Irradiance::of(environment),
+            levels,
+            irradiance: Irradiance::of_cube(of_diffuse.unwrap_or(sharp)),
         }
     }
 
-    /// How many levels there are, at least three.
+    /// How many levels there are: five.
     pub fn level_count(&self) -> u32 {
         self.levels.len() as u32
     }
@@ -74,7 +86,8 @@ impl Prefiltered {
     /// between texels and levels.
     pub fn sample(&self, direction: Vec3, roughness: f32) -> Vec3 {
         let last = self.levels.len() - 1;
-        let level = roughness.clamp(0.0, 1.0) * last as f32;
+        let roughness = roughness.clamp(0.0, 1.0);
+        let level = roughness * (2.0 - roughness) * last as f32;
         let lower = (level as usize).min(last);
         let upper = (lower + 1).min(last);
         let direction = Vec3A::from(direction);
@@ -86,9 +99,9 @@ impl Prefiltered {
     }
 }
 
-/// Levels from a side, a power of two, down to [`LAST_SIDE`].
-fn level_count(side: usize) -> usize {
-    (side / LAST_SIDE).ilog2() as usize + 1
+/// The perceptual roughness that a level is for.
+fn roughness_of(level: u32) -> f32 {
+    1.0 - (1.0 - level as f32 / (LEVEL_COUNT - 1) as f32).sqrt()
 }
 
 struct Tap {
@@ -158,7 +171,10 @@ pub struct Irradiance {
 impl Irradiance {
     /// Of all the light of an environment.
     pub fn of(environment: &Environment) -> Self {
-        let cube = &environment.cube;
+        Self::of_cube(&environment.cube)
+    }
+
+    fn of_cube(cube: &Cube) -> Self {
         let side = cube.side();
         let angles = solid_angles(side);
         let mut coefficients = [Vec3A::ZERO; 9];

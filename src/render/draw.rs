@@ -25,7 +25,13 @@ impl Renderer {
         encoder: &mut FrameEncoder,
         scene_stays: bool,
     ) -> FrameCost {
-        self.common.environments.write(&self.common.queue, frame);
+        let Common {
+            device,
+            queue,
+            environments,
+            ..
+        } = &mut self.common;
+        environments.write(device, queue, frame);
         let Common { device, queue, .. } = &self.common;
         let mut posed_anew = false;
         if let Some(model) = &mut self.model {

@@ -9,16 +9,28 @@ use std::sync::LazyLock;
 
 use super::buffers::{Queue, uniform_buffer};
 use crate::image::{Image, ImageKind, MapKind};
-use crate::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered, sound_radiance};
-use crate::scene::{Light, Pass, RenderFrame};
+use crate::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered, Room, sound_radiance};
+use crate::scene::{Light, Pass, RenderFrame, Theme};
 use crate::shaders;
+use crate::slices::{Sliced, Slices};
 
 /// The most texels along a side of a sky. More would hardly show: a sky is far behind the model, or mirrored in it.
 const MAX_SKY_SIDE: u32 = 1024;
 
 // Made once for all renderers of a program.
-static STUDIO: LazyLock<Prefiltered> = LazyLock::new(|| Prefiltered::of(&Environment::studio()));
+static STUDIOS: [LazyLock<Prefiltered>; Room::ALL.len()] = [
+    LazyLock::new(|| Prefiltered::of(&Environment::coarse_studio(Room::Dark))),
+    LazyLock::new(|| Prefiltered::of(&Environment::coarse_studio(Room::Bright))),
+];
 static DAYLIGHT: LazyLock<Environment> = LazyLock::new(Environment::daylight);
+
+/// The studio that a theme shows.
+pub(super) fn room(theme: Theme) -> Room {
+    match theme {
+        Theme::Dark => Room::Dark,
+        Theme::Light => Room::Bright,
+    }
+}
 
 /// Maps of an environment that lights the model.
 struct EnvironmentMaps {
@@ -26,23 +38,45 @@ struct EnvironmentMaps {
     specular: wgpu::TextureView,
     level_count: u32,
     sh: [[f32; 4]; 9],
+    /// Whether they have all the texels that they will have.
+    are_fine: bool,
+}
+
+/// A sky that was dropped.
+struct Dropped {
+    environment: Environment,
+    maps: EnvironmentMaps,
+    sky: wgpu::TextureView,
+}
+
+/// A large cube that is filtered while nothing moves, and then uploaded level by level.
+enum Refining {
+    Filtering(Sliced<Prefiltered>),
+    Uploading(Prefiltered, wgpu::Texture, u32),
 }
 
 pub(super) struct Environments {
     /// For each light, in the order of [`Light::ALL`].
     uniforms: [wgpu::Buffer; Light::ALL.len()],
     table: wgpu::TextureView,
-    studio: EnvironmentMaps,
+    /// The studio that was shown last.
+    room: Room,
+    /// For each room, made when it is first shown.
+    studios: [Option<EnvironmentMaps>; Room::ALL.len()],
     daylight: wgpu::TextureView,
-    dropped: Option<(EnvironmentMaps, wgpu::TextureView)>,
+    dropped: Option<Dropped>,
+    /// What is refined: maps of a room or, without one, of the sky.
+    refining: Option<(Option<Room>, Refining)>,
 }
 
 impl Environments {
     pub(super) fn new(device: &wgpu::Device, queue: &Queue) -> Self {
+        let studio = EnvironmentMaps::upload(device, queue, &STUDIOS[Room::Dark as usize]);
         Self {
             uniforms: Light::ALL.map(|_| uniform_buffer::<shaders::Environment>(device, "environment")),
             table: table(device, queue),
-            studio: EnvironmentMaps::upload(device, queue, &STUDIO),
+            room: Room::Dark,
+            studios: [Some(studio), None],
             daylight: Cube {
                 side: DAYLIGHT.side() as u32,
                 format: wgpu::TextureFormat::Rgba8UnormSrgb,
@@ -50,6 +84,7 @@ impl Environments {
             }
             .upload(device, queue, "daylight"),
             dropped: None,
+            refining: None,
         }
     }
 
@@ -57,21 +92,33 @@ impl Environments {
     /// is no cube map.
     pub(super) fn set_sky(&mut self, device: &wgpu::Device, queue: &Queue, image: Option<&Image>) -> bool {
         let Some(image) = image else {
-            self.dropped = None;
+            (self.dropped, self.refining) = (None, None);
             return true;
         };
         let (Some(environment), Some(cube)) = (Environment::from_image(image), Cube::of(device, image)) else {
             return false;
         };
-        let maps = EnvironmentMaps::upload(device, queue, &Prefiltered::of(&environment));
-        self.dropped = Some((maps, cube.upload(device, queue, "sky")));
+        let coarse = environment.coarse();
+        let maps = EnvironmentMaps {
+            are_fine: coarse.side() == environment.side(),
+            ..EnvironmentMaps::upload(device, queue, &Prefiltered::of(&coarse))
+        };
+        self.dropped = Some(Dropped {
+            environment,
+            maps,
+            sky: cube.upload(device, queue, "sky"),
+        });
+        self.refining = None;
         true
     }
 
     /// Writes how the environment of a frame is turned. The studio keeps its place beside the viewer, as if the model stood on a
     /// turntable. A sky stands in the world, and so does the daylight of the book light.
-    pub(super) fn write(&self, queue: &Queue, frame: &RenderFrame<'_>) {
-        let maps = self.maps();
+    pub(super) fn write(&mut self, device: &wgpu::Device, queue: &Queue, frame: &RenderFrame<'_>) {
+        self.room = room(frame.options.theme);
+        let index = self.room as usize;
+        self.studios[index].get_or_insert_with(|| EnvironmentMaps::upload(device, queue, &STUDIOS[index]));
+        let Some(maps) = self.maps() else { return };
         for light in Light::ALL {
             let studio_yaw = match (&self.dropped, light) {
                 (None, Light::Studio) => frame.camera.yaw_radians,
@@ -104,37 +151,155 @@ impl Environments {
 
     /// The cube that is blurred for every roughness.
     pub(super) fn specular(&self) -> &wgpu::TextureView {
-        &self.maps().specular
+        self.maps().map_or(&self.daylight, |maps| &maps.specular)
     }
 
     /// The cube that is seen behind the model, and that the book light mirrors.
     pub(super) fn sky(&self, light: Light) -> &wgpu::TextureView {
         match (&self.dropped, light) {
-            (Some((_, sky)), _) => sky,
+            (Some(dropped), _) => &dropped.sky,
             (None, Light::Book) => &self.daylight,
-            (None, Light::Studio) => &self.studio.specular,
+            (None, Light::Studio) => self.specular(),
         }
     }
 
-    fn maps(&self) -> &EnvironmentMaps {
-        self.dropped.as_ref().map_or(&self.studio, |(maps, _)| maps)
+    /// None before the first frame in its room.
+    fn maps(&self) -> Option<&EnvironmentMaps> {
+        let of_sky = self.dropped.as_ref().map(|dropped| &dropped.maps);
+        of_sky.or(self.studios[self.room as usize].as_ref())
+    }
+
+    /// Whether the environment that was shown last has all its texels.
+    pub(super) fn is_fine(&self) -> bool {
+        self.maps().is_none_or(|maps| maps.are_fine)
+    }
+
+    /// Works on that in a slice, always with the same slices. True when all of it is there and the cubes are exchanged: the picture is then
+    /// another one.
+    pub(super) fn refine(&mut self, device: &wgpu::Device, queue: &Queue, slices: &Slices) -> bool {
+        let wanted = self.dropped.is_none().then_some(self.room);
+        let begun = self.refining.take().filter(|(of, _)| *of == wanted);
+        let refining = match begun.map(|(_, refining)| refining) {
+            None => Refining::Filtering(match &self.dropped {
+                Some(dropped) => {
+                    let environment = dropped.environment.clone();
+                    Sliced::new(slices, |slices| async move {
+                        Prefiltered::of_in(&environment, &slices).await
+                    })
+                }
+                None => {
+                    let room = self.room;
+                    Sliced::new(slices, |slices| async move {
+                        Prefiltered::of_in(&Environment::studio_in(room, &slices).await, &slices).await
+                    })
+                }
+            }),
+            Some(Refining::Filtering(mut work)) => match work.advance() {
+                None => Refining::Filtering(work),
+                Some(filtered) => {
+                    let texture = cube_texture(device, "environment", &filtered);
+                    Refining::Uploading(filtered, texture, 0)
+                }
+            },
+            Some(Refining::Uploading(filtered, texture, level)) => {
+                write_level(queue, &texture, level, &half_bytes(&filtered, level));
+                if level + 1 == filtered.level_count() {
+                    let maps = EnvironmentMaps::new(&filtered, &texture, true);
+                    match &mut self.dropped {
+                        Some(dropped) => dropped.maps = maps,
+                        None => self.studios[self.room as usize] = Some(maps),
+                    }
+                    return true;
+                }
+                Refining::Uploading(filtered, texture, level + 1)
+            }
+        };
+        self.refining = Some((wanted, refining));
+        false
     }
 }
 
 impl EnvironmentMaps {
-    fn upload(device: &wgpu::Device, queue: &Queue, prefiltered: &Prefiltered) -> Self {
-        let levels = (0..prefiltered.level_count()).filter_map(|level| prefiltered.level_rgba16f(level));
-        let cube = Cube {
-            side: prefiltered.side(),
-            format: wgpu::TextureFormat::Rgba16Float,
-            levels: levels.map(|texels| bytemuck::cast_slice(&texels).to_vec()).collect(),
-        };
+    fn new(filtered: &Prefiltered, texture: &wgpu::Texture, are_fine: bool) -> Self {
         Self {
-            specular: cube.upload(device, queue, "environment"),
-            level_count: prefiltered.level_count(),
-            sh: prefiltered.irradiance().to_uniform(),
+            specular: cube_view(texture),
+            level_count: filtered.level_count(),
+            sh: filtered.irradiance().to_uniform(),
+            are_fine,
         }
     }
+
+    /// Of few texels.
+    fn upload(device: &wgpu::Device, queue: &Queue, filtered: &Prefiltered) -> Self {
+        let texture = cube_texture(device, "environment", filtered);
+        for level in 0..filtered.level_count() {
+            write_level(queue, &texture, level, &half_bytes(filtered, level));
+        }
+        Self::new(filtered, &texture, false)
+    }
+}
+
+/// A level's texels as bytes, RGBA half floats.
+fn half_bytes(filtered: &Prefiltered, level: u32) -> Vec<u8> {
+    bytemuck::cast_slice(&filtered.level_rgba16f(level).unwrap_or_default()).to_vec()
+}
+
+fn cube_texture(device: &wgpu::Device, label: &str, filtered: &Prefiltered) -> wgpu::Texture {
+    let format = wgpu::TextureFormat::Rgba16Float;
+    empty_cube(device, label, filtered.side(), filtered.level_count(), format)
+}
+
+fn empty_cube(
+    device: &wgpu::Device,
+    label: &str,
+    side: u32,
+    level_count: u32,
+    format: wgpu::TextureFormat,
+) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d {
+            width: side,
+            height: side,
+            depth_or_array_layers: 6,
+        },
+        mip_level_count: level_count,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
+}
+
+fn cube_view(texture: &wgpu::Texture) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::Cube),
+        ..Default::default()
+    })
+}
+
+/// Uploads a level of a cube: faces one after another.
+fn write_level(queue: &Queue, cube: &wgpu::Texture, mip_level: u32, texels: &[u8]) {
+    let side = (cube.width() >> mip_level).max(1);
+    let texel_bytes = cube.format().block_copy_size(None).unwrap_or_default();
+    queue.write_texture(
+        wgpu::TexelCopyTextureInfo {
+            mip_level,
+            ..cube.as_image_copy()
+        },
+        texels,
+        wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(side * texel_bytes),
+            rows_per_image: Some(side),
+        },
+        wgpu::Extent3d {
+            width: side,
+            height: side,
+            depth_or_array_layers: 6,
+        },
+    );
 }
 
 /// Six faces with levels, ready to upload.
@@ -186,42 +351,11 @@ impl Cube {
     }
 
     fn upload(&self, device: &wgpu::Device, queue: &Queue, label: &str) -> wgpu::TextureView {
-        let size = |side| wgpu::Extent3d {
-            width: side,
-            height: side,
-            depth_or_array_layers: 6,
-        };
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some(label),
-            size: size(self.side),
-            mip_level_count: self.levels.len() as u32,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: self.format,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        });
-        let texel_bytes = self.format.block_copy_size(None).unwrap_or_default();
-        for (mip_level, texels) in (0..).zip(&self.levels) {
-            let side = (self.side >> mip_level).max(1);
-            queue.write_texture(
-                wgpu::TexelCopyTextureInfo {
-                    mip_level,
-                    ..texture.as_image_copy()
-                },
-                texels,
-                wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(side * texel_bytes),
-                    rows_per_image: Some(side),
-                },
-                size(side),
-            );
+        let texture = empty_cube(device, label, self.side, self.levels.len() as u32, self.format);
+        for (level, texels) in (0..).zip(&self.levels) {
+            write_level(queue, &texture, level, texels);
         }
-        texture.create_view(&wgpu::TextureViewDescriptor {
-            dimension: Some(wgpu::TextureViewDimension::Cube),
-            ..Default::default()
-        })
+        cube_view(&texture)
     }
 }
 
@@ -237,7 +371,7 @@ fn table(device: &wgpu::Device, queue: &Queue) -> wgpu::TextureView {
     static TABLE: LazyLock<BrdfTable> = LazyLock::new(|| BrdfTable::new(BRDF_TABLE_SIDE));
     let side = TABLE.side() as u32;
     let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("reflectances"),
+        label: Some("BRDF table"),
         size: wgpu::Extent3d {
             width: side,
             height: side,
@@ -246,16 +380,16 @@ fn table(device: &wgpu::Device, queue: &Queue) -> wgpu::TextureView {
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rg16Float,
+        format: wgpu::TextureFormat::Rgba16Float,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
     let layout = wgpu::TexelCopyBufferLayout {
         offset: 0,
-        bytes_per_row: Some(side * 4),
+        bytes_per_row: Some(side * 8),
         rows_per_image: None,
     };
-    let entries = TABLE.to_rg16f();
+    let entries = TABLE.to_rgba16f();
     queue.write_texture(
         texture.as_image_copy(),
         bytemuck::cast_slice(&entries),

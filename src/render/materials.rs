@@ -244,6 +244,8 @@ struct MapFacts {
     has_alpha: bool,
     /// Of the normal map: 4 with alpha, 3, 2 where z follows from x and y; 0 without one.
     normal_channels: u32,
+    /// Whether its smaller levels are means, not of unit length.
+    has_normal_lengths: bool,
 }
 
 impl MapFacts {
@@ -258,6 +260,7 @@ impl MapFacts {
                 Some(_) => 3,
                 None => 0,
             },
+            has_normal_lengths: images[MapSlot::Normal as usize].is_some_and(|image| image.mips_generated()),
         }
     }
 }
@@ -310,6 +313,7 @@ fn material_uniform(index: usize, material: &Material, maps: MapFacts, has_color
         },
         book_albedo: stand_in.map_or(unit(material.diffuse), |color| color.map(srgb_from_linear)),
         normal_channels: maps.normal_channels,
+        normal_lengths: u32::from(maps.has_normal_lengths),
         identity_srgb: identity_color(index),
         roughness: surface.roughness.clamp(0.0, 1.0),
         ..Default::default()

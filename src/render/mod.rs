@@ -45,6 +45,7 @@ pub use target::{SampleCount, Target};
 use crate::image::Image;
 use crate::model::{Material, Model};
 use crate::scene::{FrameCost, RenderFrame};
+use crate::slices::Slices;
 use buffers::bind_group;
 use environment::Environments;
 use instances::{Instances, Roster};
@@ -232,6 +233,22 @@ impl Renderer {
             ..
         } = &mut self.common;
         environments.set_sky(device, queue, image)
+    }
+
+    /// Whether what lights the model has all the texels that it will have.
+    pub fn is_refined(&self) -> bool {
+        self.common.environments.is_fine()
+    }
+
+    /// Works on that in a slice: call it, always with the same slices, while nothing moves. True when the picture is another one for it.
+    pub fn refine(&mut self, slices: &Slices) -> bool {
+        let Common {
+            device,
+            queue,
+            environments,
+            ..
+        } = &mut self.common;
+        environments.refine(device, queue, slices)
     }
 
     /// Removes the model and frees its memory.

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use super::environment::room;
 use super::light_fit::{ContactFit, ShadowFit, StudioLights, to_book_lights};
 use crate::scene::{
     Aabb, Background, Detail, Ground, Light, Overlay, Pass, Projection, RenderFrame, Theme, ViewMode, linear_from_srgb8,
@@ -109,6 +110,7 @@ pub(super) fn camera_uniform(frame: &RenderFrame<'_>, size: [u32; 2]) -> shaders
 pub fn light_uniform(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> shaders::Light {
     let options = &frame.options;
     let (to_key, shadow) = key_light(frame, light, map_side);
+    let lights = room(options.theme).lights();
     let to_rim = StudioLights::beside(&frame.camera, options.environment_turn_radians).to_rim;
     let [_, to_book_light_1, to_book_light_2] = to_book_lights(options.book_lights_turn_radians);
     let book_unit = book_unit(frame);
@@ -135,6 +137,8 @@ pub fn light_uniform(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> sh
             Detail::Full => SHADOW_TAPS,
             Detail::Low => SHADOW_TAPS / 2,
         },
+        key_color: lights.key.to_array(),
+        rim_color: lights.rim.to_array(),
         ..Default::default()
     }
 }

@@ -45,6 +45,10 @@ pub struct Light {
     pub fine_occlusion: u32,
     pub shadow_taps: u32,
     pub unused: [u32; 2],
+    pub key_color: [f32; 3],
+    pub unused_2: u32,
+    pub rim_color: [f32; 3],
+    pub unused_3: u32,
 }
 
 /// Twin of `Ground` in `ground.wgsl`, which says what each member means.
@@ -86,7 +90,7 @@ pub struct Material {
     pub specular: [f32; 3],
     pub normal_channels: u32,
     pub reflectivity: [f32; 3],
-    pub unused: u32,
+    pub normal_lengths: u32,
     pub identity_srgb: [f32; 4],
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bindpose::image::Image;
-use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
+use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered, Room};
 use bindpose::model::{AlphaMode, MapSlot, Material, MaterialMap, Reflectance, Sampling, Wrap};
 use bindpose::render::MaterialImages;
 use bindpose::scene::{Background, Light, Pass, Passes, Theme, ViewMode, linear_from_srgb8, srgb8_from_linear};
@@ -144,7 +144,7 @@ pub(crate) fn over(background: [u8; 3], layers: &[([u8; 3], f32)]) -> [u8; 4] {
 
 on_both_backends! {
     fn metal_has_the_colours_of_the_twin_in_the_studio(gpu) {
-        let prefiltered = Prefiltered::of(&Environment::studio());
+        let prefiltered = Prefiltered::of(&Environment::coarse_studio(Room::Dark));
         let brdf_table = BrdfTable::new(BRDF_TABLE_SIDE);
         let environment = EnvironmentLight {
             prefiltered: &prefiltered,

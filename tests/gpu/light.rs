@@ -4,12 +4,14 @@ mod book;
 mod evaluate;
 mod upload;
 
-use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
+use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered, Room as Studio};
 use bindpose::render::device::Backend;
 use glam::{Vec2, Vec3};
 
-use crate::twins::pbr::{dominant_direction, horizon_fade, reflectance, specular_lobe, specular_occlusion};
-use crate::twins::studio::{EnvironmentLight, KEY_COLOR, RIM_COLOR, StudioLights, StudioSurface};
+use crate::twins::pbr::{
+    dominant_direction, horizon_fade, multi_bounce, reflectance, specular_occlusion, widened,
+};
+use crate::twins::studio::{EnvironmentLight, StudioLights, StudioSurface, own_light};
 use crate::twins::tone_map::{exposed, tone_mapped};
 
 const ANGLES: u32 = 32;
@@ -47,13 +49,17 @@ impl Room<'_> {
         };
         match quantity {
             0 => {
-                let copper = Vec3::new(0.955, 0.638, 0.538);
-                specular_lobe(Vec3::Y, to_eye, to_light, to_light.y, n_dot_v, copper, alpha)
+                let tilted = Vec3::new(n_dot_v - 0.5, 1.0, 0.2 * roughness).normalize();
+                Vec3::new(
+                    widened(roughness, n_dot_v * 0.2),
+                    own_light(Vec3::Y, tilted, to_light),
+                    own_light(tilted, Vec3::Y, to_eye),
+                )
             }
             1 => {
                 let scale_bias = Vec2::new(n_dot_v, roughness) * 0.5;
                 let given = reflectance(Vec3::new(0.8, 0.5, 0.2), Vec3::new(0.04, 0.2, 0.6), scale_bias);
-                given.single + given.multiple * 2.0 + given.diffuse * 3.0 + given.boost * 4.0
+                given.single + given.multiple * 2.0 + given.diffuse * 3.0
             }
             2 => {
                 let tilted = Vec3::new(0.6, 0.5, 0.2).normalize();
@@ -61,12 +67,15 @@ impl Room<'_> {
                     specular_occlusion(n_dot_v, roughness, alpha),
                     horizon_fade((-to_eye).reflect(tilted), Vec3::Y),
                     dominant_direction(Vec3::Y, (-to_eye).reflect(Vec3::Y), alpha).y,
-                )
+                ) + multi_bounce(n_dot_v, Vec3::new(roughness, 0.5, 0.9))
             }
             3 => tone_mapped(exposed(Vec3::new(n_dot_v, roughness, 0.3) * 2.0, roughness * 4.0 - 2.0)),
             4 => environment.environment_diffuse(to_eye),
             5 => environment.environment_specular_light(mirrored(to_eye, roughness), roughness),
-            6 => self.brdf_table.lookup(n_dot_v, roughness).extend(0.0),
+            6 => {
+                let scale_bias = self.brdf_table.lookup(n_dot_v, roughness);
+                scale_bias.extend(self.brdf_table.lamp_lookup(to_eye, to_light, roughness))
+            }
             _ => {
                 let lights = StudioLights {
                     to_key: to_light,
@@ -110,7 +119,7 @@ impl Room<'_> {
         let Vec3 { x, y, z } = mirrored(to_eye, roughness);
         let mut sizes = [x * cos + z * sin, y, z * cos - x * sin].map(f32::abs);
         sizes.sort_by(f32::total_cmp);
-        let level = (roughness * (self.prefiltered.level_count() - 1) as f32).ceil();
+        let level = (roughness * (2.0 - roughness) * (self.prefiltered.level_count() - 1) as f32).ceil();
         let side = self.prefiltered.side() as f32 / level.exp2();
         sizes[1] / sizes[2] > 1.0 - 1.0 / side
     }
@@ -135,12 +144,12 @@ fn cases() -> impl Iterator<Item = (u32, f32, f32)> {
 on_both_backends! {
     fn formulas_and_lookups_agree_with_their_twins(gpu) {
         let room = Room {
-            prefiltered: &Prefiltered::of(&Environment::studio()),
+            prefiltered: &Prefiltered::of(&Environment::coarse_studio(Studio::Dark)),
             brdf_table: &BrdfTable::new(BRDF_TABLE_SIDE),
             turn: (0.6, -0.8),
             intensity: 1.25,
-            key_color: KEY_COLOR,
-            rim_color: RIM_COLOR,
+            key_color: Studio::Dark.lights().key,
+            rim_color: Studio::Dark.lights().rim,
         };
         let found = room.on_gpu(gpu);
         assert_eq!(found.len(), cases().count());

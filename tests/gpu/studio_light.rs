@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bindpose::image::Image;
-use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
+use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered, Room};
 use bindpose::model::{Material, Reflectance};
 use bindpose::scene::{Light, Pass, Passes, srgb8_from_linear};
 use glam::Vec3;
@@ -23,7 +23,7 @@ const NORMAL: Vec3 = Vec3::new(-0.6, -0.36, -0.714);
 
 on_both_backends! {
     fn the_picture_has_the_colours_of_the_twin(gpu) {
-        let prefiltered = Prefiltered::of(&Environment::studio());
+        let prefiltered = Prefiltered::of(&Environment::coarse_studio(Room::Dark));
         let brdf_table = BrdfTable::new(BRDF_TABLE_SIDE);
         let environment = EnvironmentLight {
             prefiltered: &prefiltered,

@@ -1,4 +1,5 @@
-//! How a surface gives light back: the twin of `pbr.wgsl`, which says what each function means.
+//! How a surface gives light back: the twin of `pbr.wgsl`, which says what each function means; and the lobe itself, which shaders know
+//! from tables alone.
 
 use std::f32::consts::PI;
 
@@ -57,8 +58,6 @@ pub(crate) struct Reflectance {
     pub(crate) multiple: Vec3,
     /// Entered the surface and came back.
     pub(crate) diffuse: Vec3,
-    /// By how much all bounces exceed the first, for lights of one direction.
-    pub(crate) boost: Vec3,
 }
 
 /// The weights for one view and roughness, of which `scale_bias` comes from the [table](bindpose::light::BrdfTable).
@@ -74,7 +73,6 @@ pub(crate) fn reflectance(albedo: Vec3, fresnel0: Vec3, scale_bias: Vec2) -> Ref
         single,
         multiple,
         diffuse,
-        boost,
     }
 }
 
@@ -94,4 +92,18 @@ pub(crate) fn specular_occlusion(n_dot_v: f32, occlusion: f32, alpha: f32) -> f3
 pub(crate) fn horizon_fade(mirrored: Vec3, smooth_normal: Vec3) -> f32 {
     let above = (1.0 + 1.3 * mirrored.dot(smooth_normal)).clamp(0.0, 1.0);
     above * above
+}
+
+/// What ambient occlusion leaves of the light on a surface of this albedo.
+pub(crate) fn multi_bounce(visible: f32, albedo: Vec3) -> Vec3 {
+    let a = 2.0404 * albedo - 0.3324;
+    let b = -4.7951 * albedo + 0.6417;
+    let c = 2.7552 * albedo + 0.6903;
+    Vec3::splat(visible).max(((visible * a + b) * visible + c) * visible)
+}
+
+/// Roughness with `widening` added to the square of alpha.
+pub(crate) fn widened(roughness: f32, widening: f32) -> f32 {
+    let alpha = roughness * roughness;
+    (alpha * alpha + widening).clamp(0.0, 1.0).sqrt().sqrt()
 }

@@ -1,20 +1,14 @@
 //! A surface in the studio: the twins of `studio.wgsl` and of the lookups in `environment.wgsl`, which say why.
 
-use std::f32::consts::PI;
-
 use bindpose::light::{BrdfTable, Prefiltered};
-use glam::Vec3;
+use glam::{FloatExt as _, Vec3};
 
-use super::pbr::{Reflectance, dominant_direction, horizon_fade, reflectance, specular_lobe, specular_occlusion};
+use super::pbr::{
+    Reflectance, dominant_direction, horizon_fade, multi_bounce, reflectance, specular_occlusion,
+};
 
-/// Twin of `KEY_SIZE`: by how much of alpha the key's mirror image is spread.
-pub(crate) const KEY_SIZE: f32 = 0.08;
-
-/// The key light of the studio, a little warm: what a white surface that faces it shows.
-pub(crate) const KEY_COLOR: Vec3 = Vec3::new(1.00, 0.975, 0.93);
-
-/// The rim light of the studio, cool: from behind, opposite to the key.
-pub(crate) const RIM_COLOR: Vec3 = Vec3::new(0.50, 0.66, 0.95);
+/// Twin of `LAMP_RADIANCE`: the lamp's, where a white surface that faces it shows 1.
+pub(crate) const LAMP_RADIANCE: f32 = 40.863_458;
 
 /// A point of a surface as the light meets it. Directions are of unit length, in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,20 +63,23 @@ impl EnvironmentLight<'_> {
         let n_dot_v = surface.normal.dot(surface.to_eye).clamp(1e-3, 1.0);
         let scale_bias = self.brdf_table.lookup(n_dot_v, surface.roughness);
         let weights = reflectance(surface.albedo, surface.fresnel0, scale_bias);
-        self.studio_environment(surface, &weights, n_dot_v)
-            + studio_key(surface, &weights, n_dot_v, lights)
-            + studio_rim(surface, &weights, n_dot_v, lights)
-    }
-
-    fn studio_environment(&self, surface: &StudioSurface, weights: &Reflectance, n_dot_v: f32) -> Vec3 {
         let alpha = surface.roughness * surface.roughness;
         let mirrored = (-surface.to_eye).reflect(surface.normal);
-        let towards = dominant_direction(surface.normal, mirrored, alpha);
-        let seen = specular_occlusion(n_dot_v, surface.ambient_occlusion, alpha)
-            * horizon_fade(mirrored, surface.smooth_normal);
+        let towards = dominant_direction(surface.normal, mirrored, alpha).normalize();
+        let above = horizon_fade(mirrored, surface.smooth_normal);
+
+        let seen = specular_occlusion(n_dot_v, surface.ambient_occlusion, alpha) * above;
         let mirror_light = self.environment_specular_light(towards, surface.roughness) * seen;
-        let diffuse_light = self.environment_diffuse(surface.normal) * surface.ambient_occlusion;
-        weights.single * mirror_light + (weights.multiple + weights.diffuse) * diffuse_light
+        let diffuse_light =
+            self.environment_diffuse(surface.normal) * multi_bounce(surface.ambient_occlusion, surface.albedo);
+        let from_environment = weights.single * mirror_light + (weights.multiple + weights.diffuse) * diffuse_light;
+
+        let n_dot_l = surface.normal.dot(lights.to_key).max(0.0);
+        let lamp_share = self.brdf_table.lamp_lookup(towards, lights.to_key, surface.roughness);
+        let from_key = lights.key_color
+            * lights.key_visible
+            * ((weights.diffuse + weights.multiple) * n_dot_l + weights.single * (lamp_share * LAMP_RADIANCE * above));
+        from_environment + from_key + studio_rim(surface, &weights, n_dot_v, lights)
     }
 
     /// What a white surface with this normal shows.
@@ -107,20 +104,14 @@ impl EnvironmentLight<'_> {
     }
 }
 
-fn studio_key(surface: &StudioSurface, weights: &Reflectance, n_dot_v: f32, lights: &StudioLights) -> Vec3 {
-    let n_dot_l = surface.normal.dot(lights.to_key);
-    if n_dot_l <= 0.0 {
-        return Vec3::ZERO;
-    }
-    let alpha = (surface.roughness * surface.roughness + KEY_SIZE).min(1.0);
-    let &StudioSurface {
-        normal,
-        to_eye,
-        fresnel0,
-        ..
-    } = surface;
-    let lobe = specular_lobe(normal, to_eye, lights.to_key, n_dot_l, n_dot_v, fresnel0, alpha);
-    lights.key_color * (lights.key_visible * n_dot_l) * (weights.diffuse + PI * weights.boost * lobe)
+/// The part of the key's light that a surface does not keep from itself.
+pub(crate) fn own_light(flat_normal: Vec3, smooth_normal: Vec3, to_key: Vec3) -> f32 {
+    let smoothstep = |end: f32, start: f32, value: f32| {
+        let t = value.remap(start, end, 0.0, 1.0).clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
+    };
+    let coarse = (8.0 * (1.0 - flat_normal.dot(smooth_normal))).clamp(0.02, 1.0);
+    smoothstep(0.4 * coarse, 0.0, smooth_normal.dot(to_key)) * smoothstep(0.0, -0.1, flat_normal.dot(to_key))
 }
 
 fn studio_rim(surface: &StudioSurface, weights: &Reflectance, n_dot_v: f32, lights: &StudioLights) -> Vec3 {

@@ -2,9 +2,10 @@
 
 use std::f32::consts::{PI, TAU};
 
-use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
+use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, LAMP_RADIUS_RADIANS, Prefiltered};
 use glam::{Vec2, Vec3};
 
+use crate::light::all_directions;
 use crate::twins::pbr::{ggx_distribution, reflectance, specular_lobe};
 use crate::twins::studio::{EnvironmentLight, StudioLights, StudioSurface};
 
@@ -110,24 +111,56 @@ fn the_table_is_what_the_lobe_gives_back() {
     }
 }
 
+/// Summed up over all places of the lamp, the part of a lobe that it fills is the part of all directions that it fills.
 #[test]
-fn a_direct_light_gives_no_more_than_it_has() {
+fn the_lamp_gives_no_more_than_it_has() {
     let table = BrdfTable::new(BRDF_TABLE_SIDE);
-    for n_dot_v in ANGLES {
-        for roughness in ROUGHNESSES {
-            for fresnel0 in [0.04, 0.3, 0.7, 1.0] {
-                let shares = reflectance(Vec3::ONE, Vec3::splat(fresnel0), table.lookup(n_dot_v, roughness));
-                let mirrored = directional_albedo(n_dot_v, fresnel0, roughness * roughness) * shares.boost.x;
-                // A Lambert share gives all of itself back.
-                let all = mirrored + shares.diffuse.x;
-                assert!(
-                    (0.97..=1.02).contains(&all),
-                    "n·v {n_dot_v}, roughness {roughness}, F0 {fresnel0}: {mirrored} and {} diffuse",
-                    shares.diffuse.x
-                );
-            }
+    for roughness in ROUGHNESSES {
+        let filled = |to_lamp: Vec3| table.lamp_lookup(Vec3::Z, to_lamp, roughness);
+        let count = 100_000;
+        let sum: f32 = all_directions(count).map(filled).sum();
+        let of_disc = (1.0 - LAMP_RADIUS_RADIANS.cos()) / 2.0;
+        let share = sum / count as f32 / of_disc;
+        assert!((0.98..1.02).contains(&share), "roughness {roughness}: {share}");
+    }
+}
+
+/// Brute force: the lobe over the lamp's disc, for a viewer in the direction of the normal.
+#[test]
+fn the_lamp_fills_of_a_lobe_what_lies_in_its_disc() {
+    let table = BrdfTable::new(BRDF_TABLE_SIDE);
+    for roughness in [0.3f32, 0.5, 0.7, 1.0] {
+        let alpha = roughness * roughness;
+        // Density of mirrored directions, times n·l.
+        let lobe = |direction: Vec3| {
+            let halfway = (direction + Vec3::Z).normalize_or(Vec3::X);
+            ggx_distribution(Vec3::Z, halfway, alpha) * direction.z.max(0.0)
+        };
+        let directions: Vec<(Vec3, f32)> = all_directions(60_000).map(|direction| (direction, lobe(direction))).collect();
+        let whole: f32 = directions.iter().map(|(_, density)| density).sum();
+        for degrees in [0.0f32, 6.0, 15.0, 40.0, 80.0] {
+            let angle = degrees.to_radians();
+            let to_lamp = Vec3::new(angle.sin(), 0.0, angle.cos());
+            let in_disc = directions.iter().filter(|(direction, _)| direction.dot(to_lamp) > LAMP_RADIUS_RADIANS.cos());
+            let brute = in_disc.map(|(_, density)| density).sum::<f32>() / whole;
+            let found = table.lamp_lookup(Vec3::Z, to_lamp, roughness);
+            assert!(
+                (found - brute).abs() < 0.02 * brute.max(0.05),
+                "roughness {roughness}, {degrees}°: {found} for {brute}"
+            );
         }
     }
+}
+
+#[test]
+fn a_mirror_shows_the_lamps_edge() {
+    let table = BrdfTable::new(BRDF_TABLE_SIDE);
+    let at = |degrees: f32| {
+        let angle = degrees.to_radians();
+        table.lamp_lookup(Vec3::Z, Vec3::new(angle.sin(), 0.0, angle.cos()), 0.0)
+    };
+    assert_eq!([0.0, 4.0, 7.5].map(at), [1.0; 3]);
+    assert_eq!([10.5, 30.0, 179.0].map(at), [0.0; 3]);
 }
 
 #[test]

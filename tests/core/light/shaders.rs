@@ -2,11 +2,12 @@
 
 use std::mem::offset_of;
 
-use bindpose::shaders::{BOOK_WGSL, Environment, MESH_STUDIO, STUDIO_LIGHT, TONE_MAP_WGSL};
+use bindpose::light::LAMP_RADIUS_RADIANS;
+use bindpose::shaders::{BOOK_WGSL, Environment, STUDIO_LIGHT, TONE_MAP_WGSL};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 use crate::twins::book::{BOOK_AMBIENT, BOOK_STRENGTHS};
-use crate::twins::studio::{KEY_COLOR, KEY_SIZE, RIM_COLOR};
+use crate::twins::studio::LAMP_RADIANCE;
 
 /// Calls everything, so that nothing is left out of the translation.
 const FRAGMENT: &str = "
@@ -102,18 +103,11 @@ fn numbers(module: &naga::Module, expression: naga::Handle<naga::Expression>) ->
     }
 }
 
+/// Irradiance of a disc that faces the surface, over π, is its radiance times sin² of its radius.
 #[test]
-fn both_sides_spread_the_key_alike() {
-    assert_eq!(constant(&module(), "KEY_SIZE"), [KEY_SIZE]);
-}
-
-#[test]
-fn both_sides_have_the_same_studio_lights() {
-    let source = MESH_STUDIO.source();
-    let module =
-        naga::front::wgsl::parse_str(&source).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&source)));
-    assert_eq!(constant(&module, "KEY_COLOR"), KEY_COLOR.to_array());
-    assert_eq!(constant(&module, "RIM_COLOR"), RIM_COLOR.to_array());
+fn a_white_surface_that_faces_the_lamp_shows_its_colour() {
+    assert_eq!(constant(&module(), "LAMP_RADIANCE"), [LAMP_RADIANCE]);
+    assert!((LAMP_RADIANCE * LAMP_RADIUS_RADIANS.sin().powi(2) - 1.0).abs() < 1e-5);
 }
 
 #[test]

@@ -1,11 +1,11 @@
 //! What a surface looks like in the studio.
 
-use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered};
+use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered, Room};
 use bindpose::scene::{Camera, Projection};
 use glam::Vec3;
 
 use crate::light::{all_directions, difference};
-use crate::twins::studio::{EnvironmentLight, KEY_COLOR, RIM_COLOR, StudioLights, StudioSurface};
+use crate::twins::studio::{EnvironmentLight, LAMP_RADIANCE, StudioLights, StudioSurface};
 use crate::twins::tone_map::tone_mapped;
 
 struct Studio {
@@ -16,7 +16,7 @@ struct Studio {
 
 impl Studio {
     fn new() -> Self {
-        let environment = Environment::studio();
+        let environment = Environment::coarse_studio(Room::Dark);
         Self {
             prefiltered: Prefiltered::of(&environment),
             environment,
@@ -38,10 +38,10 @@ impl Studio {
 fn lights(key_visible: f32) -> StudioLights {
     StudioLights {
         to_key: Vec3::new(0.64, 0.74, -0.34).normalize(),
-        key_color: KEY_COLOR,
+        key_color: Room::Dark.lights().key,
         key_visible,
         to_rim: Vec3::new(-0.72, 0.36, 0.58).normalize(),
-        rim_color: RIM_COLOR,
+        rim_color: Room::Dark.lights().rim,
     }
 }
 

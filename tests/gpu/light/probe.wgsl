@@ -18,20 +18,20 @@ fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
     let to_eye = vec3<f32>(sqrt(1.0 - n_dot_v * n_dot_v), n_dot_v, 0.0);
     let up = vec3<f32>(0.0, 1.0, 0.0);
     let to_light = normalize(vec3<f32>(-0.5, 0.6, 0.3));
-    let copper = vec3<f32>(0.955, 0.638, 0.538);
     var value = vec3<f32>(0.0);
     if quantity == 0u {
-        value = specular_lobe(up, to_eye, to_light, to_light.y, n_dot_v, copper, alpha);
+        let tilted = normalize(vec3<f32>(n_dot_v - 0.5, 1.0, 0.2 * roughness));
+        value = vec3<f32>(widened(roughness, n_dot_v * 0.2), own_light(up, tilted, to_light), own_light(tilted, up, to_eye));
     } else if quantity == 1u {
         let given = reflectance(vec3<f32>(0.8, 0.5, 0.2), vec3<f32>(0.04, 0.2, 0.6), vec2<f32>(n_dot_v, roughness) * 0.5);
-        value = given.single + given.multiple * 2.0 + given.diffuse * 3.0 + given.boost * 4.0;
+        value = given.single + given.multiple * 2.0 + given.diffuse * 3.0;
     } else if quantity == 2u {
         let tilted = normalize(vec3<f32>(0.6, 0.5, 0.2));
         value = vec3<f32>(
             specular_occlusion(n_dot_v, roughness, alpha),
             horizon_fade(reflect(-to_eye, tilted), up),
             dominant_direction(up, reflect(-to_eye, up), alpha).y,
-        );
+        ) + multi_bounce(n_dot_v, vec3<f32>(roughness, 0.5, 0.9));
     } else if quantity == 3u {
         value = tone_mapped(exposed(vec3<f32>(n_dot_v, roughness, 0.3) * 2.0, roughness * 4.0 - 2.0));
     } else if quantity == 4u {
@@ -39,7 +39,7 @@ fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
     } else if quantity == 5u {
         value = environment_specular_light(to_eye + vec3<f32>(0.0, 0.0, roughness - 0.5), roughness);
     } else if quantity == 6u {
-        value = vec3<f32>(brdf_lookup(n_dot_v, roughness), 0.0);
+        value = vec3<f32>(brdf_lookup(n_dot_v, roughness), lamp_lookup(to_eye, to_light, roughness));
     } else {
         let lights = StudioLights(to_light, KEY_COLOR, 0.75, vec3<f32>(0.0, 0.6, -0.8), RIM_COLOR);
         var surface = StudioSurface(vec3<f32>(1.0), vec3<f32>(0.04), roughness, up, up, to_eye, 1.0);

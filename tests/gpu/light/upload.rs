@@ -47,9 +47,9 @@ impl Room<'_> {
         );
         let table = device.create_texture_with_data(
             queue,
-            &texture_descriptor(self.brdf_table.side() as u32, 1, 1, wgpu::TextureFormat::Rg16Float),
+            &texture_descriptor(self.brdf_table.side() as u32, 1, 1, wgpu::TextureFormat::Rgba16Float),
             wgpu::util::TextureDataOrder::LayerMajor,
-            bytemuck::cast_slice(&self.brdf_table.to_rg16f()),
+            bytemuck::cast_slice(&self.brdf_table.to_rgba16f()),
         );
         let cube_view = cube.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::Cube),
