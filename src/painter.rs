@@ -1,6 +1,8 @@
 //! Draws a session on a GPU, for whoever has a surface: what changed is uploaded, what the GPU refuses is taken back, and a picture is drawn
 //! when it would differ. It knows no window and no interface; a lost GPU takes it along, and another one brings all of it back.
 
+use std::cell::Cell;
+use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
 
 use crate::render::{
@@ -9,9 +11,13 @@ use crate::render::{
 };
 use crate::scene::{FrameCost, FrameOptions, RenderFrame};
 use crate::session::{Quality, Session};
+use crate::slices::Slices;
 
 /// Texels along each edge of the shadow map where fingers are the pointer: a phone has less memory to write to.
 const SMALL_SHADOW_MAP_SIDE: u32 = 1024;
+
+/// How long what lights the model is worked on between two passes of the window, seconds.
+const REFINING_SECS: f64 = 0.006;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Drawn {
@@ -53,6 +59,8 @@ pub struct SessionPainter {
     sky: Option<u64>,
     drawn: Option<Drawn>,
     frames_rendered: u64,
+    /// For what lights the model; they are over at this time.
+    refining: (Slices, Rc<Cell<f64>>),
     /// Uploads that the GPU has not confirmed yet.
     answers: Vec<GpuAnswer>,
     /// A resized target that the GPU has not confirmed yet.
@@ -72,7 +80,10 @@ impl SessionPainter {
         if options.coarse_pointer {
             of_renderer.shadow_map_side = SMALL_SHADOW_MAP_SIDE;
         }
+        let (now_secs, end_secs) = (options.now_secs, Rc::new(Cell::new(0.0)));
+        let end = Rc::clone(&end_secs);
         Self {
+            refining: (Slices::new(move || now_secs() >= end.get()), end_secs),
             renderer: Renderer::new(device, queue, of_renderer),
             target: Target::with_samples(device, 1, 1, samples).with_layer(),
             plain_target: Target::with_samples(device, 1, 1, SampleCount::One).with_layer(),
@@ -206,12 +217,26 @@ impl SessionPainter {
         session.picture_revision() == self.drawn.map_or(0, |drawn| drawn.picture)
     }
 
-    /// Whether pipelines are left to be built of those that a person may soon ask for. When there is nothing else to do, it builds one.
+    /// Whether pipelines are left to be built of those that a person may soon ask for, or what lights the model is not as fine as it will be.
+    /// When there is nothing else to do, it goes on with it.
     pub fn prepares(&mut self, session: &Session, is_idle: bool) -> bool {
         let lowered = session.quality().lowered();
         let is_plain = lowered.is_some_and(|lowered| lowered.without_smooth_edges);
         let samples = &[SampleCount::One, self.samples][usize::from(!is_plain)..];
-        !self.renderer.is_prepared(samples) && (!is_idle || self.renderer.prepare_next(samples))
+        if !self.renderer.is_prepared(samples) {
+            return !is_idle || self.renderer.prepare_next(samples);
+        }
+        if self.renderer.is_refined() {
+            return false;
+        }
+        if is_idle {
+            let (slices, end_secs) = &self.refining;
+            end_secs.set((self.now_secs)() + REFINING_SECS);
+            if self.renderer.refine(slices) {
+                self.drawn = None;
+            }
+        }
+        true
     }
 
     /// How many pictures were drawn: stands still while nothing changes.

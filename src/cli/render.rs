@@ -321,7 +321,9 @@ impl Painter {
 
     /// The pixels of a picture, as [`encode_png`] takes them.
     fn draw(&mut self, series: &mut Series, index: usize) -> Result<Vec<u8>, Failure> {
-        let picture = self.renderer.picture_into(&series.frame(index), &mut self.target)?;
+        let frame = series.frame(index);
+        self.renderer.refine_for(&frame);
+        let picture = self.renderer.picture_into(&frame, &mut self.target)?;
         Ok(picture.pixels_blocking()?)
     }
 }

@@ -12,6 +12,8 @@ pub const BRDF_TABLE_SIDE: usize = 64;
 
 /// Half vectors that are averaged for each entry.
 const HALF_VECTORS: u32 = 128;
+/// Circles about the middle of a lobe over which it is summed up.
+const RINGS: u32 = 24;
 
 /// Angle between the middle and the edge of the lamp, the disc that is the key light, as surfaces see it: 9°.
 pub const LAMP_RADIUS_RADIANS: f32 = PI / 20.0;
@@ -80,41 +82,41 @@ impl BrdfTable {
 /// The entries of [`lamp_share`]: column `c` is for the angle whose half has the sine `(c / (side − 1))²`, since the lamp's edge wants the
 /// finest steps; row `r` for perceptual roughness `r / (side − 1)`.
 fn lamp_table(side: usize) -> Vec<f32> {
-    let last = side.saturating_sub(1).max(1) as f32;
-    let angles: Vec<f32> = (0..side).map(|column| 2.0 * (column as f32 / last).powi(2).asin()).collect();
-    let of_row = |row: usize| {
-        let lobe = lobe(row as f32 / last);
-        angles.iter().map(move |&angle| lamp_share(&lobe, angle)).collect::<Vec<_>>()
-    };
-    (0..side).flat_map(of_row).collect()
+    let value = |index: usize| index as f32 / side.saturating_sub(1).max(1) as f32;
+    (0..side * side)
+        .map(|index| lamp_share(2.0 * value(index % side).powi(2).asin(), value(index / side)))
+        .collect()
 }
 
-/// Sines, cosines and weights of the directions in which a surface of this roughness mirrors, about the normal, for a viewer in its
-/// direction: the lobe with which environments are filtered.
-fn lobe(roughness: f32) -> Vec<[f32; 3]> {
+/// The fraction of the directions in which a surface of this roughness mirrors, for a viewer in the direction of the normal, that a lamp
+/// fills whose middle is so far from the normal, radians: of the lobe with which environments are filtered.
+fn lamp_share(angle: f32, roughness: f32) -> f32 {
     let alpha_squared = (roughness * roughness).max(1e-4).powi(2);
-    let direction = |index: u32| {
-        let u = (index as f32 + 0.5) / HALF_VECTORS as f32;
-        let cos_squared = (1.0 - u) / (1.0 + (alpha_squared - 1.0) * u);
-        // The half vector's angle to the normal, doubled.
-        let cos = 2.0 * cos_squared - 1.0;
-        [(1.0 - cos * cos).max(0.0).sqrt(), cos, cos.max(0.0)]
+    // Half vectors up to half an angle from the normal, as a fraction of all.
+    let up_to = |angle: f32| {
+        let sin_squared = (0.5 * angle).sin().powi(2);
+        sin_squared / (alpha_squared + (1.0 - alpha_squared) * sin_squared)
     };
-    (0..HALF_VECTORS).map(direction).collect()
-}
-
-/// The fraction of a lobe that a lamp fills whose middle is so far from the lobe's, radians.
-fn lamp_share(lobe: &[[f32; 3]], angle: f32) -> f32 {
+    let weight = |cosine: f32| cosine.max(0.0);
+    let cosine_at = |u: f32| {
+        let sin_squared = u * alpha_squared / (1.0 - u * (1.0 - alpha_squared));
+        1.0 - 2.0 * sin_squared
+    };
+    let between = |from: f32, to: f32, value: &dyn Fn(f32) -> f32| {
+        let step = (to - from) / RINGS as f32;
+        (0..RINGS).map(|ring| value(cosine_at(from + (ring as f32 + 0.5) * step))).sum::<f32>() * step
+    };
     let (sine, cosine) = angle.sin_cos();
-    let edge = LAMP_RADIUS_RADIANS.cos();
-    let (mut filled, mut whole) = (0.0, 0.0);
-    for &[lobe_sine, lobe_cosine, weight] in lobe {
-        // The part of a circle about the lobe's middle that lies within the lamp, by the spherical law of cosines.
-        let turn = (edge - cosine * lobe_cosine) / (sine * lobe_sine).max(1e-9);
-        filled += weight * turn.clamp(-1.0, 1.0).acos() / PI;
-        whole += weight;
-    }
-    filled / whole
+    // The part of a circle about the normal that lies within the lamp, by the spherical law of cosines.
+    let part = |ring: f32| {
+        let ring_sine = (1.0 - ring * ring).max(0.0).sqrt();
+        let turn = (LAMP_RADIUS_RADIANS.cos() - cosine * ring) / (sine * ring_sine).max(1e-9);
+        weight(ring) * turn.clamp(-1.0, 1.0).acos() / PI
+    };
+    let (near, far) = ((angle - LAMP_RADIUS_RADIANS).max(0.0), (angle + LAMP_RADIUS_RADIANS).min(PI));
+    let inside = (LAMP_RADIUS_RADIANS - angle).max(0.0);
+    let filled = between(0.0, up_to(inside), &part) + between(up_to(near.max(inside)), up_to(far), &part);
+    filled / between(0.0, 1.0, &weight)
 }
 
 /// Scale and bias by which `fresnel0` and `fresnel90` become the fraction of the environment's light that the GGX lobe with

@@ -23,7 +23,7 @@ impl StudioLights {
         let ahead = right.cross(Vec3::Y);
         let towards = |x: f32, y: f32, z: f32| turn * (right * x + Vec3::Y * y + ahead * z).normalize();
         Self {
-            to_key: towards(0.64, 0.74, -0.34),
+            to_key: towards(0.55, 0.66, -0.51),
             to_rim: towards(-0.72, 0.36, 0.58),
         }
     }

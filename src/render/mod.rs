@@ -251,6 +251,20 @@ impl Renderer {
         environments.refine(device, queue, slices)
     }
 
+    /// All of it at once, for a frame that no one waits for.
+    pub fn refine_for(&mut self, frame: &RenderFrame<'_>) {
+        let Common {
+            device,
+            queue,
+            environments,
+            ..
+        } = &mut self.common;
+        environments.write(device, queue, frame);
+        while !self.is_refined() {
+            self.refine(&Slices::ENDLESS);
+        }
+    }
+
     /// Removes the model and frees its memory.
     pub fn clear_model(&mut self) {
         self.model = None;

@@ -136,6 +136,8 @@ fn twins() -> BTreeMap<String, Layout> {
             normal_green_sign,
             fine_occlusion,
             shadow_taps,
+            key_color,
+            rim_color,
         }),
         twin!(Ground {
             backdrop_center_srgb,
@@ -167,6 +169,7 @@ fn twins() -> BTreeMap<String, Layout> {
             specular,
             normal_channels,
             reflectivity,
+            normal_lengths,
             identity_srgb,
         }),
         twin!(MaterialMaps {

@@ -93,28 +93,32 @@ fn clear_texels_lend_no_colour() {
 }
 
 #[test]
-fn directions_are_brought_back_to_unit_length() {
-    // 45° to the left and to the right: straight ahead, not 0.7 of it. Alpha is gloss: a plain mean.
+fn means_of_directions_are_the_shorter_the_more_these_differ() {
+    // 45° to the left and to the right: straight ahead, 0.7 of it. Alpha is gloss: a plain mean.
     let normals = image(2, 1, &[[218, 128, 218, 100], [37, 128, 218, 200]]).with_mips(MapKind::Normal);
-    assert_eq!(level_texels(&normals, 0, 1), [[128, 128, 255, 150]]);
-    // Opposite ones cancel out: no direction is left, and the surface is flat.
+    assert_eq!(level_texels(&normals, 0, 1), [[128, 128, 218, 150]]);
+    // Opposite ones cancel out: no direction is left, and shaders take the surface's own.
     let opposed = image(2, 1, &[[255, 128, 128, 255], [0, 127, 127, 255]]).with_mips(MapKind::Normal);
-    assert_eq!(level_texels(&opposed, 0, 1), [[128, 128, 255, 255]]);
+    assert_eq!(level_texels(&opposed, 0, 1), [[128, 128, 128, 255]]);
+    // Those of the file count as unit vectors, whatever their length.
+    let short = image(2, 1, &[[173, 128, 173, 255]; 2]).with_mips(MapKind::Normal);
+    assert_eq!(level_texels(&short, 0, 1), [[218, 128, 218, 255]]);
 }
 
 #[test]
 fn of_two_channels_z_is_rebuilt_before_averaging() {
-    // x of 0.8 and −0.8 with z of 0.6: straight ahead. x of 0.8 and 0 with z of 0.6 and 1: 0.4, 0.8, of length 0.894.
-    for (x, expected) in [([229, 26], 128), ([229, 128], 185)] {
+    // x of 0.8 and −0.8 with z of 0.6: straight ahead, of length 0.6. x of 0.8 and 0 with z of 0.6 and 1: 0.4, 0.8, of length 0.894.
+    for (x, expected, length) in [([229, 26], 128, 153), ([229, 128], 185, 228)] {
         let dds = Dds::masked(RGB, 16, [0xff, 0xff00, 0, 0], 2, 1).file(&[x[0], 128, x[1], 128]);
         let image = decode(&dds, "norm.dds").expect("the file is sound");
         assert_eq!(image.channels(), Channels::RedGreen);
         let image = image.with_mips(MapKind::Normal);
         let [r, g, b, _] = level_texels(&image, 0, 1)[0];
         assert!(
-            r.abs_diff(expected) <= 1 && g.abs_diff(128) <= 1 && b == 0,
+            r.abs_diff(expected) <= 1 && g.abs_diff(128) <= 1 && b.abs_diff(length) <= 1,
             "{r} {g} {b}"
         );
+        assert!(level_texels(&image, 0, 0).iter().all(|texel| texel[2] == 255), "of unit length");
     }
 }
 
@@ -267,7 +271,9 @@ fn textbook_read(kind: MapKind, [r, g, b, a]: [u8; 4]) -> [f32; 4] {
             [r, g, b, weight]
         }
         MapKind::Normal => {
-            let [x, y, z] = [r, g, b].map(|value| f32::from(value) / 127.5 - 1.0);
+            let direction = [r, g, b].map(|value| f32::from(value) / 127.5 - 1.0);
+            let length = direction.iter().map(|value| value * value).sum::<f32>().sqrt();
+            let [x, y, z] = direction.map(|value| value / length);
             [x, y, z, f32::from(a) / 255.0]
         }
         MapKind::Data => [r, g, b, a].map(|value| f32::from(value) / 255.0),
@@ -286,13 +292,7 @@ fn textbook_written(kind: MapKind, [x, y, z, w]: [f32; 4]) -> [u8; 4] {
             [byte(x / w), byte(y / w), byte(z / w), alpha]
         }
         MapKind::Normal => {
-            let length = [x, y, z].iter().map(|value| value * value).sum::<f32>().sqrt();
-            let direction = if length > 1e-3 {
-                [x, y, z].map(|value| value / length)
-            } else {
-                [0.0, 0.0, 1.0]
-            };
-            let [x, y, z] = direction.map(|value| unit(value * 0.5 + 0.5));
+            let [x, y, z] = [x, y, z].map(|value| unit(value * 0.5 + 0.5));
             [x, y, z, unit(w)]
         }
         MapKind::Data => [x, y, z, w].map(unit),

@@ -339,7 +339,7 @@ fn maps_come_with_the_mips_of_what_they_are_used_for() {
         Some((counts, image.to_rgba8(0, 1)?))
     };
     let as_colour = Some(([2, 1], vec![188, 128, 128, 255]));
-    let as_direction = Some(([2, 1], vec![128, 128, 255, 255]));
+    let as_direction = Some(([2, 1], vec![128, 128, 128, 255]));
 
     let both = opened(vec![mapped("box.m3d", "a.png", "a.png"), png()]);
     assert_eq!(levels(&both, MapSlot::Diffuse), as_colour);
