@@ -1,4 +1,4 @@
-// Backdrop, ground grid and the shadows on the ground in one draw wherever the model is not, after it. One draw is rounded and dithered
+// Backdrop, floor, grid and the shadows on the ground in one draw wherever the model is not, after it. One draw is rounded and dithered
 // once instead of blended several times in eight bits. Without a background the shadows alone are drawn, as black that covers what the
 // picture is later laid over.
 
@@ -6,6 +6,14 @@
 const BACKDROP_FALLOFF: f32 = 0.76;
 // The lightest row, ndc y: a little above the middle, where the horizon of a three-quarter view lies.
 const BACKDROP_ROW: f32 = 0.06;
+
+// Fractions of the ground's light that go where something touches it, and under what is near.
+const TOUCH_STRENGTH: f32 = 0.9;
+const NEAR_STRENGTH: f32 = 0.35;
+
+// Width of the grid's lines as a part of the picture's height, and in pixels at least.
+const LINE_HEIGHTS: f32 = 1.0 / 900.0;
+const LEAST_LINE_PIXELS: f32 = 1.0;
 
 fn backdrop_srgb(ndc: vec2<f32>) -> vec3<f32> {
     let offset = vec2<f32>(ndc.x * 0.16, ndc.y - BACKDROP_ROW);
@@ -17,11 +25,31 @@ fn backdrop_srgb(ndc: vec2<f32>) -> vec3<f32> {
 // Coverage of lines at whole numbers of `coordinate`, `width_pixels` wide; `per_pixel` is how far a pixel steps.
 fn line_coverage(coordinate: vec2<f32>, per_pixel: vec2<f32>, width_pixels: f32) -> f32 {
     let distance_pixels = (0.5 - abs(fract(coordinate) - 0.5)) / per_pixel;
-    let sharp = clamp(vec2<f32>(0.5 + 0.5 * width_pixels) - distance_pixels, vec2<f32>(0.0), vec2<f32>(min(width_pixels, 1.0)));
+    let sharp = clamp(vec2<f32>(0.5 + 0.5 * width_pixels) - distance_pixels, vec2<f32>(0.0), vec2<f32>(1.0));
     // Lines that are only a few pixels apart would shimmer, so they fade out before.
-    let crowded = smoothstep(vec2<f32>(0.08), vec2<f32>(0.35), per_pixel);
+    let crowded = smoothstep(vec2<f32>(0.03), vec2<f32>(0.10), per_pixel);
     let lines = sharp * (vec2<f32>(1.0) - crowded);
     return max(lines.x, lines.y);
+}
+
+// The fraction of the ground's light that its shadows leave at a point of it.
+fn light_left(point: vec3<f32>, pixel: vec2<f32>) -> f32 {
+    var left = 1.0;
+    if ground.shadow_strength > 0.0 {
+        var lit = 1.0;
+        if light.is_book == 1u {
+            lit = even_visibility(point, light.shadow_radius_texels);
+        } else {
+            lit = soft_visibility(point, vec3<f32>(0.0, 1.0, 0.0), tap_turn(pixel));
+        }
+        left = 1.0 - ground.shadow_strength * (1.0 - lit);
+    }
+    if ground.contact_strength > 0.0 {
+        let in_contact_map = (point.xz - ground.contact_center) / ground.contact_half_width * vec2<f32>(0.5, -0.5) + 0.5;
+        let contact = textureSampleLevel(contact_map, environment_sampler, in_contact_map, 0.0).rg * ground.contact_strength;
+        left *= (1.0 - TOUCH_STRENGTH * contact.r) * (1.0 - NEAR_STRENGTH * contact.g);
+    }
+    return left;
 }
 
 // The sky in a direction. Under the studio light it is exposed and toned as the model is; the books show texels as they are.
@@ -42,24 +70,14 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         color = sky_color(normalize(ray));
     }
     let behind = color;
-    // The fraction of the ground's light that its shadows leave.
     var left = 1.0;
     let along = (ground.height - eye.y) / ray.y;
     if ray.y != 0.0 && along > 0.0 {
         let point = eye + ray * along;
-        let from_center = point.xz - ground.grid_center;
-        let away = length(from_center) / ground.grid_reach;
-        if away < 1.0 {
-            if ray.y < 0.0 && ground.shadow_strength > 0.0 {
-                let lit = key_visibility(point, ground.shadow_radius_texels);
-                left *= 1.0 - ground.shadow_strength * (1.0 - lit);
-            }
-            if ray.y < 0.0 && ground.contact_strength > 0.0 {
-                let in_contact_map = (point.xz - ground.contact_center) / ground.contact_half_width * vec2<f32>(0.5, -0.5) + 0.5;
-                let contact = textureSampleLevel(contact_map, environment_sampler, in_contact_map, 0.0).r;
-                left *= 1.0 - ground.contact_strength * contact;
-            }
-            color *= left;
+        let away = length(point.xz - ground.center);
+        let faded = away / ground.floor_reach;
+        color = mix(color, ground.floor.rgb, ground.floor.a * exp(-faded * faded));
+        if away < ground.grid_reach {
             // How far the point moves from one pixel to the next. Exact, since screen derivatives would tear at the horizon.
             let along_x = -(camera.eye_per_x.y + along * camera.forward_per_x.y) / ray.y;
             let along_y = -(camera.eye_per_y.y + along * camera.forward_per_y.y) / ray.y;
@@ -69,15 +87,16 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
             let step_x = abs(point_x.xz) * ndc_per_pixel.x;
             let step_y = abs(point_y.xz) * ndc_per_pixel.y;
             let per_pixel = sqrt(step_x * step_x + step_y * step_y) / ground.grid_cell;
-
-            let coordinate = point.xz / ground.grid_cell;
-            let minor = line_coverage(coordinate, per_pixel, 1.0) * ground.grid_minor.a;
-            let major = line_coverage(coordinate * 0.1, per_pixel * 0.1, 1.35) * ground.grid_major.a;
-            let fade = (1.0 - away) * (1.0 - away);
+            let width = max(camera.viewport_pixels.y * LINE_HEIGHTS, LEAST_LINE_PIXELS);
+            let fade = 1.0 - away / ground.grid_reach;
             let grazing = smoothstep(0.0, 0.12, abs(ray.y) / length(ray));
-            let strength = fade * grazing * ground.grid_strength;
-            color = mix(color, ground.grid_minor.rgb, minor * strength);
-            color = mix(color, ground.grid_major.rgb, major * strength);
+            let strength = line_coverage(point.xz / ground.grid_cell, per_pixel, width) * fade * fade * grazing;
+            color = mix(color, ground.grid.rgb, strength * ground.grid.a);
+        }
+        // From below the ground is glass.
+        if ray.y < 0.0 {
+            left = light_left(point, view.clip.xy);
+            color *= left;
         }
     }
     if ground.background == 3u {

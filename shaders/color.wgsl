@@ -17,6 +17,11 @@ fn dither_noise(pixel: vec2<f32>) -> f32 {
     return fract(52.9829189 * fract(dot(pixel, vec2<f32>(0.06711056, 0.00583715)))) - 0.5;
 }
 
+// How far the taps of a pixel are turned, radians.
+fn tap_turn(pixel: vec2<f32>) -> f32 {
+    return (dither_noise(pixel) + 0.5) * 6.2831853;
+}
+
 // Dithers the rounding to eight bits, so that gradients show no bands. A little less than a whole step, so that what needs no rounding
 // is not changed.
 fn dithered(value: f32, pixel: vec2<f32>) -> f32 {

@@ -1,4 +1,4 @@
-// How near the model is above the ground, seen from straight below: 1 on the ground, fading with height.
+// How near the model is above the ground, seen from straight below: 1 on the ground, fading with height, soon in red and later in green.
 
 struct ContactVertex {
     @builtin(position) clip: vec4<f32>,
@@ -25,10 +25,10 @@ fn vertex_skinned(
     return contact_vertex(posed_position_in_world(instance, position, joints, weights));
 }
 
-// The height at which half of it is gone, in units of the books' demo.
-const HALF_HEIGHT: f32 = 0.16;
+// The heights at which half of it is gone, in units of the books' demo.
+const HALF_HEIGHTS: vec2<f32> = vec2<f32>(0.04, 0.25);
 
 @fragment
 fn fragment(vertex: ContactVertex) -> @location(0) vec4<f32> {
-    return vec4<f32>(exp2(-max(vertex.height, 0.0) / (HALF_HEIGHT * light.book_unit)));
+    return vec4<f32>(exp2(-max(vertex.height, 0.0) / (HALF_HEIGHTS * light.book_unit)), 0.0, 1.0);
 }

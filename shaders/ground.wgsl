@@ -5,28 +5,28 @@ struct Ground {
     backdrop_center_srgb: vec4<f32>,
     backdrop_edge_srgb: vec4<f32>,
     // Linear colour and opacity.
-    grid_minor: vec4<f32>,
-    grid_major: vec4<f32>,
+    grid: vec4<f32>,
+    // Of the floor where light falls on it, linear; its alpha is how much of it shows in the middle.
+    floor: vec4<f32>,
     background_srgb: vec3<f32>,
     // What is behind the model: 0 the gradient, 1 the sky, 2 `background_srgb`, 3 nothing.
     background: u32,
     // World x and z.
-    grid_center: vec2<f32>,
+    center: vec2<f32>,
     // Middle of the contact map, world x and z.
     contact_center: vec2<f32>,
     contact_half_width: f32,
-    // Fractions of the ground's light that its shadows take.
+    // 1, or 0 without the contact map.
     contact_strength: f32,
+    // Fraction of the ground's light that the key's shadow takes.
     shadow_strength: f32,
-    // Radius of the disc over which the key light's shadow on the ground is blurred, texels of the shadow map.
-    shadow_radius_texels: f32,
     // World y of the ground.
     height: f32,
-    // World units between minor lines; ten of them lie between major lines.
+    // World units between lines.
     grid_cell: f32,
-    // Distance from the grid's center at which it has faded out.
+    // Distance from the center at which the grid has faded out, and one at which little is left of the floor.
     grid_reach: f32,
-    grid_strength: f32,
+    @size(8) floor_reach: f32,
 }
 
 @group(0) @binding(2) var<uniform> ground: Ground;

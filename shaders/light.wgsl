@@ -7,7 +7,7 @@ struct Light {
     // World units that a texel of the shadow map covers.
     shadow_texel: f32,
     to_rim: vec3<f32>,
-    // Radius of the disc over which shadows on the model are blurred, texels of the shadow map.
+    // Radius of the disc over which the book's shadows are blurred, texels of the shadow map.
     shadow_radius_texels: f32,
     to_book_light_1: vec3<f32>,
     // How far occluders reach, world units.
@@ -26,7 +26,9 @@ struct Light {
     // 1 when ambient occlusion is to be sampled finely, 0 coarsely.
     fine_occlusion: u32,
     // Samples of the shadow map for each point.
-    @size(12) shadow_taps: u32,
+    shadow_taps: u32,
+    // World units between the nearest and the farthest depth of the shadow map.
+    @size(8) shadow_depth: f32,
     // What a white surface shows that faces one of the studio's lights.
     @size(16) key_color: vec3<f32>,
     @size(16) rim_color: vec3<f32>,

@@ -3,9 +3,13 @@
 
 @group(2) @binding(0) var shadow_map: texture_depth_2d;
 @group(2) @binding(1) var shadow_sampler: sampler_comparison;
-// Ambient occlusion: the fraction of the environment that reaches each pixel of the view.
+// Ambient occlusion, at half the picture's resolution: the fraction of the environment that reaches each pixel of the view, and in green and
+// blue how far along the view that pixel is, in 16 bits between the nearest and the farthest.
 @group(2) @binding(2) var occlusion_map: texture_2d<f32>;
-// How near the model is above the ground: 1 where it stands, 0 far above or without a model.
+// How near the model is above the ground: 1 where it stands, 0 far above or without a model. Red for what touches it, green for what is
+// above it.
 @group(2) @binding(3) var contact_map: texture_2d<f32>;
 // Bindings 4 to 7 are in environment.wgsl. Linear light, in the environment's axes.
 @group(2) @binding(8) var sky_map: texture_cube<f32>;
+// The shadow map once more: WebGL2 reads depths of a texture that it compares with nothing.
+@group(2) @binding(9) var shadow_depth_map: texture_2d<f32>;

@@ -27,6 +27,11 @@ fn pixel_of_ndc(ndc: vec2<f32>) -> vec2<f32> {
     return (ndc * vec2<f32>(0.5, -0.5) + 0.5) * half_size();
 }
 
+// What is stored of a pixel: the fraction of the environment that it sees, and its depth, for who enlarges it.
+fn stored_occlusion(visible: f32, packed: vec4<f32>) -> vec4<f32> {
+    return vec4<f32>(visible, packed.ba, 1.0);
+}
+
 // 0..1, spread evenly over any small neighbourhood.
 fn pixel_noise(pixel: vec2<f32>) -> f32 {
     return fract(52.9829189 * fract(dot(pixel, vec2<f32>(0.06711056, 0.00583715))));

@@ -62,5 +62,5 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         }
     }
     let access = 1.0 - sum / f32(offset_count);
-    return vec4<f32>(clamp(access * access, 0.0, 1.0));
+    return stored_occlusion(clamp(access * access, 0.0, 1.0), packed);
 }

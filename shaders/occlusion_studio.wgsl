@@ -7,8 +7,8 @@ const STEPS: i32 = 5;
 const FEW_SLICES: i32 = 2;
 const FEW_STEPS: i32 = 3;
 const HALF_PI: f32 = 1.5707963;
-// Farther pixels would cost more than they add.
-const MAX_REACH_PIXELS: f32 = 128.0;
+// Farther pixels would cost more than they add: a part of the picture's height.
+const MOST_REACH: f32 = 0.12;
 
 // The fraction of a slice that is open between the normal and a horizon. Angles are from the view ray.
 fn open_arc(horizon: f32, normal_angle: f32) -> f32 {
@@ -47,7 +47,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     let point = world_at(view.ndc, along - (camera.depth_far - camera.depth_near) * 3e-5);
     let to_eye = towards_eye(point);
     let world_per_pixel = length(camera.eye_per_y + along * camera.forward_per_y) * 2.0 / half_size().y;
-    let reach = min(light.occlusion_radius / world_per_pixel, MAX_REACH_PIXELS);
+    let reach = min(light.occlusion_radius / world_per_pixel, MOST_REACH * half_size().y);
     let right = normalize(camera.eye_per_x + camera.forward_per_x);
     let up = normalize(camera.eye_per_y + camera.forward_per_y);
     let noise = pixel_noise(view.clip.xy);
@@ -75,5 +75,5 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         let behind_angle = normal_angle + max(behind - normal_angle, -HALF_PI);
         open += projected_length * (open_arc(ahead_angle, normal_angle) + open_arc(behind_angle, normal_angle));
     }
-    return vec4<f32>(clamp(open / f32(slices), 0.0, 1.0));
+    return stored_occlusion(clamp(open / f32(slices), 0.0, 1.0), packed);
 }

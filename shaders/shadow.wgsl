@@ -1,29 +1,96 @@
 // How much of the key light reaches a point.
 
 // Sunflower disc: each tap turns on by the golden angle, so that the density is even.
-const GOLDEN_COS: f32 = -0.73736888;
-const GOLDEN_SIN: f32 = 0.67549029;
+const GOLDEN_TURN: mat2x2<f32> = mat2x2<f32>(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
-// The fraction of the key light that reaches a point: 1 lit, 0 in shadow, blurred over `radius_texels` of the map. Points outside the
-// map are lit.
-fn key_visibility(world_position: vec3<f32>, radius_texels: f32) -> f32 {
-    if light.key_shadow == 0u {
-        return 1.0;
-    }
+// Tangent of the angle under which the lamp is seen from its middle to its edge: 9 degrees.
+const LAMP_TANGENT: f32 = 0.15838444;
+// A disc of more texels shows its few taps as grain.
+const MOST_SHADOW_TEXELS: f32 = 48.0;
+// A narrower one shows the map's own steps.
+const LEAST_SHADOW_TEXELS: f32 = 1.5;
+// Steeper surfaces are as good as edge on: their plane says nothing of what is beside the point.
+const LEAST_FACING: f32 = 0.2;
+
+// Receivers may lie beyond the box that the map covers; casters never do.
+const FARTHEST: f32 = 0.9999;
+
+// A point of the world in the shadow map, in texels, and its depth. Depths below 0 are outside the map.
+fn in_shadow_map(world_position: vec3<f32>, side: f32) -> vec3<f32> {
     let clip = light.shadow_clip_from_world * vec4<f32>(world_position, 1.0);
-    let center = clip.xy * vec2<f32>(0.5, -0.5) + 0.5;
-    if any(center < vec2<f32>(0.0)) || any(center > vec2<f32>(1.0)) || clip.z < 0.0 {
+    let place = clip.xy * vec2<f32>(0.5, -0.5) + 0.5;
+    if any(place < vec2<f32>(0.0)) || any(place > vec2<f32>(1.0)) {
+        return vec3<f32>(0.0, 0.0, -1.0);
+    }
+    return vec3<f32>(place * side, min(clip.z, FARTHEST));
+}
+
+// The fraction of the key light that reaches a point: 1 lit, 0 in shadow, blurred over `radius_texels` of the map, as the book has it.
+// Points outside the map are lit.
+fn even_visibility(world_position: vec3<f32>, radius_texels: f32) -> f32 {
+    let side = f32(textureDimensions(shadow_map).x);
+    let place = in_shadow_map(world_position, side);
+    if light.key_shadow == 0u || place.z < 0.0 {
         return 1.0;
     }
-    // Receivers may lie beyond the box that the map covers; casters never do.
-    let depth = min(clip.z, 0.9999);
-    let radius = radius_texels / f32(textureDimensions(shadow_map).x);
     var lit = 0.0;
     var direction = vec2<f32>(1.0, 0.0);
     for (var i = 0u; i < light.shadow_taps; i++) {
         let offset = sqrt((f32(i) + 0.5) / f32(light.shadow_taps)) * direction;
-        direction = mat2x2<f32>(GOLDEN_COS, GOLDEN_SIN, -GOLDEN_SIN, GOLDEN_COS) * direction;
-        lit += textureSampleCompareLevel(shadow_map, shadow_sampler, center + offset * radius, depth);
+        direction = GOLDEN_TURN * direction;
+        lit += textureSampleCompareLevel(shadow_map, shadow_sampler, (place.xy + offset * radius_texels) / side, place.z);
+    }
+    return lit / f32(light.shadow_taps);
+}
+
+// The same, as soft as the lamp makes it: what hides it is looked for, and the farther it is away, the wider is the penumbra (Fernando
+// 2005, "Percentage-Closer Soft Shadows"). `normal` is that of the plane in which the point lies, unit, and `turn` how far the taps are
+// turned, radians.
+fn soft_visibility(world_position: vec3<f32>, normal: vec3<f32>, turn: f32) -> f32 {
+    let side = f32(textureDimensions(shadow_map).x);
+    let facing = clamp(dot(normal, light.to_key), 0.0, 1.0);
+    // What lies in the texel that the point is in may differ from it by so much.
+    let off_surface = normal * (1.5 * light.shadow_texel * sqrt(1.0 - facing * facing));
+    let place = in_shadow_map(world_position + off_surface, side);
+    if light.key_shadow == 0u || place.z < 0.0 {
+        return 1.0;
+    }
+    // How the plane's depth grows from texel to texel. The rows of the matrix are the light's axes, scaled.
+    let matrix = light.shadow_clip_from_world;
+    let right = normalize(vec3<f32>(matrix[0].x, matrix[1].x, matrix[2].x));
+    let up = normalize(vec3<f32>(matrix[0].y, matrix[1].y, matrix[2].y));
+    let depth_per_texel = light.shadow_texel / light.shadow_depth;
+    let slope = vec2<f32>(dot(normal, right), -dot(normal, up)) * (depth_per_texel / max(facing, LEAST_FACING));
+    let bias = 0.5 * depth_per_texel;
+
+    let texels_per_depth = LAMP_TANGENT / depth_per_texel;
+    let search = clamp(texels_per_depth * place.z, LEAST_SHADOW_TEXELS, MOST_SHADOW_TEXELS);
+    let start = vec2<f32>(cos(turn), sin(turn));
+    let search_taps = light.shadow_taps * 3u / 4u;
+    let last = vec2<i32>(i32(side) - 1);
+    var found = 0.0;
+    var found_depth = 0.0;
+    var direction = start;
+    for (var i = 0u; i < search_taps; i++) {
+        let offset = sqrt((f32(i) + 0.5) / f32(search_taps)) * search * direction;
+        direction = GOLDEN_TURN * direction;
+        let texel = clamp(vec2<i32>(place.xy + offset), vec2<i32>(0), last);
+        let depth = textureLoad(shadow_depth_map, texel, 0).r;
+        if depth < min(place.z + dot(slope, offset) - bias, FARTHEST) {
+            found += 1.0;
+            found_depth += depth;
+        }
+    }
+    if found == 0.0 {
+        return 1.0;
+    }
+    let radius = clamp(texels_per_depth * (place.z - found_depth / found), LEAST_SHADOW_TEXELS, MOST_SHADOW_TEXELS);
+    var lit = 0.0;
+    for (var i = 0u; i < light.shadow_taps; i++) {
+        let offset = sqrt((f32(i) + 0.5) / f32(light.shadow_taps)) * radius * direction;
+        direction = GOLDEN_TURN * direction;
+        let depth = min(place.z + dot(slope, offset) - bias, FARTHEST);
+        lit += textureSampleCompareLevel(shadow_map, shadow_sampler, (place.xy + offset) / side, depth);
     }
     return lit / f32(light.shadow_taps);
 }

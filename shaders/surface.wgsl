@@ -40,6 +40,35 @@ struct SurfacePoint {
     substance: Substance,
     // Ambient occlusion: the fraction of the environment that reaches the point.
     occlusion: f32,
+    // Of the picture.
+    pixel: vec2<f32>,
+}
+
+// The fraction of the environment that reaches a pixel of the picture, which is so far along the view, and farther or nearer by `steep` in
+// the next: from the pixels of the smaller map about it that are of the same surface, or else from the one that is nearest to it.
+fn occlusion_at(pixel: vec2<f32>, along: f32, steep: f32) -> f32 {
+    let last = vec2<i32>(half_size()) - 1;
+    let place = pixel / camera.viewport_pixels * half_size() - 0.5;
+    let first = vec2<i32>(floor(place));
+    let part = place - floor(place);
+    let reach = 0.01 * light.book_unit + 2.0 * steep;
+    var sum = 0.0;
+    var weights = 0.0;
+    var nearest = vec2<f32>(1.0, 1e30);
+    for (var i = 0; i < 4; i++) {
+        let beside = vec2<i32>(i & 1, i >> 1u);
+        let texel = textureLoad(occlusion_map, clamp(first + beside, vec2<i32>(0), last), 0).rgb;
+        let steps = floor(texel.g * 255.0 + 0.5) * 256.0 + floor(texel.b * 255.0 + 0.5);
+        let away = abs(mix(camera.depth_near, camera.depth_far, steps / 65535.0) - along);
+        let share = mix(1.0 - part, part, vec2<f32>(beside));
+        let weight = share.x * share.y * exp(-away / reach);
+        sum += weight * texel.r;
+        weights += weight;
+        if away < nearest.y {
+            nearest = vec2<f32>(texel.r, away);
+        }
+    }
+    return select(nearest.x, sum / weights, weights > 1e-3);
 }
 
 // Of normals that turn from one pixel to the next (Filament's constants, after Kaplanyan et al. 2016).
@@ -71,8 +100,7 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
     let vertex_normal = normalize_or(mesh.world_normal, to_eye * side);
     // Seen from behind, a bump is a dent.
     let normal = mapped_normal(of_maps.normal_texel.rgb, of_maps.normal_scale, vertex_normal, mesh.world_tangent) * side;
-    // Its last texels are not blended with what lies beside the map in its texture.
-    let in_map = min(mesh.clip.xy / camera.viewport_pixels * half_size(), half_size() - 0.5);
+    let along = dot(mesh.world_position - camera.eye, camera.forward);
     return SurfacePoint(
         mesh.world_position,
         to_eye,
@@ -83,15 +111,19 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
         mesh.world_tangent,
         mesh.tex_coord,
         of_maps,
-        textureSampleLevel(occlusion_map, environment_sampler, in_map / vec2<f32>(textureDimensions(occlusion_map)), 0.0).r * of_maps.occlusion,
+        occlusion_at(mesh.clip.xy, along, fwidth(along)) * of_maps.occlusion,
+        mesh.clip.xy,
     );
 }
 
 // The fraction of the key light that arrives at a point, whichever way its surface faces.
 fn key_arrival(point: SurfacePoint) -> f32 {
+    if light.is_book == 0u {
+        return soft_visibility(point.world_position, point.flat_normal, tap_turn(point.pixel));
+    }
     // Under grazing light the blur reaches further along the surface, so the point is moved further off it.
     let facing_key = max(dot(point.smooth_normal, light.to_key), 0.0);
     let radius = light.shadow_texel * light.shadow_radius_texels;
     let off_surface = point.smooth_normal * radius * (1.2 - 0.8 * facing_key);
-    return key_visibility(point.world_position + off_surface, light.shadow_radius_texels);
+    return even_visibility(point.world_position + off_surface, light.shadow_radius_texels);
 }

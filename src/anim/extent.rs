@@ -31,9 +31,17 @@ pub struct Extent {
     /// The vertices that lie farthest in many directions, at times spread over the clip. Their hull is nearly that of all the model
     /// reaches, and they are at most `2 · 32` a time. Above 8 million vertices in all, of each group every n-th is looked at.
     pub points: Vec<Vec3>,
+    /// Where the points of each time end.
+    point_ends: Vec<usize>,
 }
 
 impl Extent {
+    /// The farthest points of each time that was looked at.
+    pub fn poses(&self) -> impl Iterator<Item = &[Vec3]> {
+        let starts = std::iter::once(0).chain(self.point_ends.iter().copied());
+        starts.zip(&self.point_ends).map(|(start, &end)| &self.points[start..end])
+    }
+
     /// That of a clip, or of rest without one. `groups` are those of the model's mesh.
     pub async fn of(model: &Model, groups: &VertexGroups, clip: Option<&CompiledClip>, slices: &Slices) -> Self {
         let mut job = ExtentJob::new(model, clip, slices).await;
@@ -126,6 +134,7 @@ impl ExtentJob {
         };
         self.extremes.look(&pose, groups, self.stride, slices).await;
         self.extremes.append(&pose, &mut self.extent.points);
+        self.extent.point_ends.push(self.extent.points.len());
         if clip.is_none() {
             self.extent.bounds = pose.bounds();
         }

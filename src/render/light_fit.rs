@@ -42,8 +42,9 @@ pub fn to_book_lights(turn_radians: f32) -> [Vec3; 3] {
     BOOK_DIRECTIONS.map(|direction| turn * -direction.normalize())
 }
 
-/// Texels around the scene's box that stay empty, so that a blurred edge never leaves the map.
-const MARGIN_TEXELS: f32 = 8.0;
+/// Texels around the scene's box that stay empty, so that a blurred edge never leaves the map: `MOST_SHADOW_TEXELS` of `shadow.wgsl` and a
+/// little more.
+const MARGIN_TEXELS: f32 = 50.0;
 
 /// The demo's map covers a sphere of radius √(10² + 15²) units with 2048 texels: world size of a texel, units of the demo.
 const BOOK_TEXEL: f32 = 2.0 * 18.027_756 / 2048.0;
@@ -56,11 +57,7 @@ const DISC_EDGE: f32 = 1.374;
 /// Texels in the radius of the book light's disc. In a larger disc its 16 taps would show steps in the edge.
 const BOOK_RADIUS_TEXELS: f32 = 3.5;
 
-/// Texels in the radius of the studio light's disc on the model: a soft box is never quite sharp.
-const STUDIO_RADIUS_TEXELS: f32 = 2.5;
-/// The same on the ground, where the shadow lies farther from what casts it.
-const STUDIO_GROUND_RADIUS_TEXELS: f32 = 6.0;
-/// A map that covers a crowd has larger texels. Shadows get no softer for it than this radius asks, which hides the steps.
+/// Where the map is too coarse for that, this radius hides its steps.
 const LEAST_RADIUS_TEXELS: f32 = 1.5;
 
 /// How the shadow map covers a scene, and how it is blurred.
@@ -70,26 +67,17 @@ pub struct ShadowFit {
     pub shadow_clip_from_world: Mat4,
     /// World units that a texel covers.
     pub texel: f32,
-    /// Radius of the disc over which shadows on the model are blurred, texels.
+    /// World units between its nearest and its farthest depth.
+    pub depth: f32,
+    /// Radius of the disc over which the book's shadows are blurred, texels. The studio's are as soft as the lamp makes them.
     pub radius_texels: f32,
-    /// The same for the shadow on the ground.
-    pub ground_radius_texels: f32,
 }
 
 impl ShadowFit {
     /// For the studio light: the smallest square that holds the box as seen from the light, so that edges are as sharp as the map
-    /// allows. They are as soft as with one instance in the map, whose size is `instance_size`, or as little softer as the map allows.
-    /// `to_key` is a unit vector; the map has `map_side` texels along each edge.
-    pub fn studio(world_bounds: &Aabb, instance_size: Vec3, to_key: Vec3, map_side: u32) -> Self {
-        let fit = Self::with_least_texel(world_bounds, to_key, map_side, 0.0);
-        let axes = light_axes(to_key);
-        let half_width = |size: Vec3| tight_half_width(size * 0.5, axes, map_side);
-        let share = half_width(instance_size) / half_width(world_bounds.size());
-        Self {
-            radius_texels: (STUDIO_RADIUS_TEXELS * share).max(LEAST_RADIUS_TEXELS),
-            ground_radius_texels: (STUDIO_GROUND_RADIUS_TEXELS * share).max(LEAST_RADIUS_TEXELS),
-            ..fit
-        }
+    /// allows. `to_key` is a unit vector; the map has `map_side` texels along each edge.
+    pub fn studio(world_bounds: &Aabb, to_key: Vec3, map_side: u32) -> Self {
+        Self::with_least_texel(world_bounds, to_key, map_side, 0.0)
     }
 
     /// For the book light: edges are as wide as the demo's, [`BOOK_EDGE`], whatever the box. So the map may be larger than the box,
@@ -100,7 +88,6 @@ impl ShadowFit {
         let radius_texels = (radius / fit.texel).max(LEAST_RADIUS_TEXELS);
         Self {
             radius_texels,
-            ground_radius_texels: radius_texels,
             ..fit
         }
     }
@@ -128,8 +115,8 @@ impl ShadowFit {
         Self {
             shadow_clip_from_world: clip_from_light * light_from_world,
             texel: 2.0 * half_width / map_side as f32,
+            depth: 2.0 * half_depth,
             radius_texels: 0.0,
-            ground_radius_texels: 0.0,
         }
     }
 }
@@ -158,18 +145,19 @@ pub fn light_axes(to_key: Vec3) -> [Vec3; 3] {
     [right, forward.cross(right), forward]
 }
 
-/// Half the width of the contact map in half widths of the scene: the blur needs room.
-const CONTACT_MARGIN: f32 = 1.4;
-
-/// Texels along each edge of the contact map of one instance. Few are enough, since it is blurred.
+/// World size of a texel of the contact map, units of the books' demo: 12 mm of a man of 1.8 m.
+const CONTACT_TEXEL: f32 = 0.024;
+/// Texels beside the scene's box: the blur needs room.
+const CONTACT_MARGIN_TEXELS: f32 = 28.0;
+/// Texels along each edge of the contact map of one figure. Few are enough, since it is blurred.
 pub const CONTACT_MAP_SIZE: u32 = 256;
-/// The same of a crowd's, at most. Its blur takes the time.
+/// The same of a crowd's, at most, whose texels are then larger. Its blur takes the time.
 const LARGEST_CONTACT_MAP_SIZE: u32 = 1024;
 
 /// The square of the ground that the contact map covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactFit {
-    /// World x and z of its middle.
+    /// World x and z of its middle: a whole number of texels, so that it does not swim where the scene's box grows.
     pub center: Vec2,
     pub half_width: f32,
     /// Texels along each edge.
@@ -177,16 +165,24 @@ pub struct ContactFit {
 }
 
 impl ContactFit {
-    /// With as many texels for each instance, whose size is `instance_size`, as the largest map allows.
-    pub fn new(world_bounds: &Aabb, instance_size: Vec3) -> Self {
+    /// With texels of the same size in the world as far as the largest map allows. `book_unit` is one unit of the books' demo in world
+    /// units.
+    pub fn new(world_bounds: &Aabb, book_unit: f32) -> Self {
+        let size = world_bounds.size();
+        let width = size.x.max(size.z).max(0.0);
+        let texels = width / (CONTACT_TEXEL * book_unit) + 2.0 * CONTACT_MARGIN_TEXELS + 1.0;
+        let map_size = (CONTACT_MAP_SIZE..=LARGEST_CONTACT_MAP_SIZE)
+            .step_by(CONTACT_MAP_SIZE as usize)
+            .find(|&side| side as f32 >= texels)
+            .unwrap_or(LARGEST_CONTACT_MAP_SIZE);
+        let texel = (CONTACT_TEXEL * book_unit).max(width / (map_size as f32 - 2.0 * CONTACT_MARGIN_TEXELS - 1.0));
+        let texel = texel.max(1e-20);
         let center = world_bounds.center();
-        let half_width = |size: Vec3| (size.x.max(size.z).max(size.y * 0.1) * 0.5 * CONTACT_MARGIN).max(1e-20);
-        let whole = half_width(world_bounds.size());
-        let times = (whole / half_width(instance_size)).clamp(1.0, LARGEST_CONTACT_MAP_SIZE as f32);
+        let snapped = |place: f32| (place / texel).round() * texel;
         Self {
-            center: Vec2::new(center.x, center.z),
-            half_width: whole,
-            map_size: (CONTACT_MAP_SIZE * (times.ceil() as u32).next_power_of_two()).min(LARGEST_CONTACT_MAP_SIZE),
+            center: Vec2::new(snapped(center.x), snapped(center.z)),
+            half_width: 0.5 * texel * map_size as f32,
+            map_size,
         }
     }
 }

@@ -7,7 +7,7 @@ use super::buffers::bind_group;
 use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
 use super::recipe::{Draw, ModelDraw, Purpose};
-use super::target::{DEPTH_FORMAT, FRACTION_FORMAT, GEOMETRY_FORMAT, PassTargets, begin_pass, flat_texture, pixels};
+use super::target::{CONTACT_FORMAT, DEPTH_FORMAT, GEOMETRY_FORMAT, PassTargets, begin_pass, flat_texture, pixels};
 use super::timing::FrameEncoder;
 use crate::scene::{Light, TimedPass};
 use crate::shaders;
@@ -186,7 +186,7 @@ pub(super) struct OcclusionMap {
 
 impl OcclusionMap {
     pub(super) fn new(device: &wgpu::Device, pipelines: &Pipelines, map: &GeometryMap) -> Self {
-        let texture = |label| flat_texture(device, label, map.capacity(), FRACTION_FORMAT, DRAWN_AND_READ);
+        let texture = |label| flat_texture(device, label, map.capacity(), GEOMETRY_FORMAT, DRAWN_AND_READ);
         let (occlusion, half_blurred) = (texture("occlusion"), texture("occlusion, half blurred"));
         let group = |rough| {
             let resources = [&map.geometry, rough].map(wgpu::BindingResource::TextureView);
@@ -292,7 +292,7 @@ struct ContactSource {
 
 impl ContactMap {
     pub(super) fn new(device: &wgpu::Device, pipelines: &Pipelines, size: u32) -> Self {
-        let texture = |label| flat_texture(device, label, [size; 2], FRACTION_FORMAT, DRAWN_AND_READ);
+        let texture = |label| flat_texture(device, label, [size; 2], CONTACT_FORMAT, DRAWN_AND_READ);
         let group = |view| {
             let resources = [wgpu::BindingResource::TextureView(view)];
             bind_group(device, "contact", &pipelines.layouts.texels, resources)

@@ -117,7 +117,7 @@ impl LightPasses {
     pub(super) fn write(&mut self, queue: &Queue, frame: &RenderFrame<'_>, size: [u32; 2]) {
         let camera = camera_uniform(frame, size);
         let light = light_uniform(frame, self.light, self.shadow.side());
-        let ground = ground_uniform(frame, self.light, self.shadow.side());
+        let ground = ground_uniform(frame, self.light);
         queue.write_buffer(&self.camera, 0, bytemuck::bytes_of(&camera));
         queue.write_buffer(&self.light_uniform, 0, bytemuck::bytes_of(&light));
         queue.write_buffer(&self.ground, 0, bytemuck::bytes_of(&ground));
@@ -203,6 +203,7 @@ fn lighting_group(
         TextureView(environments.table()),
         Sampler(&samplers.environment),
         TextureView(sky),
+        TextureView(shadow),
     ];
     bind_group(
         &common.device,

@@ -73,6 +73,7 @@ impl Layouts {
                     flat(filtered),
                     filtering,
                     cube,
+                    flat(wgpu::TextureSampleType::Float { filterable: false }),
                 ],
             ),
             material: layout(

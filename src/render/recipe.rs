@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::target::{COLOR_FORMAT, DEPTH_FORMAT, FRACTION_FORMAT, GEOMETRY_FORMAT, SampleCount};
+use super::target::{COLOR_FORMAT, CONTACT_FORMAT, DEPTH_FORMAT, GEOMETRY_FORMAT, SampleCount};
 use crate::scene::Light;
 use crate::shaders::{self, Program};
 
@@ -268,7 +268,7 @@ impl Recipe {
             fragment: Some(fragment),
             topology: wgpu::PrimitiveTopology::TriangleList,
             step_mode: wgpu::VertexStepMode::Vertex,
-            color: Some(FRACTION_FORMAT.into()),
+            color: Some(GEOMETRY_FORMAT.into()),
             alpha_to_coverage: false,
             depth: None,
             samples: 1,
@@ -298,8 +298,17 @@ impl Recipe {
             Draw::Occlusion(Light::Studio) => fullscreen(shaders::OCCLUSION_STUDIO, "fragment"),
             Draw::OcclusionBlurRows => fullscreen(shaders::OCCLUSION_BLUR, "fragment_rows"),
             Draw::OcclusionBlurColumns => fullscreen(shaders::OCCLUSION_BLUR, "fragment_columns"),
-            Draw::ContactBlurRows => fullscreen(shaders::CONTACT_BLUR, "fragment_rows"),
-            Draw::ContactBlurColumns => fullscreen(shaders::CONTACT_BLUR, "fragment_columns"),
+            Draw::ContactBlurRows | Draw::ContactBlurColumns => Recipe {
+                color: Some(CONTACT_FORMAT.into()),
+                ..fullscreen(
+                    shaders::CONTACT_BLUR,
+                    if draw == Draw::ContactBlurRows {
+                        "fragment_rows"
+                    } else {
+                        "fragment_columns"
+                    },
+                )
+            },
         }
     }
 
@@ -390,7 +399,7 @@ impl Recipe {
             ModelDraw::Contact => {
                 let color = wgpu::ColorTargetState {
                     blend: Some(MAX_BLEND),
-                    ..FRACTION_FORMAT.into()
+                    ..CONTACT_FORMAT.into()
                 };
                 Recipe {
                     depth: None,

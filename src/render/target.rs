@@ -28,7 +28,7 @@ pub(super) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth3
 /// Normals and depth in view; see `geometry.wgsl`.
 pub(super) const GEOMETRY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// One number from 0 to 1 a pixel.
-pub(super) const FRACTION_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+pub(super) const CONTACT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg8Unorm;
 
 /// The view of a texture with one level and one sample a texel.
 pub(super) fn flat_texture(

@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::environment::room;
 use super::light_fit::{ContactFit, ShadowFit, StudioLights, to_book_lights};
 use crate::scene::{
-    Aabb, Background, Detail, Ground, Light, Overlay, Pass, Projection, RenderFrame, Theme, ViewMode, linear_from_srgb8,
+    Aabb, Background, Detail, Light, Overlay, Pass, Projection, RenderFrame, Theme, ViewMode, linear_from_srgb8,
 };
 use crate::shaders;
 
@@ -14,14 +14,12 @@ pub(super) struct ThemeColors {
     /// Backdrop at its lightest.
     pub(super) backdrop_center: [u8; 3],
     pub(super) backdrop_edge: [u8; 3],
-    pub(super) grid_minor: [u8; 3],
-    pub(super) grid_minor_opacity: f32,
-    pub(super) grid_major: [u8; 3],
-    pub(super) grid_major_opacity: f32,
+    pub(super) grid: [u8; 3],
+    pub(super) grid_opacity: f32,
+    /// The floor where the model stands.
+    pub(super) floor: [u8; 3],
     /// Fraction of the ground's light that the shadow takes.
     pub(super) shadow_strength: f32,
-    /// Fraction of the ground's light that the contact shadow takes.
-    pub(super) contact_strength: f32,
     pub(super) wire: [u8; 3],
     pub(super) wire_opacity: f32,
     pub(super) accent: [u8; 3],
@@ -30,12 +28,10 @@ pub(super) struct ThemeColors {
 const DARK: ThemeColors = ThemeColors {
     backdrop_center: [0x33, 0x38, 0x42],
     backdrop_edge: [0x14, 0x16, 0x1A],
-    grid_minor: [0x6B, 0x76, 0x8A],
-    grid_minor_opacity: 0.24,
-    grid_major: [0x7E, 0x8B, 0xA2],
-    grid_major_opacity: 0.36,
+    grid: [0xB8, 0xC2, 0xD4],
+    grid_opacity: 0.10,
+    floor: [0x4A, 0x4F, 0x59],
     shadow_strength: 0.60,
-    contact_strength: 0.85,
     wire: [0xE7, 0xEA, 0xF0],
     wire_opacity: 0.28,
     accent: [0x5A, 0xA9, 0xFF],
@@ -44,12 +40,10 @@ const DARK: ThemeColors = ThemeColors {
 const LIGHT: ThemeColors = ThemeColors {
     backdrop_center: [0xF4, 0xF5, 0xF7],
     backdrop_edge: [0xCF, 0xD4, 0xDC],
-    grid_minor: [0x8A, 0x90, 0x9C],
-    grid_minor_opacity: 0.5,
-    grid_major: [0x5B, 0x63, 0x70],
-    grid_major_opacity: 0.7,
-    shadow_strength: 0.5,
-    contact_strength: 0.7,
+    grid: [0x3A, 0x42, 0x50],
+    grid_opacity: 0.16,
+    floor: [0xEC, 0xEE, 0xF1],
+    shadow_strength: 0.45,
     wire: [0x1B, 0x20, 0x29],
     wire_opacity: 0.4,
     accent: [0x17, 0x69, 0xD2],
@@ -62,9 +56,10 @@ pub(super) fn theme_colors(theme: Theme) -> &'static ThemeColors {
     }
 }
 
-/// The grid fades out this many radii of the scene from its middle, or this many camera distances if that is more.
-const GRID_REACH: f32 = 9.0;
-const GRID_REACH_OF_DISTANCE: f32 = 2.0;
+/// The grid fades out this many radii of the scene from its middle.
+const GRID_REACH: f32 = 3.5;
+/// So many radii from it, a third of the floor is left.
+const FLOOR_REACH: f32 = 2.2;
 
 /// Height of the figure in the books' demo. The demo's lengths go with it.
 const BOOK_HEIGHT: f32 = 3.6;
@@ -120,6 +115,7 @@ pub fn light_uniform(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> sh
         shadow_texel: shadow.texel,
         to_rim: to_rim.to_array(),
         shadow_radius_texels: shadow.radius_texels,
+        shadow_depth: shadow.depth,
         to_book_light_1: to_book_light_1.to_array(),
         occlusion_radius: STUDIO_OCCLUSION_RADIUS * book_unit,
         to_book_light_2: to_book_light_2.to_array(),
@@ -143,14 +139,13 @@ pub fn light_uniform(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> sh
     }
 }
 
-/// The ground where this light lights it, and what is behind the model. `map_side` as in [`light_uniform`].
-pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> shaders::Ground {
+/// The ground where this light lights it, and what is behind the model.
+pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light) -> shaders::Ground {
     let options = &frame.options;
     let colors = theme_colors(options.theme);
     let bounds = &frame.world_bounds;
-    let ground = Ground::under(bounds);
+    let ground = &frame.ground;
     let contact = contact_fit(frame);
-    let (_, shadow) = key_light(frame, light, map_side);
     let center = bounds.center();
     let (background, background_srgb) = match options.background {
         Background::Backdrop => (0, [0; 3]),
@@ -164,25 +159,28 @@ pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light, map_side: u3
     shaders::Ground {
         backdrop_center_srgb: encoded(colors.backdrop_center, 1.0),
         backdrop_edge_srgb: encoded(colors.backdrop_edge, 1.0),
-        grid_minor: linear(colors.grid_minor, colors.grid_minor_opacity),
-        grid_major: linear(colors.grid_major, colors.grid_major_opacity),
+        grid: linear(
+            colors.grid,
+            when(options.overlays.has(Overlay::Grid), colors.grid_opacity),
+        ),
+        floor: linear(colors.floor, when(background == 0, 1.0)),
         background_srgb: background_srgb.map(|channel| f32::from(channel) / 255.0),
         background,
-        grid_center: [center.x, center.z],
+        center: [center.x, center.z],
         contact_center: contact.center.to_array(),
         contact_half_width: contact.half_width,
-        contact_strength: when(has_contact, colors.contact_strength),
+        contact_strength: when(has_contact, 1.0),
         shadow_strength: when(has_shadow, colors.shadow_strength),
-        shadow_radius_texels: shadow.ground_radius_texels,
         height: ground.height,
         grid_cell: ground.cell,
-        grid_reach: (bounds.radius() * GRID_REACH).max(frame.camera.distance * GRID_REACH_OF_DISTANCE),
-        grid_strength: when(options.overlays.has(Overlay::Grid), 1.0),
+        grid_reach: bounds.radius() * GRID_REACH,
+        floor_reach: bounds.radius() * FLOOR_REACH,
+        ..Default::default()
     }
 }
 
 pub(super) fn contact_fit(frame: &RenderFrame<'_>) -> ContactFit {
-    ContactFit::new(&frame.world_bounds, instance_size(frame))
+    ContactFit::new(&frame.world_bounds, book_unit(frame))
 }
 
 /// The unit vector towards the light that casts shadows, and what its shadow map covers.
@@ -193,7 +191,7 @@ fn key_light(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> (Vec3, Sha
             let to_key = StudioLights::beside(&frame.camera, options.environment_turn_radians).to_key;
             (
                 to_key,
-                ShadowFit::studio(bounds, instance_size(frame), to_key, map_side),
+                ShadowFit::studio(bounds, to_key, map_side),
             )
         }
         Light::Book => {

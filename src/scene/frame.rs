@@ -6,7 +6,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Affine3A, Quat, Vec3};
 
 use super::appearance::{Background, Detail, Light, Overlay, Overlays, Pass, Passes, Theme, ViewMode};
-use super::{Aabb, Camera};
+use super::{Aabb, Camera, Ground};
 use crate::anim::Palette;
 
 /// How the model is drawn, and what is drawn beside it.
@@ -65,6 +65,8 @@ pub struct RenderFrame<'a> {
     pub world_from_model: Affine3A,
     /// Box of everything that the clips of all instances reach, world space: depth range, grid, shadow.
     pub world_bounds: Aabb,
+    /// Where the model stands.
+    pub ground: Ground,
     /// Joint matrices; empty for a static model.
     pub palette: &'a Palette,
     /// The model's other instances.

@@ -31,7 +31,7 @@ pub use look::camera::CameraCommand;
 pub use look::materials::{MAX_SPEC_POWER, MaterialCommand};
 pub use look::quality::{Lowered, PassChoice, PassState, Quality, QualityCommand, QualityMode, RenderScale};
 pub use look::skeleton_cache::SkinColorsKey;
-pub use look::{Look, LookCommand, MAX_EXPOSURE_STOPS, MAX_LINE_LENGTH};
+pub use look::{Look, LookCommand, MAX_EXPOSURE_STOPS, MAX_GROUND_OFFSET, MAX_LINE_LENGTH};
 pub use open::files::{FILE_KINDS, File, FileKind, FileSet};
 pub use open::load::{LoadError, load, load_beside};
 pub use open::maps::{Maps, UnreadableMap, UsedMap};

@@ -3,7 +3,7 @@
 use bindpose::anim::Palette;
 use bindpose::model::{Influences, JointIndex, Material, Mesh, Model, Reflectance, Skeleton, Submesh};
 use bindpose::scene::{
-    Aabb, Camera, Crowd, CrowdInstance, FrameOptions, Ghosts, Overlay, OverlayGeometry, Overlays, Projection,
+    Aabb, Camera, Crowd, CrowdInstance, FrameOptions, Ghosts, Ground, Overlay, OverlayGeometry, Overlays, Projection,
     RenderFrame, Theme, VertexColors,
 };
 use glam::{Affine3A, Quat, Vec2, Vec3};
@@ -105,6 +105,7 @@ impl Scene {
             camera: self.camera,
             world_from_model: self.world_from_model,
             world_bounds: self.world_bounds,
+            ground: Ground::under(&self.world_bounds, []),
             palette: &self.palette,
             crowd: Crowd {
                 instances: &self.crowd,

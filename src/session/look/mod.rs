@@ -24,6 +24,8 @@ const BOOK_TURN_RADIANS_PER_SEC: f32 = 0.1;
 
 /// Stops of exposure that can be asked for, either way.
 pub const MAX_EXPOSURE_STOPS: f32 = 4.0;
+/// The ground can be moved so far, up and down, in heights of the model.
+pub const MAX_GROUND_OFFSET: f32 = 0.5;
 
 /// The longest line along a normal, as a fraction of the scene's radius.
 pub const MAX_LINE_LENGTH: f32 = 0.25;
@@ -45,6 +47,8 @@ pub struct Look {
     pub environment_turn_radians: f32,
     /// Exposure of the studio light.
     pub exposure_stops: f32,
+    /// How far the ground is above where it was found to be, in heights of the model.
+    pub ground_offset: f32,
     /// Turn of the book's lights about y, radians.
     pub book_lights_turn_radians: f32,
     /// Whether the green of normal maps points up in the picture.
@@ -90,6 +94,8 @@ pub enum LookCommand {
     TurnEnvironment(f32),
     /// Exposure of the studio light; each stop doubles it.
     SetExposure(f32),
+    /// Moves the ground up from where it was found to be, in heights of the model.
+    SetGroundOffset(f32),
     /// Which way the green of normal maps points.
     SetNormalGreenFlipped(bool),
     /// Shows poses before and after that of now as ghosts, or none.
@@ -125,7 +131,7 @@ impl Look {
                 look.overlays.has(Overlay::Grid),
             );
             let light = (look.light, look.split, turns_radians, look.exposure_stops);
-            (light, shown, look.normal_green_flipped)
+            (light, shown, look.normal_green_flipped, look.ground_offset)
         };
         of_scene(self) == of_scene(other)
     }
@@ -159,7 +165,13 @@ impl Look {
             LookCommand::SetExposure(stops) if stops.is_finite() => {
                 self.exposure_stops = stops.clamp(-MAX_EXPOSURE_STOPS, MAX_EXPOSURE_STOPS);
             }
-            LookCommand::SetLineLength(_) | LookCommand::SetEnvironmentTurn(_) | LookCommand::SetExposure(_) => {}
+            LookCommand::SetGroundOffset(heights) if heights.is_finite() => {
+                self.ground_offset = heights.clamp(-MAX_GROUND_OFFSET, MAX_GROUND_OFFSET);
+            }
+            LookCommand::SetLineLength(_)
+            | LookCommand::SetEnvironmentTurn(_)
+            | LookCommand::SetExposure(_)
+            | LookCommand::SetGroundOffset(_) => {}
             LookCommand::SetNormalGreenFlipped(flipped) => self.normal_green_flipped = flipped,
             // A plan without a pose before or after shows no ghosts.
             LookCommand::SetGhosts(plan) => self.ghosts = plan.filter(|plan| plan.before > 0 || plan.after > 0),

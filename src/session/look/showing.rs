@@ -16,7 +16,7 @@ impl Session {
         self.prepare(poses_all);
         if self.instances.are_many() {
             let bounds = self.selected_bounds();
-            let ground = Ground::under(&self.world_bounds()).height;
+            let ground = self.ground().height;
             let colors = BoneColors::of(self.view.theme);
             self.caches.overlays.mark_place(&bounds, ground, colors.selected);
         }
@@ -44,6 +44,7 @@ impl Session {
             camera: self.view.camera,
             world_from_model: self.world_from_model(),
             world_bounds: self.world_bounds(),
+            ground: self.ground(),
             palette: &self.actor.pose.palette,
             crowd: if self.instances.are_many() {
                 self.caches.crowd.crowd()
@@ -56,6 +57,22 @@ impl Session {
             ghosts: self.caches.overlays.ghosts(),
             seen_through: Some(self.caches.overlays.geometry()),
             options: self.frame_options(),
+        }
+    }
+
+    /// The ground under the clip on show, where a person has moved it to.
+    pub fn ground(&self) -> Ground {
+        let (clip, world_from_model) = (self.clip_index(), self.world_from_model());
+        let lowest = |points: &[Vec3]| {
+            let heights = points.iter().map(|&point| world_from_model.transform_point3(point).y);
+            heights.reduce(f32::min)
+        };
+        let open = self.content.open.as_deref();
+        let poses = open.into_iter().flat_map(|open| open.extent(clip).poses());
+        let ground = Ground::under(&self.world_bounds(), poses.filter_map(lowest));
+        Ground {
+            height: ground.height + self.view.look.ground_offset * self.selected_bounds().size().y,
+            ..ground
         }
     }
 

@@ -63,6 +63,7 @@ impl Session {
             LookCommand::SetLineLength(state.line_length),
             LookCommand::SetEnvironmentTurn(state.environment_turn_radians),
             LookCommand::SetExposure(state.exposure_stops),
+            LookCommand::SetGroundOffset(state.ground_offset),
             LookCommand::SetNormalGreenFlipped(state.normal_green_flipped),
             LookCommand::SetGhosts(state.ghosts),
             LookCommand::SetBindGhost(state.bind_ghost),

@@ -73,6 +73,8 @@ pub struct AppearanceState {
     pub environment_turn_radians: f32,
     /// Exposure of the studio light.
     pub exposure_stops: f32,
+    /// How far the ground is above where it was found to be, in heights of the model.
+    pub ground_offset: f32,
     /// Turn of the book's lights about y, radians.
     pub book_lights_turn_radians: f32,
     /// Whether the green of normal maps points up in the picture.
@@ -207,6 +209,7 @@ impl AppearanceState {
             line_length: look.overlays.line_length,
             environment_turn_radians: look.environment_turn_radians,
             exposure_stops: look.exposure_stops,
+            ground_offset: look.ground_offset,
             book_lights_turn_radians: look.book_lights_turn_radians,
             normal_green_flipped: look.normal_green_flipped,
             handedness: view.handedness,

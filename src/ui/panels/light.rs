@@ -6,12 +6,12 @@ use super::cost::SteadyCost;
 use crate::actions::{self, Control};
 use crate::scene::{Background, Detail, Light, Pass, TimedPass};
 use crate::session::{
-    FileCommand, LookCommand, Lowered, MAX_EXPOSURE_STOPS, PassChoice, PassState, QualityCommand, QualityMode, Session,
+    FileCommand, LookCommand, Lowered, MAX_EXPOSURE_STOPS, MAX_GROUND_OFFSET, PassChoice, PassState, QualityCommand, QualityMode, Session,
 };
 use crate::ui::cx::Cx;
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::Tokens;
-use crate::ui::kit::wording::{milliseconds, shortened};
+use crate::ui::kit::wording::{measured, milliseconds, shortened};
 use crate::ui::kit::{
     MenuLine, Row, Slider, color_picker, control_size, keyed_section_name, menu_item, named, noted_switch_row,
     push_button, section_name, segmented, switch_row, tell_node, value_row,
@@ -66,6 +66,7 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, SteadyCost>) {
         exposure(ui, cx);
     }
     environment_turn(ui, cx);
+    ground(ui, cx);
     popover_gap(ui);
     background(ui, cx);
     popover_gap(ui);
@@ -93,6 +94,21 @@ fn exposure<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
     );
     if let Some(stops) = slider.reset_to(0.0).show(ui) {
         cx.push(LookCommand::SetExposure(stops));
+    }
+}
+
+/// Where the ground lies: its height in the world, and how far it was moved.
+fn ground<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
+    let offset = cx.session.look().ground_offset;
+    let height = format!("y {}", measured(cx.session.ground().height));
+    let slider = Slider::new(
+        ("Ground", Control::new("ground")),
+        offset,
+        -MAX_GROUND_OFFSET..=MAX_GROUND_OFFSET,
+        &height,
+    );
+    if let Some(heights) = slider.reset_to(0.0).show(ui) {
+        cx.push(LookCommand::SetGroundOffset(heights));
     }
 }
 

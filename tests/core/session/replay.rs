@@ -99,6 +99,7 @@ fn told_to_renderer(session: &mut Session) -> [String; 2] {
         camera,
         world_from_model,
         world_bounds,
+        ground,
         palette,
         crowd,
         hidden_submeshes,
@@ -117,7 +118,7 @@ fn told_to_renderer(session: &mut Session) -> [String; 2] {
     };
     [
         format!(
-            "{camera:?} {world_from_model:?} {world_bounds:?} {palette:?} {crowd:?} {hidden_submeshes:?} {colors:?} {of_scene:?}"
+            "{camera:?} {world_from_model:?} {world_bounds:?} {ground:?} {palette:?} {crowd:?} {hidden_submeshes:?} {colors:?} {of_scene:?}"
         ),
         format!(
             "{highlighted_submesh:?} {ghosts:?} {seen_through:?} {:?}",

@@ -2,7 +2,7 @@
 
 use bindpose::anim::Palette;
 use bindpose::render::for_tests::{instance_size, light_uniform};
-use bindpose::scene::{Aabb, Camera, Crowd, CrowdInstance, FrameOptions, Ghosts, Light, Projection, RenderFrame};
+use bindpose::scene::{Aabb, Camera, Crowd, CrowdInstance, FrameOptions, Ghosts, Ground, Light, Projection, RenderFrame};
 use glam::{Affine3A, Vec3};
 
 /// The height of the book's own figure.
@@ -31,6 +31,7 @@ fn lengths_of_the_light_are_the_same_in_a_crowd() {
             min: Vec3::new(-1.0, 0.0, -0.5),
             max: Vec3::new(1.0 + 3.0 * count as f32, 4.0, 0.5),
         },
+        ground: Ground { height: 0.0, cell: 1.0 },
         palette: &palette,
         crowd: Crowd {
             instances: &instances[..count],
