@@ -47,7 +47,8 @@ struct SurfacePoint {
 // The fraction of the environment that reaches a pixel of the picture, which is so far along the view, and farther or nearer by `steep` in
 // the next: from the pixels of the smaller map about it that are of the same surface, or else from the one that is nearest to it.
 fn occlusion_at(pixel: vec2<f32>, along: f32, steep: f32) -> f32 {
-    let last = vec2<i32>(half_size()) - 1;
+    // Where none is drawn, there is one white texel.
+    let last = min(vec2<i32>(half_size()), vec2<i32>(textureDimensions(occlusion_map))) - 1;
     let place = pixel / camera.viewport_pixels * half_size() - 0.5;
     let first = vec2<i32>(floor(place));
     let part = place - floor(place);

@@ -1,15 +1,17 @@
 //! An orbiting camera in the world (left-handed, y up).
 
-use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, FRAC_PI_6, PI, TAU};
 
 use glam::camera::lh::proj::directx;
 use glam::{Mat4, Vec2, Vec3};
 
-use super::Aabb;
+use super::{Aabb, Light};
 use crate::modes::modes;
 
-/// Field of view of the perspective view: π/4, as in the books' demo.
-pub const DEFAULT_FOV_Y_RADIANS: f32 = FRAC_PI_4;
+/// Field of view of the perspective view: 30°, as a portrait is taken.
+pub const DEFAULT_FOV_Y_RADIANS: f32 = FRAC_PI_6;
+/// The same under the light of the books' demos, which have it: 45°.
+const BOOK_FOV_Y_RADIANS: f32 = FRAC_PI_4;
 
 /// The greatest pitch, radians: a little less than straight up, so that "right" stays defined while dragging.
 pub const MAX_PITCH_RADIANS: f32 = FRAC_PI_2 - 1e-3;
@@ -65,7 +67,7 @@ pub enum Projection {
         /// Vertical field of view.
         fov_y_radians: f32,
     },
-    /// Parallel lines stay parallel; the height in view is the one that the perspective view has at the target.
+    /// Parallel lines stay parallel; the height in view is the one that the studio's perspective view has at the target.
     Orthographic,
 }
 
@@ -84,12 +86,22 @@ pub struct Camera {
     pub projection: Projection,
 }
 
+impl Projection {
+    /// The perspective view under a light.
+    pub fn perspective(light: Light) -> Self {
+        Self::Perspective {
+            fov_y_radians: match light {
+                Light::Studio => DEFAULT_FOV_Y_RADIANS,
+                Light::Book => BOOK_FOV_Y_RADIANS,
+            },
+        }
+    }
+}
+
 impl Default for Camera {
     fn default() -> Self {
         let (yaw_radians, pitch_radians) = ViewPreset::ThreeQuarter.yaw_pitch_radians();
-        let projection = Projection::Perspective {
-            fov_y_radians: DEFAULT_FOV_Y_RADIANS,
-        };
+        let projection = Projection::perspective(Light::Studio);
         Self {
             target: Vec3::ZERO,
             distance: 4.0,
@@ -133,6 +145,13 @@ impl Camera {
             glam::Vec4::W,
         );
         view_axes.transpose() * Mat4::from_translation(-self.eye())
+    }
+
+    /// Changes how size depends on depth. What is at the target keeps its size in the picture.
+    pub fn set_projection(&mut self, projection: Projection) {
+        let height = self.height_in_view();
+        self.projection = projection;
+        self.distance *= height / self.height_in_view();
     }
 
     /// World height that the picture shows at the target's distance.

@@ -40,7 +40,10 @@ impl Session {
             Command::Joint(command) => self.apply_to_joints(command),
             Command::Name(command) => self.apply_to_names(command),
             Command::Submesh(command) => self.apply_to_submeshes(command),
-            Command::Look(command) => self.view.look.apply(command, self.selection.joints.count()),
+            Command::Look(command) => {
+                self.view.look.apply(command, self.selection.joints.count());
+                self.follow_light();
+            }
             Command::Material(command) => {
                 let open = self.content.open.as_ref();
                 let of_file = open.map_or(&[][..], |open| &open.model.materials);

@@ -215,7 +215,10 @@ on_both_backends! {
                     for y in 0..height {
                         for x in 0..width {
                             let expected = if x < left { on_left } else { on_right };
-                            assert_eq!(split.pixel(x, y), expected.pixel(x, y), "{mode:?} at ({x}, {y}), split {share}");
+                            // Where the pixel beside it is not drawn, a derivative may differ by a little.
+                            let [found, expected] = [split.pixel(x, y), expected.pixel(x, y)];
+                            let most = u8::from(x.abs_diff(left) <= 1);
+                            assert!(difference(found, expected) <= most, "{mode:?} at ({x}, {y}), split {share}: {found:?} for {expected:?}");
                         }
                     }
                 }

@@ -23,7 +23,7 @@ const FORMULA: f32 = 1e-3;
 /// Coefficients in f32 and a polynomial.
 const POLYNOMIAL: f32 = 1e-5;
 /// Texels are half floats, and devices may place samples to 1/256 of a texel.
-const TEXTURE: f32 = 0.01;
+const TEXTURE: f32 = 0.013;
 
 /// What a device is given.
 struct Room<'a> {

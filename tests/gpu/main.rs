@@ -37,6 +37,7 @@ mod gltf_materials;
 mod golden;
 mod gpu;
 mod kept_maps;
+mod lamp;
 mod light;
 mod lines;
 mod looks;

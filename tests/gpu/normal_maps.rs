@@ -49,7 +49,7 @@ fn same(a: &Picture, b: &Picture) -> bool {
 
 /// Much brighter.
 fn outshines(bright: u8, dim: u8) -> bool {
-    bright > dim.saturating_add(15)
+    bright > dim.saturating_add(10)
 }
 
 on_both_backends! {

@@ -229,7 +229,7 @@ on_both_backends! {
         let without = gpu.draw(&bare, 320, 200);
         let darkened = with.rgba.chunks_exact(4).zip(without.rgba.chunks_exact(4)).filter(|(with, without)| {
             // Grey on grey, so no part of the card.
-            with[0].abs_diff(with[2]) < 24 && with[0].saturating_add(40) < without[0]
+            with[0].abs_diff(with[2]) < 24 && with[0].saturating_add(20) < without[0]
         });
         assert!(darkened.count() > 80, "the shadow shows beside the card");
     }

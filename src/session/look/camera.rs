@@ -130,14 +130,18 @@ impl Session {
                 self.frame_model();
             }
             CameraCommand::ToggleProjection => self.change_goal(|session| {
-                session.view.camera.projection = match session.view.camera.projection {
+                let View { camera, look, .. } = &mut session.view;
+                camera.set_projection(match camera.projection {
                     Projection::Perspective { .. } => Projection::Orthographic,
-                    Projection::Orthographic => Camera::default().projection,
-                };
+                    Projection::Orthographic => Projection::perspective(look.light),
+                });
             }),
             CameraCommand::Reset => {
                 self.view.motion.interrupt();
-                self.view.camera = Camera::default();
+                self.view.camera = Camera {
+                    projection: Projection::perspective(self.view.look.light),
+                    ..Camera::default()
+                };
                 self.frame_model();
             }
             CameraCommand::Glide(command) => self.glide(*command),
@@ -252,8 +256,17 @@ impl Session {
         change(self);
         let View { camera, motion, .. } = &mut self.view;
         let to = std::mem::replace(camera, here);
-        camera.projection = to.projection;
+        camera.set_projection(to.projection);
         motion.set_goal(to);
+    }
+
+    /// Gives a perspective view the field of view that goes with the light. What is looked at keeps its size.
+    pub(in crate::session) fn follow_light(&mut self) {
+        let wanted = Projection::perspective(self.view.look.light);
+        let projection = self.view.camera.projection;
+        if projection != Projection::Orthographic && projection != wanted {
+            self.change_goal(|session| session.view.camera.set_projection(wanted));
+        }
     }
 
     /// Lets time pass for the camera.

@@ -40,7 +40,7 @@ impl Session {
         self.restore_selection(&state.selection);
         self.view.motion.interrupt();
         self.view.motion.set_turntable(state.camera.turntable);
-        self.view.camera = state.camera.camera();
+        self.view.camera = state.camera.camera(state.appearance.light);
         self.view.framed = state.camera.framed;
     }
 

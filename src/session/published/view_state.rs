@@ -169,8 +169,8 @@ impl CameraState {
         }
     }
 
-    /// The camera. Numbers that no camera can have are replaced by the default one's.
-    pub(in crate::session) fn camera(&self) -> Camera {
+    /// The camera under a light. Numbers that no camera can have are replaced by the default one's.
+    pub(in crate::session) fn camera(&self, light: Light) -> Camera {
         let default = Camera::default();
         let or = |value: f32, default: f32| if value.is_finite() { value } else { default };
         let target = Vec3::from(self.target);
@@ -187,7 +187,7 @@ impl CameraState {
             projection: if self.orthographic {
                 Projection::Orthographic
             } else {
-                default.projection
+                Projection::perspective(light)
             },
         }
     }

@@ -288,7 +288,7 @@ fn groups_that_are_left_out_change_no_bit_of_the_box_and_the_points() {
     {
         let clip = &model.clips[0];
         let compiled = CompiledClip::new(clip);
-        let Extent { bounds, points } = extent(&model, Some(&compiled));
+        let Extent { bounds, points, .. } = extent(&model, Some(&compiled));
         assert_eq!(bounds, textbook_bounds(&model, clip));
         assert_eq!(points, textbook_points(&model, &compiled));
     }

@@ -159,7 +159,7 @@ fn a_mirror_shows_the_lamps_edge() {
         let angle = degrees.to_radians();
         table.lamp_lookup(Vec3::Z, Vec3::new(angle.sin(), 0.0, angle.cos()), 0.0)
     };
-    assert_eq!([0.0, 4.0, 7.5].map(at), [1.0; 3]);
+    assert!([0.0, 4.0, 7.5].map(at).into_iter().all(|share| share > 0.999));
     assert_eq!([10.5, 30.0, 179.0].map(at), [0.0; 3]);
 }
 

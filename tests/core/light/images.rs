@@ -68,7 +68,7 @@ fn light_that_cannot_be_is_none_and_a_sun_is_dimmed() {
 #[test]
 fn bytes_are_srgb_and_are_averaged_as_light() {
     let stripes = cube_file(
-        256,
+        512,
         BYTES,
         |_, x| if x % 2 == 0 { [0, 0, 0, 255] } else { [255, 188, 0, 0] },
     );
@@ -84,7 +84,7 @@ fn bytes_are_srgb_and_are_averaged_as_light() {
     let bytes = environment.to_rgba8_srgb();
     assert_eq!(
         (bytes.len(), &bytes[..4]),
-        (6 * 128 * 128 * 4, [188, 137, 0, 255].as_slice())
+        (6 * 256 * 256 * 4, [188, 137, 0, 255].as_slice())
     );
 }
 

@@ -57,7 +57,7 @@ fn every_corner_of_the_box_lies_inside_the_map() {
     ] {
         let bounds = Aabb { min, max };
         for fit in [
-            ShadowFit::studio(&bounds, bounds.size(), to_key, MAP_SIDE),
+            ShadowFit::studio(&bounds, to_key, MAP_SIDE),
             ShadowFit::book(&bounds, to_key, MAP_SIDE, bounds.size().y / 3.6),
         ] {
             for corner in 0..8 {
@@ -90,7 +90,7 @@ fn the_map_turns_evenly_with_the_light() {
         let fit_at = |step: u32| {
             let turned = glam::Quat::from_rotation_y(step as f32 * STEP_RADIANS) * to_key;
             [
-                ShadowFit::studio(&FIGURE, FIGURE.size(), turned, MAP_SIDE),
+                ShadowFit::studio(&FIGURE, turned, MAP_SIDE),
                 ShadowFit::book(&FIGURE, turned, MAP_SIDE, 1.0),
             ]
         };
@@ -132,7 +132,6 @@ fn the_books_blur_is_as_wide_in_every_box() {
         let edge = fit.radius_texels * fit.texel * DISC_EDGE;
         assert!((edge / 3.6 - 0.011_74).abs() < 1e-4, "{edge} in a box {width} wide");
         assert!(fit.radius_texels >= 0.999 * BOOK_RADIUS_TEXELS, "the texels would show");
-        assert_eq!(fit.radius_texels, fit.ground_radius_texels);
     }
     let [small, large] = [1.0, 20.0].map(|unit| {
         let bounds = Aabb {
@@ -146,23 +145,33 @@ fn the_books_blur_is_as_wide_in_every_box() {
     );
 }
 
-/// A row of figures under one light: as soft as one of them, as long as the map has the texels for it.
+/// The contact map's texels are as large for one figure as for some in a row, as long as the largest map has enough of them, and lie at the
+/// same places of the world.
 #[test]
-fn shadows_and_contacts_of_a_crowd_are_as_sharp_as_the_maps_allow() {
-    let to_key = Vec3::new(0.64, 0.74, -0.34).normalize();
-    let alone = ShadowFit::studio(&FIGURE, FIGURE.size(), to_key, MAP_SIDE);
-    assert_eq!((alone.radius_texels, alone.ground_radius_texels), (2.5, 6.0));
-    assert_eq!(ContactFit::new(&FIGURE, FIGURE.size()).map_size, 256);
-    for (wider, map_size) in [(2.0, 1024), (30.0, 1024), (500.0, 1024)] {
+fn contacts_keep_their_texels_wherever_the_box_lies() {
+    let fit = |wider: f32| {
         let row = Aabb {
             max: FIGURE.max + Vec3::X * wider,
             ..FIGURE
         };
-        let fit = ShadowFit::studio(&row, FIGURE.size(), to_key, MAP_SIDE);
-        let width = |fit: &ShadowFit| fit.ground_radius_texels * fit.texel;
-        assert!(width(&fit) >= 0.999 * width(&alone) && fit.ground_radius_texels >= LEAST_RADIUS_TEXELS);
-        assert!(width(&fit) <= width(&alone).max(1.001 * LEAST_RADIUS_TEXELS * fit.texel));
-        assert_eq!(ContactFit::new(&row, FIGURE.size()).map_size, map_size, "{wider} wider");
-        assert!(ShadowFit::book(&row, to_key, MAP_SIDE, 1.0).radius_texels >= LEAST_RADIUS_TEXELS);
+        let fit = ContactFit::new(&row, 1.0);
+        let texel = 2.0 * fit.half_width / fit.map_size as f32;
+        let room = fit.half_width - 0.5 * (1.4 + wider);
+        assert!(room > 20.0 * texel, "{wider} wider: the blur has room");
+        (fit, texel)
+    };
+    let (alone, texel) = fit(0.0);
+    assert_eq!(alone.map_size, 256);
+    for (wider, map_size) in [(0.013, 256), (1.7, 256), (7.0, 512), (15.0, 768), (21.0, 1024)] {
+        let (row, of_row) = fit(wider);
+        assert_eq!(row.map_size, map_size, "{wider} wider");
+        assert!((of_row / texel - 1.0).abs() < 1e-5, "{wider} wider");
+        let steps = (row.center - alone.center) / texel;
+        assert!((steps - steps.round()).abs().max_element() < 1e-3, "{wider} wider: {steps}");
     }
+    let (crowd, of_crowd) = fit(500.0);
+    assert!(crowd.map_size == 1024 && of_crowd > 10.0 * texel);
+    let to_key = Vec3::new(0.64, 0.74, -0.34).normalize();
+    let row = Aabb { max: FIGURE.max + Vec3::X * 500.0, ..FIGURE };
+    assert!(ShadowFit::book(&row, to_key, MAP_SIDE, 1.0).radius_texels >= LEAST_RADIUS_TEXELS);
 }
