@@ -30,7 +30,9 @@ struct Light {
     // World units between the nearest and the farthest depth of the shadow map.
     @size(8) shadow_depth: f32,
     // What a white surface shows that faces one of the studio's lights.
-    @size(16) key_color: vec3<f32>,
+    key_color: vec3<f32>,
+    // 1 when what mirrors shows the key as a disc, 0 when it is seen in the environment.
+    key_mirrored: f32,
     @size(16) rim_color: vec3<f32>,
 }
 

@@ -22,7 +22,7 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
         point.to_eye,
         point.occlusion,
     );
-    let lights = StudioLights(light.to_key, light.key_color, key_visible, light.to_rim, light.rim_color);
+    let lights = StudioLights(light.to_key, light.key_color, key_visible, light.key_mirrored, light.to_rim, light.rim_color);
     let radiance = studio_light(surface, lights) + point.substance.emissive;
     return srgb_from_linear(tone_mapped(exposed(radiance, camera.exposure_stops)));
 }

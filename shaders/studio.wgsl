@@ -27,6 +27,8 @@ struct StudioLights {
     key_color: vec3<f32>,
     // 0 in shadow, 1 lit.
     key_visible: f32,
+    // 1 when what mirrors shows it as a disc, 0 when it is seen in the environment.
+    key_mirrored: f32,
     // Unit; behind the model.
     to_rim: vec3<f32>,
     rim_color: vec3<f32>,
@@ -48,7 +50,7 @@ fn studio_light(surface: StudioSurface, lights: StudioLights) -> vec3<f32> {
 
     // Of the lamp's light too, what is mirrored once keeps its shape.
     let n_dot_l = max(dot(surface.normal, lights.to_key), 0.0);
-    let lamp_seen = lamp_lookup(towards, lights.to_key, surface.roughness) * LAMP_RADIANCE * above;
+    let lamp_seen = lamp_lookup(towards, lights.to_key, surface.roughness) * LAMP_RADIANCE * above * lights.key_mirrored;
     let from_key = lights.key_color * lights.key_visible
         * ((weights.diffuse + weights.multiple) * n_dot_l + weights.single * lamp_seen);
     return from_environment + from_key + studio_rim(surface, weights, n_dot_v, lights);

@@ -5,6 +5,9 @@ use glam::{FloatExt as _, Vec3, Vec3A};
 use crate::image::half;
 use crate::slices::{Slices, at_once};
 
+/// So many rows are filled between two places at which that can stop: a millisecond or less.
+const ROWS_A_PIECE: usize = 8;
+
 /// Faces of a cube: +x, −x, +y, −y, +z, −z.
 pub(super) const FACES: usize = 6;
 
@@ -25,7 +28,7 @@ impl Cube {
         at_once(Self::from_texels_in(side, texel, &Slices::ENDLESS))
     }
 
-    /// The same in slices, each a row or more.
+    /// The same in slices, each of some rows.
     pub(super) async fn from_texels_in(
         side: usize,
         texel: impl Fn(usize, usize, usize) -> Vec3A,
@@ -37,7 +40,9 @@ impl Cube {
         };
         for face in 0..FACES {
             for y in 0..side {
-                slices.pause().await;
+                if y.is_multiple_of(ROWS_A_PIECE) {
+                    slices.pause().await;
+                }
                 let first = cube.index(face, 1, y + 1);
                 for (x, place) in cube.bordered[first..first + side].iter_mut().enumerate() {
                     *place = texel(face, x, y);

@@ -3,6 +3,7 @@
 use glam::{Vec3, Vec3A};
 
 use super::cube::{Cube, FACES, resized, smoothstep, solid_angles, texel_direction};
+use super::sky_lamp::SkyLamp;
 use super::studio_set::{Room, Set};
 use crate::image::srgb::{linear_from_srgb, srgb_from_linear};
 use crate::image::{Image, ImageKind};
@@ -35,8 +36,8 @@ const FAR_GROUND: Vec3 = Vec3::new(0.305, 0.296, 0.279);
 /// Ground below: sRGB (112, 110, 106).
 const NEAR_GROUND: Vec3 = Vec3::new(0.162, 0.156, 0.144);
 
-/// The largest radiance of a texel of a file: a brighter sun would show as single bright dots.
-const MAX_RADIANCE: f32 = 256.0;
+/// The largest radiance of a texel of a file. Infinity would leave nothing of what is averaged with it.
+const MAX_RADIANCE: f32 = 1e6;
 
 /// A cube of linear radiance, a power of two from 16 to 256 texels a side.
 ///
@@ -44,6 +45,8 @@ const MAX_RADIANCE: f32 = 256.0;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
     pub(super) cube: Cube,
+    /// Of the light that comes from one direction; none of a generated environment.
+    lamp: Option<SkyLamp>,
 }
 
 impl Environment {
@@ -74,6 +77,7 @@ impl Environment {
         };
         Self {
             cube: Cube::from_texels_in(side, texel, slices).await,
+            lamp: None,
         }
     }
 
@@ -84,7 +88,12 @@ impl Environment {
         while cube.side() > FIRST_SIDE {
             cube = cube.halved();
         }
-        Self { cube }
+        Self { cube, lamp: self.lamp }
+    }
+
+    /// The lamp of a sky. A sun is no longer in the radiances.
+    pub fn lamp(&self) -> Option<&SkyLamp> {
+        self.lamp.as_ref()
     }
 
     /// An outdoor sky without sun: blue above, pale at the horizon, neutral ground. No channel exceeds 1.
@@ -99,12 +108,13 @@ impl Environment {
         let radiance = |direction: Vec3A| Vec3A::from(radiance(direction.into()));
         Self {
             cube: Cube::from_directions(side, radiance),
+            lamp: None,
         }
     }
 
     /// The environment that a cube map shows; `None` where the picture is no cube.
     ///
-    /// Float formats are taken as linear radiance, the others as sRGB. Larger cubes are averaged in linear light.
+    /// Float formats are taken as linear radiance, the others as sRGB. Larger cubes are averaged in linear light. A sun becomes the lamp.
     pub fn from_image(image: &Image) -> Option<Self> {
         if image.kind() != ImageKind::Cube || image.width() != image.height() {
             return None;
@@ -120,9 +130,8 @@ impl Environment {
         };
         let face = |face| Some(resized(&linear_texels(image, face, level)?, read_side, side));
         let faces: Vec<Vec<Vec3>> = (0..FACES as u32).map(face).collect::<Option<_>>()?;
-        Some(Self {
-            cube: Cube::from_texels(side, |face, x, y| faces[face][y * side + x].into()),
-        })
+        let (cube, lamp) = SkyLamp::of(Cube::from_texels(side, |face, x, y| faces[face][y * side + x].into()));
+        Some(Self { cube, lamp })
     }
 
     /// Texels a side of each face.

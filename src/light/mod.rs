@@ -22,9 +22,11 @@ mod brdf_table;
 mod cube;
 mod environment;
 mod prefilter;
+mod sky_lamp;
 mod studio_set;
 
 pub use brdf_table::{BRDF_TABLE_SIDE, BrdfTable, LAMP_RADIUS_RADIANS, brdf_table};
 pub use environment::{Environment, sound_radiance};
 pub use prefilter::{Irradiance, Prefiltered};
+pub use sky_lamp::SkyLamp;
 pub use studio_set::{Room, RoomLights};

@@ -55,10 +55,12 @@ impl Prefiltered {
         }
         slices.pause().await;
         let of_diffuse = mips.iter().find(|mip| mip.side() <= IRRADIANCE_SIDE);
-        Self {
-            levels,
-            irradiance: Irradiance::of_cube(of_diffuse.unwrap_or(sharp)),
+        let mut irradiance = Irradiance::of_cube(of_diffuse.unwrap_or(sharp));
+        // A soft lamp is still in the radiances: matt surfaces have it from the lamp alone.
+        if let Some(lamp) = environment.lamp().filter(|lamp| !lamp.is_sun) {
+            irradiance.add(lamp.direction, -lamp.color);
         }
+        Self { levels, irradiance }
     }
 
     /// How many levels there are: five.
@@ -191,6 +193,13 @@ impl Irradiance {
         let constant = |index: usize| BASIS[index] * BASIS[index] * COSINE[index];
         Self {
             coefficients: std::array::from_fn(|index| (coefficients[index] * constant(index)).into()),
+        }
+    }
+
+    /// Adds light from one direction of unit length; `color` is what a white surface that faces it shows of it.
+    fn add(&mut self, direction: Vec3, color: Vec3) {
+        for (index, polynomial) in polynomials(direction).into_iter().enumerate() {
+            self.coefficients[index] += color * (PI * polynomial * BASIS[index] * BASIS[index] * COSINE[index]);
         }
     }
 

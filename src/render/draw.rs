@@ -83,7 +83,7 @@ impl Renderer {
             if columns_of(passes.light()).is_none() {
                 continue;
             }
-            passes.write(&self.common.queue, frame, target.size());
+            passes.write(&self.common, frame, target.size());
             let is_read = frame.draws_under(Pass::AmbientOcclusion, passes.light());
             if let (true, Some(model), Some(map)) = (is_read, model, &mut self.geometry) {
                 let model = with(model, self.instances.in_sight());

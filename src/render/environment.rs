@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 
 use super::buffers::{Queue, uniform_buffer};
 use crate::image::{Image, ImageKind, MapKind};
-use crate::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered, Room, sound_radiance};
+use crate::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered, Room, SkyLamp, sound_radiance};
 use crate::scene::{Light, Pass, RenderFrame, Theme};
 use crate::shaders;
 use crate::slices::{Sliced, Slices};
@@ -30,6 +30,16 @@ pub(super) fn room(theme: Theme) -> Room {
         Theme::Dark => Room::Dark,
         Theme::Light => Room::Bright,
     }
+}
+
+/// Where the light comes from that has a direction, but for the books'.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Lamps {
+    /// From the studio's lamp and its rim light, which stand beside the viewer.
+    #[default]
+    Studio,
+    /// From the lamp of a sky, which stands in the world; from nowhere where it has none.
+    Sky(Option<SkyLamp>),
 }
 
 /// Maps of an environment that lights the model.
@@ -167,6 +177,12 @@ impl Environments {
     fn maps(&self) -> Option<&EnvironmentMaps> {
         let of_sky = self.dropped.as_ref().map(|dropped| &dropped.maps);
         of_sky.or(self.studios[self.room as usize].as_ref())
+    }
+
+    /// Where the light comes from that has a direction.
+    pub(super) fn lamps(&self) -> Lamps {
+        let sky = self.dropped.as_ref();
+        sky.map_or(Lamps::Studio, |sky| Lamps::Sky(sky.environment.lamp().copied()))
     }
 
     /// Whether the environment that was shown last has all its texels.

@@ -1,6 +1,7 @@
 //! Parts that tests look at one by one.
 
 pub use super::blending::Center;
+pub use super::environment::Lamps;
 pub use super::instances::rows;
 pub use super::light_fit::{CONTACT_MAP_SIZE, ContactFit, ShadowFit, StudioLights, light_axes, to_book_lights};
 pub use super::light_maps::{CONTACT_BLURS, half, occlusion_blurs};

@@ -114,10 +114,11 @@ impl LightPasses {
     }
 
     /// Writes the uniforms for a picture of this size, pixels.
-    pub(super) fn write(&mut self, queue: &Queue, frame: &RenderFrame<'_>, size: [u32; 2]) {
+    pub(super) fn write(&mut self, common: &Common, frame: &RenderFrame<'_>, size: [u32; 2]) {
+        let (queue, lamps) = (&common.queue, common.environments.lamps());
         let camera = camera_uniform(frame, size);
-        let light = light_uniform(frame, self.light, self.shadow.side());
-        let ground = ground_uniform(frame, self.light);
+        let light = light_uniform(frame, self.light, lamps, self.shadow.side());
+        let ground = ground_uniform(frame, self.light, lamps);
         queue.write_buffer(&self.camera, 0, bytemuck::bytes_of(&camera));
         queue.write_buffer(&self.light_uniform, 0, bytemuck::bytes_of(&light));
         queue.write_buffer(&self.ground, 0, bytemuck::bytes_of(&ground));

@@ -1,9 +1,10 @@
 //! A [`RenderFrame`] as the uniforms that shaders read, and the colours of the themes.
 
-use glam::Vec3;
+use glam::{Quat, Vec3};
 
-use super::environment::room;
+use super::environment::{Lamps, room};
 use super::light_fit::{ContactFit, ShadowFit, StudioLights, to_book_lights};
+use crate::light::RoomLights;
 use crate::scene::{
     Aabb, Background, Detail, Light, Overlay, Pass, Projection, RenderFrame, Theme, ViewMode, linear_from_srgb8,
 };
@@ -102,10 +103,20 @@ pub(super) fn camera_uniform(frame: &RenderFrame<'_>, size: [u32; 2]) -> shaders
 }
 
 /// The part of a picture that this light lights, with a shadow map of so many texels along each edge.
-pub fn light_uniform(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> shaders::Light {
+pub fn light_uniform(frame: &RenderFrame<'_>, light: Light, lamps: Lamps, map_side: u32) -> shaders::Light {
     let options = &frame.options;
-    let (to_key, shadow) = key_light(frame, light, map_side);
-    let lights = room(options.theme).lights();
+    let (to_key, shadow) = key_light(frame, light, lamps, map_side);
+    let lights = match lamps {
+        Lamps::Studio => room(options.theme).lights(),
+        Lamps::Sky(lamp) => RoomLights {
+            key: lamp.map_or(Vec3::ZERO, |lamp| lamp.color),
+            rim: Vec3::ZERO,
+        },
+    };
+    let is_mirrored = match lamps {
+        Lamps::Studio => true,
+        Lamps::Sky(lamp) => lamp.is_some_and(|lamp| lamp.is_sun),
+    };
     let to_rim = StudioLights::beside(&frame.camera, options.environment_turn_radians).to_rim;
     let [_, to_book_light_1, to_book_light_2] = to_book_lights(options.book_lights_turn_radians);
     let book_unit = book_unit(frame);
@@ -134,13 +145,14 @@ pub fn light_uniform(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> sh
             Detail::Low => SHADOW_TAPS / 2,
         },
         key_color: lights.key.to_array(),
+        key_mirrored: f32::from(u8::from(is_mirrored)),
         rim_color: lights.rim.to_array(),
         ..Default::default()
     }
 }
 
 /// The ground where this light lights it, and what is behind the model.
-pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light) -> shaders::Ground {
+pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light, lamps: Lamps) -> shaders::Ground {
     let options = &frame.options;
     let colors = theme_colors(options.theme);
     let bounds = &frame.world_bounds;
@@ -170,7 +182,13 @@ pub(super) fn ground_uniform(frame: &RenderFrame<'_>, light: Light) -> shaders::
         contact_center: contact.center.to_array(),
         contact_half_width: contact.half_width,
         contact_strength: when(has_contact, 1.0),
-        shadow_strength: when(has_shadow, colors.shadow_strength),
+        shadow_strength: when(
+            has_shadow,
+            match (light, lamps) {
+                (Light::Studio, Lamps::Sky(lamp)) => lamp.map_or(0.0, |lamp| lamp.ground_share),
+                _ => colors.shadow_strength,
+            },
+        ),
         height: ground.height,
         grid_cell: ground.cell,
         grid_reach: bounds.radius() * GRID_REACH,
@@ -184,11 +202,15 @@ pub(super) fn contact_fit(frame: &RenderFrame<'_>) -> ContactFit {
 }
 
 /// The unit vector towards the light that casts shadows, and what its shadow map covers.
-fn key_light(frame: &RenderFrame<'_>, light: Light, map_side: u32) -> (Vec3, ShadowFit) {
+fn key_light(frame: &RenderFrame<'_>, light: Light, lamps: Lamps, map_side: u32) -> (Vec3, ShadowFit) {
     let (options, bounds) = (&frame.options, &frame.world_bounds);
     match light {
         Light::Studio => {
-            let to_key = StudioLights::beside(&frame.camera, options.environment_turn_radians).to_key;
+            let turn = options.environment_turn_radians;
+            let to_key = match lamps {
+                Lamps::Studio => StudioLights::beside(&frame.camera, turn).to_key,
+                Lamps::Sky(lamp) => Quat::from_rotation_y(turn) * lamp.map_or(Vec3::Y, |lamp| lamp.direction),
+            };
             (
                 to_key,
                 ShadowFit::studio(bounds, to_key, map_side),

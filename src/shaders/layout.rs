@@ -47,9 +47,9 @@ pub struct Light {
     pub shadow_depth: f32,
     pub unused: u32,
     pub key_color: [f32; 3],
-    pub unused_2: u32,
+    pub key_mirrored: f32,
     pub rim_color: [f32; 3],
-    pub unused_3: u32,
+    pub unused_2: u32,
 }
 
 /// Twin of `Ground` in `ground.wgsl`, which says what each member means.

@@ -6,6 +6,7 @@ mod furnace;
 mod images;
 mod prefilter;
 mod shaders;
+mod sky_lamp;
 mod studio;
 mod tone_map;
 

@@ -138,6 +138,7 @@ fn twins() -> BTreeMap<String, Layout> {
             shadow_taps,
             shadow_depth,
             key_color,
+            key_mirrored,
             rim_color,
         }),
         twin!(Ground {

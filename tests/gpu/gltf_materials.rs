@@ -156,6 +156,7 @@ on_both_backends! {
             to_key: Vec3::Y,
             key_color: Vec3::ZERO,
             key_visible: 0.0,
+            key_mirrored: 1.0,
             to_rim: Vec3::Y,
             rim_color: Vec3::ZERO,
         };

@@ -81,6 +81,7 @@ impl Room<'_> {
                     to_key: to_light,
                     key_color: self.key_color,
                     key_visible: 0.75,
+                    key_mirrored: 0.9,
                     to_rim: Vec3::new(0.0, 0.6, -0.8),
                     rim_color: self.rim_color,
                 };

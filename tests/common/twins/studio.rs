@@ -38,6 +38,8 @@ pub(crate) struct StudioLights {
     pub(crate) key_color: Vec3,
     /// 0 in shadow, 1 lit.
     pub(crate) key_visible: f32,
+    /// 1 when what mirrors shows it as a disc.
+    pub(crate) key_mirrored: f32,
     /// Unit, in the world; behind the model.
     pub(crate) to_rim: Vec3,
     /// Of the rim.
@@ -78,7 +80,7 @@ impl EnvironmentLight<'_> {
         let lamp_share = self.brdf_table.lamp_lookup(towards, lights.to_key, surface.roughness);
         let from_key = lights.key_color
             * lights.key_visible
-            * ((weights.diffuse + weights.multiple) * n_dot_l + weights.single * (lamp_share * LAMP_RADIANCE * above));
+            * ((weights.diffuse + weights.multiple) * n_dot_l + weights.single * (lamp_share * LAMP_RADIANCE * above * lights.key_mirrored));
         from_environment + from_key + studio_rim(surface, &weights, n_dot_v, lights)
     }
 

@@ -22,6 +22,7 @@ fn dark() -> StudioLights {
         to_key: Vec3::Z,
         key_color: Vec3::ZERO,
         key_visible: 1.0,
+        key_mirrored: 1.0,
         to_rim: Vec3::Z,
         rim_color: Vec3::ZERO,
     }

@@ -51,6 +51,7 @@ fn lights_of(room: Room) -> StudioLights {
         to_key: Vec3::new(0.55, 0.66, -0.51).normalize(),
         key_color: room.lights().key,
         key_visible: 1.0,
+        key_mirrored: 1.0,
         to_rim: Vec3::new(-0.72, 0.36, 0.58).normalize(),
         rim_color: room.lights().rim,
     }

@@ -41,7 +41,7 @@ fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
     } else if quantity == 6u {
         value = vec3<f32>(brdf_lookup(n_dot_v, roughness), lamp_lookup(to_eye, to_light, roughness));
     } else {
-        let lights = StudioLights(to_light, KEY_COLOR, 0.75, vec3<f32>(0.0, 0.6, -0.8), RIM_COLOR);
+        let lights = StudioLights(to_light, KEY_COLOR, 0.75, 0.9, vec3<f32>(0.0, 0.6, -0.8), RIM_COLOR);
         var surface = StudioSurface(vec3<f32>(1.0), vec3<f32>(0.04), roughness, up, up, to_eye, 1.0);
         if quantity == 8u {
             surface.fresnel0 = vec3<f32>(1.0);

@@ -1,7 +1,7 @@
 //! Uniforms of a frame.
 
 use bindpose::anim::Palette;
-use bindpose::render::for_tests::{instance_size, light_uniform};
+use bindpose::render::for_tests::{Lamps, instance_size, light_uniform};
 use bindpose::scene::{Aabb, Camera, Crowd, CrowdInstance, FrameOptions, Ghosts, Ground, Light, Projection, RenderFrame};
 use glam::{Affine3A, Vec3};
 
@@ -48,7 +48,7 @@ fn lengths_of_the_light_are_the_same_in_a_crowd() {
     for count in [0, 1, 7] {
         let frame = frame(count);
         assert_eq!(instance_size(&frame), Vec3::new(2.0, 4.0, 1.0), "{count} beside it");
-        let light = light_uniform(&frame, Light::Studio, 2048);
+        let light = light_uniform(&frame, Light::Studio, Lamps::Studio, 2048);
         assert_eq!(light.book_unit, 4.0 / BOOK_HEIGHT);
     }
 }
