@@ -39,7 +39,9 @@ impl Extent {
     /// The farthest points of each time that was looked at.
     pub fn poses(&self) -> impl Iterator<Item = &[Vec3]> {
         let starts = std::iter::once(0).chain(self.point_ends.iter().copied());
-        starts.zip(&self.point_ends).map(|(start, &end)| &self.points[start..end])
+        starts
+            .zip(&self.point_ends)
+            .map(|(start, &end)| &self.points[start..end])
     }
 
     /// That of a clip, or of rest without one. `groups` are those of the model's mesh.

@@ -205,7 +205,11 @@ impl Coding {
                 };
                 let halved = halve(width, height, texels, read, slices).await;
                 if two_channels {
-                    data[start..].as_chunks_mut::<4>().0.iter_mut().for_each(|texel| texel[2] = u8::MAX);
+                    data[start..]
+                        .as_chunks_mut::<4>()
+                        .0
+                        .iter_mut()
+                        .for_each(|texel| texel[2] = u8::MAX);
                 }
                 halved
             }

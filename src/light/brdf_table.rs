@@ -54,14 +54,17 @@ impl BrdfTable {
 
     /// Scale and bias between the entries, as `brdf_lookup` in `environment.wgsl` has them.
     pub fn lookup(&self, n_dot_v: f32, roughness: f32) -> Vec2 {
-        self.between(n_dot_v.max(0.0).sqrt(), roughness, |index| Vec2::from(self.entries[index]))
+        self.between(n_dot_v.max(0.0).sqrt(), roughness, |index| {
+            Vec2::from(self.entries[index])
+        })
     }
 
     /// How much of a lobe the lamp fills, between the entries, as `lamp_lookup` in `environment.wgsl` has it. Both directions are of unit
     /// length.
     pub fn lamp_lookup(&self, mirrored: Vec3, to_lamp: Vec3, roughness: f32) -> f32 {
         let sine_of_half = 0.5 * mirrored.distance(to_lamp);
-        self.between(sine_of_half.sqrt(), roughness, |index| Vec2::splat(self.lamp[index])).x
+        self.between(sine_of_half.sqrt(), roughness, |index| Vec2::splat(self.lamp[index]))
+            .x
     }
 
     fn between(&self, across: f32, down: f32, entry: impl Fn(usize) -> Vec2) -> Vec2 {
@@ -104,7 +107,10 @@ fn lamp_share(angle: f32, roughness: f32) -> f32 {
     };
     let between = |from: f32, to: f32, value: &dyn Fn(f32) -> f32| {
         let step = (to - from) / RINGS as f32;
-        (0..RINGS).map(|ring| value(cosine_at(from + (ring as f32 + 0.5) * step))).sum::<f32>() * step
+        (0..RINGS)
+            .map(|ring| value(cosine_at(from + (ring as f32 + 0.5) * step)))
+            .sum::<f32>()
+            * step
     };
     let (sine, cosine) = angle.sin_cos();
     // The part of a circle about the normal that lies within the lamp, by the spherical law of cosines.
@@ -113,7 +119,10 @@ fn lamp_share(angle: f32, roughness: f32) -> f32 {
         let turn = (LAMP_RADIUS_RADIANS.cos() - cosine * ring) / (sine * ring_sine).max(1e-9);
         weight(ring) * turn.clamp(-1.0, 1.0).acos() / PI
     };
-    let (near, far) = ((angle - LAMP_RADIUS_RADIANS).max(0.0), (angle + LAMP_RADIUS_RADIANS).min(PI));
+    let (near, far) = (
+        (angle - LAMP_RADIUS_RADIANS).max(0.0),
+        (angle + LAMP_RADIUS_RADIANS).min(PI),
+    );
     let inside = (LAMP_RADIUS_RADIANS - angle).max(0.0);
     let filled = between(0.0, up_to(inside), &part) + between(up_to(near.max(inside)), up_to(far), &part);
     filled / between(0.0, 1.0, &weight)

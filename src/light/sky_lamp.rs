@@ -72,11 +72,18 @@ impl SkyLamp {
                 .iter()
                 .filter(within(towards, SOFT_DEGREES))
                 .filter(|texel| luminance(texel.light) >= of_hundredth);
-            let lamp = Self::sum(bright, Vec3A::splat(median), false);
+            let brighter = |texel: &Texel| texel.light * (1.0 - median / luminance(texel.light)).max(0.0);
+            let lamp = Self::sum(bright, brighter, false);
             return (cube, lamp.map(|lamp| lamp.on_ground(&texels)));
         }
         // Its middle, from the brightest texel and then from what that found.
-        let middle = |towards: Vec3A| Self::sum(texels.iter().filter(within(towards, LAMP_DEGREES)), Vec3A::ZERO, true);
+        let middle = |towards: Vec3A| {
+            Self::sum(
+                texels.iter().filter(within(towards, LAMP_DEGREES)),
+                |texel| texel.light,
+                true,
+            )
+        };
         let towards = middle(towards).map_or(towards, |lamp| lamp.direction.into());
         let around = texels
             .iter()
@@ -86,21 +93,29 @@ impl SkyLamp {
             (light + texel.light * texel.steradians, steradians + texel.steradians)
         });
         let around = light / f32::max(steradians, f32::MIN_POSITIVE);
-        let lamp = Self::sum(texels.iter().filter(within(towards, LAMP_DEGREES)), around, true);
+        let brighter = |texel: &Texel| (texel.light - around).max(Vec3A::ZERO);
+        let lamp = Self::sum(texels.iter().filter(within(towards, LAMP_DEGREES)), brighter, true);
         let without = |face: usize, x: usize, y: usize| {
             let texel = &texels[(face * side + y) * side + x];
             let is_lamp = within(towards, LAMP_DEGREES)(&texel);
             let most = if is_lamp { around } else { Vec3A::INFINITY };
             texel.light.min(most).min(Vec3A::splat(LAMP_RADIANCE))
         };
-        (Cube::from_texels(side, without), lamp.map(|lamp| lamp.on_ground(&texels)))
+        (
+            Cube::from_texels(side, without),
+            lamp.map(|lamp| lamp.on_ground(&texels)),
+        )
     }
 
-    /// What of some texels is brighter than the sky around them.
-    fn sum<'a>(texels: impl Iterator<Item = &'a Texel>, around: Vec3A, is_sun: bool) -> Option<Self> {
+    /// Of some texels together what `brighter` says of each: by how much it is brighter than the sky. None where nothing is.
+    fn sum<'a>(
+        texels: impl Iterator<Item = &'a Texel>,
+        brighter: impl Fn(&Texel) -> Vec3A,
+        is_sun: bool,
+    ) -> Option<Self> {
         let (mut light, mut towards) = (Vec3A::ZERO, Vec3A::ZERO);
         for texel in texels {
-            let more = (texel.light - around).max(Vec3A::ZERO) * texel.steradians;
+            let more = brighter(texel) * texel.steradians;
             light += more;
             towards += texel.direction * luminance(more);
         }

@@ -86,10 +86,7 @@ impl ShadowFit {
         let radius = BOOK_EDGE / DISC_EDGE * book_unit;
         let fit = Self::with_least_texel(world_bounds, to_key, map_side, radius / BOOK_RADIUS_TEXELS);
         let radius_texels = (radius / fit.texel).max(LEAST_RADIUS_TEXELS);
-        Self {
-            radius_texels,
-            ..fit
-        }
+        Self { radius_texels, ..fit }
     }
 
     /// A square that holds the box as seen from the light. Its texels are at least this large. No blur.

@@ -211,10 +211,7 @@ fn key_light(frame: &RenderFrame<'_>, light: Light, lamps: Lamps, map_side: u32)
                 Lamps::Studio => StudioLights::beside(&frame.camera, turn).to_key,
                 Lamps::Sky(lamp) => Quat::from_rotation_y(turn) * lamp.map_or(Vec3::Y, |lamp| lamp.direction),
             };
-            (
-                to_key,
-                ShadowFit::studio(bounds, to_key, map_side),
-            )
+            (to_key, ShadowFit::studio(bounds, to_key, map_side))
         }
         Light::Book => {
             let [to_key, ..] = to_book_lights(options.book_lights_turn_radians);

@@ -56,6 +56,8 @@ fn round_number(length: f32) -> f32 {
     let power = 10f32.powf(exponent.floor().clamp(-30.0, 30.0));
     let part = length / power;
     // The ends are geometric means of neighbours.
-    let digit = [(1.414, 1.0), (3.162, 2.0), (7.071, 5.0)].into_iter().find(|(end, _)| part < *end);
+    let digit = [(1.414, 1.0), (3.162, 2.0), (7.071, 5.0)]
+        .into_iter()
+        .find(|(end, _)| part < *end);
     power * digit.map_or(10.0, |(_, digit)| digit)
 }

@@ -85,8 +85,8 @@ function projected({ camera }, { width, height }, { position, normal }) {
   const eye = minus(camera.target, forward.map((at) => at * camera.distance));
   const seen = minus(position, eye);
   const depth = dot(seen, forward);
-  // The camera sees an eighth of a turn from bottom to top.
-  const scale = height / (2 * Math.tan(Math.PI / 8) * depth);
+  // The camera sees a twelfth of a turn from bottom to top.
+  const scale = height / (2 * Math.tan(Math.PI / 12) * depth);
   const facing = -dot(normal, seen) / (Math.hypot(...normal) * Math.hypot(...seen));
   return { x: width / 2 + scale * dot(seen, right), y: height / 2 - scale * dot(seen, up), depth, facing };
 }

@@ -108,7 +108,7 @@ on_both_backends! {
         // From above, so that no shadow is seen through what is cut away.
         let scene = || {
             let mut scene = card_once().three_quarter(Theme::Light);
-            scene.camera.pitch_radians = 1.1;
+            scene.camera.pitch_radians = 1.45;
             scene
         };
         let bare = gpu.draw(&without_model(scene()), WIDTH, HEIGHT);

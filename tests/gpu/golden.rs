@@ -22,7 +22,7 @@ fn compare(gpu: &Gpu, name: &str, scene: &Scene) {
     compare_picture(gpu, name, &gpu.draw(scene, 320, 200));
 }
 
-fn compare_picture(gpu: &Gpu, name: &str, actual: &Picture) {
+pub(crate) fn compare_picture(gpu: &Gpu, name: &str, actual: &Picture) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/gpu/golden/{name}.png"));
     if std::env::var_os("BLESS").is_some() {
         if gpu.backend == Backend::Vulkan {

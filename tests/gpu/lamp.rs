@@ -21,7 +21,10 @@ fn ball_over_floor(yaw_radians: f32) -> Scene {
     let mut model = plates(&[floor(4.0)]);
     add_ball(&mut model.mesh, CENTER, RADIUS);
     model.materials.push(Material {
-        reflectance: Reflectance::Fresnel { fresnel0: [1.0; 3], roughness: 0.0 },
+        reflectance: Reflectance::Fresnel {
+            fresnel0: [1.0; 3],
+            roughness: 0.0,
+        },
         ..material("mirror", [0.0; 3])
     });
     seen(Scene::of(model), yaw_radians, 0.8, 7.0)
@@ -42,7 +45,10 @@ fn seen(mut scene: Scene, yaw_radians: f32, pitch_radians: f32, height: f32) -> 
 fn on_ray(scene: &Scene, [x, y]: [f32; 2]) -> Vec3 {
     let camera = &scene.camera;
     let half = 0.5 * camera.height_in_view();
-    let ndc = [(x + 0.5) / SIZE[0] as f32 * 2.0 - 1.0, 1.0 - (y + 0.5) / SIZE[1] as f32 * 2.0];
+    let ndc = [
+        (x + 0.5) / SIZE[0] as f32 * 2.0 - 1.0,
+        1.0 - (y + 0.5) / SIZE[1] as f32 * 2.0,
+    ];
     camera.target + (camera.right() * ndc[0] + camera.up() * ndc[1]) * half
 }
 

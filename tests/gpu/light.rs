@@ -8,9 +8,7 @@ use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered, Room
 use bindpose::render::device::Backend;
 use glam::{Vec2, Vec3};
 
-use crate::twins::pbr::{
-    dominant_direction, horizon_fade, multi_bounce, reflectance, specular_occlusion, widened,
-};
+use crate::twins::pbr::{dominant_direction, horizon_fade, multi_bounce, reflectance, specular_occlusion, widened};
 use crate::twins::studio::{EnvironmentLight, StudioLights, StudioSurface, own_light};
 use crate::twins::tone_map::{exposed, tone_mapped};
 

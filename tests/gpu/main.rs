@@ -27,6 +27,7 @@ macro_rules! on_both_backends {
 mod alpha_clip;
 mod big_picture;
 mod book_light;
+mod chart;
 mod contact_sheet;
 mod crowd;
 mod cut_out;

@@ -12,6 +12,8 @@ use bindpose::shaders::{self, JOINTS_PER_ROW, Program};
 /// Parts of the picture that the model covers, and in which the ground is seen beside it.
 const MODEL: f64 = 0.25;
 const GROUND: f64 = 0.375;
+/// Part of these where something may be in the way of the key.
+const IN_SHADOW: f64 = 0.4;
 /// The least fraction of the picture's sides while it moves on a slow device, and then with few samples; see `session/look/pacing.rs`. The
 /// last step leaves ambient occlusion out, too.
 const LEAST_SCALE: f64 = 0.5;
@@ -109,9 +111,16 @@ fn taken(way: Way, size: [u32; 2], few: bool) -> Taken {
                 taken.pass(texels, texels * taps);
             }
         }
-        let contact_taps = if light == Light::Studio { 1.0 } else { 0.0 };
-        // Two maps, occlusion, and the reflection; under the studio its table too.
-        let on_model = 4.0 + contact_taps + shadow_taps;
+        let is_studio = light == Light::Studio;
+        let contact_taps = if is_studio { 1.0 } else { 0.0 };
+        // The studio looks for what casts a shadow, and filters where something does.
+        let shadow_taps = if is_studio {
+            shadow_taps * (0.75 + IN_SHADOW)
+        } else {
+            shadow_taps
+        };
+        // Two maps, four texels of occlusion, and the reflection; under the studio its table for the environment and for the lamp.
+        let on_model = 7.0 + 2.0 * contact_taps + shadow_taps;
         read += pixels * share * (MODEL * on_model + GROUND * (shadow_taps + contact_taps));
         taken.uploaded_bytes +=
             size_of::<shaders::Camera>() + size_of::<shaders::Light>() + size_of::<shaders::Ground>();

@@ -112,12 +112,17 @@ impl StillLifeMaps {
 
 /// A submesh with the next material.
 pub(crate) fn add_ball(mesh: &mut Mesh, center: Vec3, radius: f32) {
+    add_ball_of(mesh, center, radius, [RINGS, SIDES]);
+}
+
+/// The same of so many rings and sides.
+pub(crate) fn add_ball_of(mesh: &mut Mesh, center: Vec3, radius: f32, [rings, sides]: [u32; 2]) {
     let first = mesh.positions.len() as u32;
-    for ring in 0..=RINGS {
-        let v = ring as f32 / RINGS as f32;
+    for ring in 0..=rings {
+        let v = ring as f32 / rings as f32;
         let (ring_radius, y) = (v * std::f32::consts::PI).sin_cos();
-        for side in 0..=SIDES {
-            let u = side as f32 / SIDES as f32;
+        for side in 0..=sides {
+            let u = side as f32 / sides as f32;
             let (sin, cos) = (u * std::f32::consts::TAU).sin_cos();
             let normal = Vec3::new(cos * ring_radius, y, sin * ring_radius);
             mesh.positions.push(center + normal * radius);
@@ -127,17 +132,17 @@ pub(crate) fn add_ball(mesh: &mut Mesh, center: Vec3, radius: f32) {
         }
     }
     let triangle_start = mesh.indices.len() as u32 / 3;
-    for ring in 0..RINGS {
-        for side in 0..SIDES {
-            let above = first + ring * (SIDES + 1) + side;
-            let below = above + SIDES + 1;
+    for ring in 0..rings {
+        for side in 0..sides {
+            let above = first + ring * (sides + 1) + side;
+            let below = above + sides + 1;
             mesh.indices
                 .extend([above, above + 1, below, below, above + 1, below + 1]);
         }
     }
     mesh.submeshes.push(Submesh {
         triangle_start,
-        triangle_count: RINGS * SIDES * 2,
+        triangle_count: rings * sides * 2,
         material: mesh.submeshes.len() as u32,
     });
 }

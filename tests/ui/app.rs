@@ -85,7 +85,11 @@ fn a_window_at_rest_builds_pipelines_and_then_costs_nothing() {
     harness.run();
     let drawn = frames();
     assert!(passes_until_at_rest(&mut harness) > 4, "one pipeline in a pass");
-    assert_eq!(frames(), drawn + 1, "no picture is drawn for them, but one for the light, which is then finer");
+    assert_eq!(
+        frames(),
+        drawn + 1,
+        "no picture is drawn for them, but one for the light, which is then finer"
+    );
     session.borrow_mut().apply(LookCommand::ToggleLight);
     harness.ctx.request_repaint();
     harness.step();

@@ -6,7 +6,8 @@ use super::cost::SteadyCost;
 use crate::actions::{self, Control};
 use crate::scene::{Background, Detail, Light, Pass, TimedPass};
 use crate::session::{
-    FileCommand, LookCommand, Lowered, MAX_EXPOSURE_STOPS, MAX_GROUND_OFFSET, PassChoice, PassState, QualityCommand, QualityMode, Session,
+    FileCommand, LookCommand, Lowered, MAX_EXPOSURE_STOPS, MAX_GROUND_OFFSET, PassChoice, PassState, QualityCommand,
+    QualityMode, Session,
 };
 use crate::ui::cx::Cx;
 use crate::ui::kit::icons::Icon;

@@ -3,9 +3,7 @@
 use bindpose::light::{BrdfTable, Prefiltered};
 use glam::{FloatExt as _, Vec3};
 
-use super::pbr::{
-    Reflectance, dominant_direction, horizon_fade, multi_bounce, reflectance, specular_occlusion,
-};
+use super::pbr::{Reflectance, dominant_direction, horizon_fade, multi_bounce, reflectance, specular_occlusion};
 
 /// Twin of `LAMP_RADIANCE`: the lamp's, where a white surface that faces it shows 1.
 pub(crate) const LAMP_RADIANCE: f32 = 40.863_458;
@@ -80,7 +78,8 @@ impl EnvironmentLight<'_> {
         let lamp_share = self.brdf_table.lamp_lookup(towards, lights.to_key, surface.roughness);
         let from_key = lights.key_color
             * lights.key_visible
-            * ((weights.diffuse + weights.multiple) * n_dot_l + weights.single * (lamp_share * LAMP_RADIANCE * above * lights.key_mirrored));
+            * ((weights.diffuse + weights.multiple) * n_dot_l
+                + weights.single * (lamp_share * LAMP_RADIANCE * above * lights.key_mirrored));
         from_environment + from_key + studio_rim(surface, &weights, n_dot_v, lights)
     }
 

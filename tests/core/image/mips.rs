@@ -118,7 +118,10 @@ fn of_two_channels_z_is_rebuilt_before_averaging() {
             r.abs_diff(expected) <= 1 && g.abs_diff(128) <= 1 && b.abs_diff(length) <= 1,
             "{r} {g} {b}"
         );
-        assert!(level_texels(&image, 0, 0).iter().all(|texel| texel[2] == 255), "of unit length");
+        assert!(
+            level_texels(&image, 0, 0).iter().all(|texel| texel[2] == 255),
+            "of unit length"
+        );
     }
 }
 

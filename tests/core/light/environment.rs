@@ -113,7 +113,10 @@ fn the_dark_studio_has_range_over_dim_walls() {
     let mut lights: Vec<f32> = all_directions(100_000).map(|d| studio.sample(d).y).collect();
     lights.sort_by(f32::total_cmp);
     let (median, brightest) = (lights[lights.len() / 2], lights[lights.len() - 1]);
-    assert!((40.0..60.0).contains(&(brightest / median)), "{brightest} over {median}");
+    assert!(
+        (40.0..60.0).contains(&(brightest / median)),
+        "{brightest} over {median}"
+    );
     // Only small things are bright.
     let above_1 = lights.iter().filter(|&&light| light > 1.0).count() as f32 / lights.len() as f32;
     assert!(above_1 < 0.06, "{above_1}");
@@ -123,7 +126,10 @@ fn the_dark_studio_has_range_over_dim_walls() {
 fn the_bright_studio_has_bright_walls() {
     let [dark, bright] = Room::ALL.map(Environment::studio);
     for direction in [Vec3::NEG_Y, Vec3::Z, Vec3::X] {
-        assert!(bright.sample(direction).y > 1.9 * dark.sample(direction).y, "{direction}");
+        assert!(
+            bright.sample(direction).y > 1.9 * dark.sample(direction).y,
+            "{direction}"
+        );
     }
     let average = bright.average();
     assert!(average.max_element() / average.min_element() < 1.12, "{average}");
@@ -134,12 +140,21 @@ fn few_texels_hold_as_much_light() {
     for room in Room::ALL {
         let (fine, coarse) = (Environment::studio(room), Environment::coarse_studio(room));
         assert_eq!((fine.side(), coarse.side()), (256, 64));
-        assert!((fine.average() / coarse.average() - 1.0).abs().max_element() < 0.01, "{room:?}");
-        assert!((fine.coarse().average() / fine.average() - 1.0).abs().max_element() < 0.001, "{room:?}");
+        assert!(
+            (fine.average() / coarse.average() - 1.0).abs().max_element() < 0.01,
+            "{room:?}"
+        );
+        assert!(
+            (fine.coarse().average() / fine.average() - 1.0).abs().max_element() < 0.001,
+            "{room:?}"
+        );
         // Matt surfaces do not see the one replaced by the other.
         let [of_fine, of_coarse] = [&fine, &coarse].map(|environment| Prefiltered::of(environment));
         for normal in all_directions(200) {
-            let step = difference(of_fine.irradiance().towards(normal), of_coarse.irradiance().towards(normal));
+            let step = difference(
+                of_fine.irradiance().towards(normal),
+                of_coarse.irradiance().towards(normal),
+            );
             assert!(step < 0.01, "{room:?}, {normal}: {step}");
         }
     }

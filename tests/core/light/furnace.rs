@@ -137,12 +137,16 @@ fn the_lamp_fills_of_a_lobe_what_lies_in_its_disc() {
             let halfway = (direction + Vec3::Z).normalize_or(Vec3::X);
             ggx_distribution(Vec3::Z, halfway, alpha) * direction.z.max(0.0)
         };
-        let directions: Vec<(Vec3, f32)> = all_directions(60_000).map(|direction| (direction, lobe(direction))).collect();
+        let directions: Vec<(Vec3, f32)> = all_directions(60_000)
+            .map(|direction| (direction, lobe(direction)))
+            .collect();
         let whole: f32 = directions.iter().map(|(_, density)| density).sum();
         for degrees in [0.0f32, 6.0, 15.0, 40.0, 80.0] {
             let angle = degrees.to_radians();
             let to_lamp = Vec3::new(angle.sin(), 0.0, angle.cos());
-            let in_disc = directions.iter().filter(|(direction, _)| direction.dot(to_lamp) > LAMP_RADIUS_RADIANS.cos());
+            let in_disc = directions
+                .iter()
+                .filter(|(direction, _)| direction.dot(to_lamp) > LAMP_RADIUS_RADIANS.cos());
             let brute = in_disc.map(|(_, density)| density).sum::<f32>() / whole;
             let found = table.lamp_lookup(Vec3::Z, to_lamp, roughness);
             assert!(
@@ -161,7 +165,7 @@ fn a_mirror_shows_the_lamps_edge() {
         table.lamp_lookup(Vec3::Z, Vec3::new(angle.sin(), 0.0, angle.cos()), 0.0)
     };
     assert!([0.0, 4.0, 7.5].map(at).into_iter().all(|share| share > 0.999));
-    assert_eq!([10.5, 30.0, 179.0].map(at), [0.0; 3]);
+    assert!([10.5, 30.0, 179.0].map(at).into_iter().all(|share| share < 0.001));
 }
 
 #[test]

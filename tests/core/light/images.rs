@@ -120,7 +120,11 @@ fn real_cubes_light_a_scene() {
     ] {
         let bytes = std::fs::read(folder.join(name)).expect("the file can be read");
         let environment = read_cube(&bytes);
-        assert_eq!(environment.side(), if name.contains("_256_") { 256 } else { 128 }, "{name}");
+        assert_eq!(
+            environment.side(),
+            if name.contains("_256_") { 256 } else { 128 },
+            "{name}"
+        );
         let average = environment.average();
         assert!(
             average.min_element() > 0.005 && average.max_element() < 4.0,

@@ -151,8 +151,16 @@ fn what_faces_the_key_is_exposed_as_a_photographer_would() {
             environment.studio_light(&matt, &lights)
         };
         let [paper, gray] = [0.9, 0.5].map(facing);
-        assert!(stored(paper).into_iter().all(|byte| (230..=246).contains(&byte)), "{room:?}: {:?}", stored(paper));
-        assert!(stored(gray).into_iter().all(|byte| (188..=204).contains(&byte)), "{room:?}: {:?}", stored(gray));
+        assert!(
+            stored(paper).into_iter().all(|byte| (230..=246).contains(&byte)),
+            "{room:?}: {:?}",
+            stored(paper)
+        );
+        assert!(
+            stored(gray).into_iter().all(|byte| (188..=204).contains(&byte)),
+            "{room:?}: {:?}",
+            stored(gray)
+        );
         // A mirror shows the lamp itself.
         let mirror = StudioSurface {
             albedo: Vec3::ZERO,
@@ -161,7 +169,10 @@ fn what_faces_the_key_is_exposed_as_a_photographer_would() {
             ..surface((lights.to_key + Vec3::NEG_Z).normalize())
         };
         let highlight = environment.studio_light(&mirror, &lights);
-        assert!((highlight / paper).min_element() > 3.0, "{room:?}: {highlight} beside {paper}");
+        assert!(
+            (highlight / paper).min_element() > 3.0,
+            "{room:?}: {highlight} beside {paper}"
+        );
     }
 }
 

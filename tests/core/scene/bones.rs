@@ -4,8 +4,8 @@ use bindpose::anim::{CompiledClip, PoseBuffers};
 use bindpose::import::m3d;
 use bindpose::model::{Front, Handedness, JointIndex, Model, UpAxis, world_from_model};
 use bindpose::scene::{
-    Aabb, BoneColors, BoneStyle, Bones, Camera, MarkedJoints, OverlayGeometry, OverlayVertex, Projection, Screen,
-    Theme, append_bones, label_places, pick_joint,
+    Aabb, BoneColors, BoneStyle, Bones, Camera, Light, MarkedJoints, OverlayGeometry, OverlayVertex, Projection,
+    Screen, Theme, append_bones, label_places, pick_joint,
 };
 use glam::{Affine3A, Vec2, Vec3};
 
@@ -320,7 +320,7 @@ fn a_bone_that_runs_through_the_eye_is_picked_by_the_part_in_view() {
 #[test]
 fn labels_stand_at_their_joints_apart_from_each_other_the_chosen_first() {
     let bones = placed(&mirrored_model(2_000));
-    let screen = screen(&bones, Camera::default().projection);
+    let screen = screen(&bones, Projection::perspective(Light::Book));
     let mut all = Vec::new();
     label_places(&bones, &screen, 0.0, &[], &mut all);
     assert_eq!(all.len(), 2_000, "all are in view");

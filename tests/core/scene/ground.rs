@@ -24,7 +24,10 @@ fn lies_at_zero_and_never_cuts_a_model() {
 /// Of a model 100 high in poses with these lowest points.
 #[test]
 fn a_model_that_stays_on_the_ground_stands_on_its_soles() {
-    let bounds = Aabb { min: Vec3::new(-30.0, -3.0, -30.0), max: Vec3::new(30.0, 97.0, 30.0) };
+    let bounds = Aabb {
+        min: Vec3::new(-30.0, -3.0, -30.0),
+        max: Vec3::new(30.0, 97.0, 30.0),
+    };
     for (lowest, height) in [
         // One toe dips.
         (vec![0.5, -3.0, 0.25, 0.5, 0.5], 0.5),
@@ -41,7 +44,14 @@ fn a_model_that_stays_on_the_ground_stands_on_its_soles() {
 #[test]
 fn cells_are_round_numbers_near_the_size() {
     // The radius of a cube is half its diagonal.
-    for (size, cell) in [(0.01, 0.01), (1.0, 1.0), (2.0, 2.0), (75.0, 50.0), (150.0, 100.0), (10_000.0, 10_000.0)] {
+    for (size, cell) in [
+        (0.01, 0.01),
+        (1.0, 1.0),
+        (2.0, 2.0),
+        (75.0, 50.0),
+        (150.0, 100.0),
+        (10_000.0, 10_000.0),
+    ] {
         let found = ground(Vec3::ZERO, Vec3::splat(size));
         assert!((found.cell / cell - 1.0).abs() < 1e-4, "{size}: {}", found.cell);
     }

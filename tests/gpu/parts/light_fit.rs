@@ -167,11 +167,17 @@ fn contacts_keep_their_texels_wherever_the_box_lies() {
         assert_eq!(row.map_size, map_size, "{wider} wider");
         assert!((of_row / texel - 1.0).abs() < 1e-5, "{wider} wider");
         let steps = (row.center - alone.center) / texel;
-        assert!((steps - steps.round()).abs().max_element() < 1e-3, "{wider} wider: {steps}");
+        assert!(
+            (steps - steps.round()).abs().max_element() < 1e-3,
+            "{wider} wider: {steps}"
+        );
     }
     let (crowd, of_crowd) = fit(500.0);
     assert!(crowd.map_size == 1024 && of_crowd > 10.0 * texel);
     let to_key = Vec3::new(0.64, 0.74, -0.34).normalize();
-    let row = Aabb { max: FIGURE.max + Vec3::X * 500.0, ..FIGURE };
+    let row = Aabb {
+        max: FIGURE.max + Vec3::X * 500.0,
+        ..FIGURE
+    };
     assert!(ShadowFit::book(&row, to_key, MAP_SIDE, 1.0).radius_texels >= LEAST_RADIUS_TEXELS);
 }

@@ -2,7 +2,9 @@
 
 use bindpose::anim::Palette;
 use bindpose::render::for_tests::{Lamps, instance_size, light_uniform};
-use bindpose::scene::{Aabb, Camera, Crowd, CrowdInstance, FrameOptions, Ghosts, Ground, Light, Projection, RenderFrame};
+use bindpose::scene::{
+    Aabb, Camera, Crowd, CrowdInstance, FrameOptions, Ghosts, Ground, Light, Projection, RenderFrame,
+};
 use glam::{Affine3A, Vec3};
 
 /// The height of the book's own figure.
