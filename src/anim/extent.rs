@@ -36,7 +36,10 @@ pub struct Extent {
 }
 
 impl Extent {
-    /// The farthest points of each time that was looked at.
+    /// At so many times of a clip the farthest points are looked for.
+    pub const MOST_POSES: usize = TIMES;
+
+    /// The farthest points of each of these times.
     pub fn poses(&self) -> impl Iterator<Item = &[Vec3]> {
         let starts = std::iter::once(0).chain(self.point_ends.iter().copied());
         starts

@@ -165,6 +165,7 @@ pub struct Target {
 }
 
 /// How what lies over the model is drawn.
+#[expect(clippy::large_enum_variant, reason = "there are two of them")]
 enum Over {
     /// With the model.
     Together,

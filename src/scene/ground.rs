@@ -23,14 +23,13 @@ const CELLS_PER_RADIUS: f32 = 1.1;
 impl Ground {
     /// Where the model stays on the ground, the middle one of its lowest points in several poses of its clip, world y: a sole that dips
     /// into it in one of them does not make all others float. Else y = 0, or the floor of the box when that is lower or far above. An
-    /// empty scene lies on y = 0 with cells of 1.
-    pub fn under(world_bounds: &Aabb, lowest: impl IntoIterator<Item = f32>) -> Self {
+    /// empty scene lies on y = 0 with cells of 1. `lowest` is put in order.
+    pub fn under(world_bounds: &Aabb, lowest: &mut [f32]) -> Self {
         if world_bounds.is_empty() {
             return Self { height: 0.0, cell: 1.0 };
         }
         let floor = world_bounds.min.y;
         let tall = world_bounds.size().y;
-        let mut lowest: Vec<f32> = lowest.into_iter().collect();
         lowest.sort_unstable_by(f32::total_cmp);
         let stays_on_it = |lowest: &[f32]| {
             let ends = [lowest.first()?, lowest.last()?];
@@ -40,7 +39,7 @@ impl Ground {
         let is_near_zero = (0.0..=FLOATING_SHARE * tall).contains(&floor);
         let under_all = if is_near_zero { 0.0 } else { floor };
         Self {
-            height: stays_on_it(&lowest).unwrap_or(under_all),
+            height: stays_on_it(lowest).unwrap_or(under_all),
             cell: round_number(world_bounds.radius() / CELLS_PER_RADIUS),
         }
     }

@@ -22,13 +22,13 @@ fn with(color: [f32; 3], metallic: f32, roughness: f32) -> Material {
 
 fn chart() -> Scene {
     let mut model = plates(&[floor(4.0)]);
-    model.materials = vec![with([0.35; 3], 0.0, 0.8)];
+    model.materials = vec![with([0.07; 3], 0.0, 0.8)];
     // Gold, red plastic, paper, blue cloth.
     let rows = [
         ([1.0, 0.77, 0.34], 1.0),
-        ([0.55, 0.04, 0.03], 0.0),
+        ([0.4, 0.02, 0.015], 0.0),
         ([0.9; 3], 0.0),
-        ([0.05, 0.09, 0.2], 0.0),
+        ([0.02, 0.035, 0.09], 0.0),
     ];
     for (row, (color, metallic)) in rows.into_iter().enumerate() {
         for (column, roughness) in ROUGHNESSES.into_iter().enumerate() {
@@ -47,7 +47,7 @@ fn chart() -> Scene {
     let mut scene = Scene::of(model);
     (scene.camera.yaw_radians, scene.camera.pitch_radians) = (-0.25, 0.5);
     scene.camera.target = Vec3::new(0.0, 0.2, -0.2);
-    scene.camera.distance = 8.8;
+    scene.camera.distance = 11.5;
     scene
 }
 

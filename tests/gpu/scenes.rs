@@ -105,7 +105,7 @@ impl Scene {
             camera: self.camera,
             world_from_model: self.world_from_model,
             world_bounds: self.world_bounds,
-            ground: Ground::under(&self.world_bounds, []),
+            ground: Ground::under(&self.world_bounds, &mut []),
             palette: &self.palette,
             crowd: Crowd {
                 instances: &self.crowd,

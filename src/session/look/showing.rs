@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::skeleton_cache::{PlaceKey, SkinColorsKey};
 use super::view::View;
-use crate::anim::{JointReadout, SkinView, VertexExplanation, explain_vertex};
+use crate::anim::{Extent, JointReadout, SkinView, VertexExplanation, explain_vertex};
 use crate::model::{JointIndex, Skeleton};
 use crate::scene::{BoneColors, Bones, Crowd, Ground, LabelPlace, RenderFrame, Screen, label_places};
 use crate::session::{Caches, Session};
@@ -69,7 +69,12 @@ impl Session {
         };
         let open = self.content.open.as_deref();
         let poses = open.into_iter().flat_map(|open| open.extent(clip).poses());
-        let ground = Ground::under(&self.world_bounds(), poses.filter_map(lowest));
+        let (mut heights, mut count) = ([0.0; Extent::MOST_POSES], 0);
+        for (height, found) in heights.iter_mut().zip(poses.filter_map(lowest)) {
+            *height = found;
+            count += 1;
+        }
+        let ground = Ground::under(&self.world_bounds(), &mut heights[..count]);
         Ground {
             height: ground.height + self.view.look.ground_offset * self.selected_bounds().size().y,
             ..ground

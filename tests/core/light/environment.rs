@@ -149,7 +149,7 @@ fn few_texels_hold_as_much_light() {
             "{room:?}"
         );
         // Matt surfaces do not see the one replaced by the other.
-        let [of_fine, of_coarse] = [&fine, &coarse].map(|environment| Prefiltered::of(environment));
+        let [of_fine, of_coarse] = [&fine, &coarse].map(Prefiltered::of);
         for normal in all_directions(200) {
             let step = difference(
                 of_fine.irradiance().towards(normal),

@@ -4,7 +4,7 @@ use bindpose::scene::{Aabb, Ground};
 use glam::Vec3;
 
 fn ground(min: Vec3, max: Vec3) -> Ground {
-    Ground::under(&Aabb { min, max }, [])
+    Ground::under(&Aabb { min, max }, &mut [])
 }
 
 #[test]
@@ -37,7 +37,7 @@ fn a_model_that_stays_on_the_ground_stands_on_its_soles() {
         (vec![20.0, 21.0], -3.0),
         (vec![], -3.0),
     ] {
-        assert_eq!(Ground::under(&bounds, lowest.clone()).height, height, "{lowest:?}");
+        assert_eq!(Ground::under(&bounds, &mut lowest.clone()).height, height, "{lowest:?}");
     }
 }
 
@@ -56,5 +56,5 @@ fn cells_are_round_numbers_near_the_size() {
         assert!((found.cell / cell - 1.0).abs() < 1e-4, "{size}: {}", found.cell);
     }
     assert_eq!(ground(Vec3::ONE, Vec3::ONE).cell, 1.0);
-    assert_eq!(Ground::under(&Aabb::EMPTY, []), Ground { height: 0.0, cell: 1.0 });
+    assert_eq!(Ground::under(&Aabb::EMPTY, &mut []), Ground { height: 0.0, cell: 1.0 });
 }
