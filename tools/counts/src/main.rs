@@ -189,7 +189,7 @@ fn extent(bytes: &[u8]) -> u64 {
         let groups = VertexGroups::new(&model.mesh, &Slices::ENDLESS).await;
         Extent::of(&model, &groups, Some(&clip), &Slices::ENDLESS).await
     };
-    let Extent { bounds, points } = twice(|| at_once(measured()));
+    let Extent { bounds, points, .. } = twice(|| at_once(measured()));
     let all = [bounds.min, bounds.max].into_iter().chain(points);
     hash(all.flat_map(|point| point.to_array()))
 }
