@@ -36,7 +36,7 @@ fn every_view_mode_is_another_picture() {
 #[test]
 fn a_split_shows_both_lights_side_by_side() {
     let [book, studio, split] = [
-        draw("book", &["--light", "book"]),
+        draw("book", &["--split", "1"]),
         draw("studio", &["--light", "studio"]),
         draw("split", &["--split", "0.5"]),
     ];
