@@ -11,5 +11,6 @@
 @group(2) @binding(3) var contact_map: texture_2d<f32>;
 // Bindings 4 to 7 are in environment.wgsl. Linear light, in the environment's axes.
 @group(2) @binding(8) var sky_map: texture_cube<f32>;
-// The shadow map once more: WebGL2 reads depths of a texture that it compares with nothing.
+// The shadow map once more: WebGL2 reads depths of a texture that it compares with nothing, and only with a sampler that blends none.
 @group(2) @binding(9) var shadow_depth_map: texture_2d<f32>;
+@group(2) @binding(10) var shadow_depth_sampler: sampler;

@@ -67,15 +67,13 @@ fn soft_visibility(world_position: vec3<f32>, normal: vec3<f32>, turn: f32) -> f
     let search = clamp(texels_per_depth * place.z, LEAST_SHADOW_TEXELS, MOST_SHADOW_TEXELS);
     let start = vec2<f32>(cos(turn), sin(turn));
     let search_taps = light.shadow_taps * 3u / 4u;
-    let last = vec2<i32>(i32(side) - 1);
     var found = 0.0;
     var found_depth = 0.0;
     var direction = start;
     for (var i = 0u; i < search_taps; i++) {
         let offset = sqrt((f32(i) + 0.5) / f32(search_taps)) * search * direction;
         direction = GOLDEN_TURN * direction;
-        let texel = clamp(vec2<i32>(place.xy + offset), vec2<i32>(0), last);
-        let depth = textureLoad(shadow_depth_map, texel, 0).r;
+        let depth = textureSampleLevel(shadow_depth_map, shadow_depth_sampler, (place.xy + offset) / side, 0.0).r;
         if depth < min(place.z + dot(slope, offset) - bias, FARTHEST) {
             found += 1.0;
             found_depth += depth;

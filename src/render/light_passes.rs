@@ -29,6 +29,8 @@ pub(super) struct Common {
 
 pub(super) struct Samplers {
     shadow: wgpu::Sampler,
+    /// Reads one texel of the shadow map. GL calls a depth texture incomplete whose filter is linear and that is compared with nothing.
+    shadow_depth: wgpu::Sampler,
     environment: wgpu::Sampler,
 }
 
@@ -43,6 +45,10 @@ impl Samplers {
         };
         Self {
             environment: device.create_sampler(&linear),
+            shadow_depth: device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some("shadow map, unfiltered"),
+                ..Default::default()
+            }),
             shadow: device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some("shadow map"),
                 mipmap_filter: wgpu::MipmapFilterMode::Nearest,
@@ -205,6 +211,7 @@ fn lighting_group(
         Sampler(&samplers.environment),
         TextureView(sky),
         TextureView(shadow),
+        Sampler(&samplers.shadow_depth),
     ];
     bind_group(
         &common.device,

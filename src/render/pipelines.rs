@@ -74,6 +74,7 @@ impl Layouts {
                     filtering,
                     cube,
                     flat(wgpu::TextureSampleType::Float { filterable: false }),
+                    sampler(wgpu::SamplerBindingType::NonFiltering),
                 ],
             ),
             material: layout(
