@@ -93,7 +93,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
             let strength = line_coverage(point.xz / ground.grid_cell, per_pixel, width) * fade * fade * grazing;
             color = mix(color, ground.grid.rgb, strength * ground.grid.a);
         }
-        // From below the ground is glass.
+        // Who looks from below sees through the ground: no shadow lies on that side.
         if ray.y < 0.0 {
             left = light_left(point, view.clip.xy);
             color *= left;
