@@ -40,7 +40,7 @@ fn light_left(point: vec3<f32>, pixel: vec2<f32>) -> f32 {
         if light.is_book == 1u {
             lit = even_visibility(point, light.shadow_radius_texels);
         } else {
-            lit = soft_visibility(point, vec3<f32>(0.0, 1.0, 0.0), tap_turn(pixel));
+            lit = soft_visibility(point, vec3<f32>(0.0, 1.0, 0.0), tap_turn(pixel, light.noise_turn));
         }
         left = 1.0 - ground.shadow_strength * (1.0 - lit);
     }
@@ -63,9 +63,10 @@ fn sky_color(direction: vec3<f32>) -> vec3<f32> {
 
 @fragment
 fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
-    var color = linear_from_srgb(select(ground.background_srgb, backdrop_srgb(view.ndc), ground.background == 0u));
-    let eye = camera.eye + view.ndc.x * camera.eye_per_x + view.ndc.y * camera.eye_per_y;
-    let ray = camera.forward + view.ndc.x * camera.forward_per_x + view.ndc.y * camera.forward_per_y;
+    let ndc = view.ndc - camera.jitter;
+    var color = linear_from_srgb(select(ground.background_srgb, backdrop_srgb(ndc), ground.background == 0u));
+    let eye = camera.eye + ndc.x * camera.eye_per_x + ndc.y * camera.eye_per_y;
+    let ray = camera.forward + ndc.x * camera.forward_per_x + ndc.y * camera.forward_per_y;
     if ground.background == 1u {
         color = sky_color(normalize(ray));
     }
@@ -100,11 +101,11 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         }
     }
     if ground.background == 3u {
-        return vec4<f32>(0.0, 0.0, 0.0, dithered(1.0 - left, view.clip.xy));
+        return vec4<f32>(0.0, 0.0, 0.0, dithered(1.0 - left, view.clip.xy, light.noise_turn));
     }
     // A plain background is stored exactly, without dither.
     if ground.background == 2u && all(color == behind) {
         return vec4<f32>(behind, 1.0);
     }
-    return vec4<f32>(dithered_linear_from_srgb(srgb_from_linear(color), view.clip.xy), 1.0);
+    return vec4<f32>(dithered_linear_from_srgb(srgb_from_linear(color), view.clip.xy, light.noise_turn), 1.0);
 }

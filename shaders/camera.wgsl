@@ -18,15 +18,16 @@ struct Camera {
     // `scene::ViewMode` by its place in the menu.
     view_mode: u32,
     forward_per_y: vec3<f32>,
-    @size(16) viewport_pixels: vec2<f32>,
+    viewport_pixels: vec2<f32>,
+    // How far the picture is moved within its pixels, ndc: other than 0 where one at rest is drawn many times.
+    jitter: vec2<f32>,
+    // Size of the maps of normals, depth and ambient occlusion in view, texels. Their textures may be larger.
+    map_size: vec2<f32>,
+    // Which of many pictures it is that a mean is made of, from 0.
+    @size(8) sample: f32,
 }
 
 @group(0) @binding(0) var<uniform> camera: Camera;
-
-// Size of maps at half the picture's resolution, texels. Their textures may be larger.
-fn half_size() -> vec2<f32> {
-    return ceil(camera.viewport_pixels * 0.5);
-}
 
 // Unit vector from a point of the world towards the viewer.
 fn towards_eye(world_position: vec3<f32>) -> vec3<f32> {

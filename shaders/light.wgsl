@@ -28,12 +28,16 @@ struct Light {
     // Samples of the shadow map for each point.
     shadow_taps: u32,
     // World units between the nearest and the farthest depth of the shadow map.
-    @size(8) shadow_depth: f32,
+    shadow_depth: f32,
+    // How far the noise of taps is turned, 0..1: other than 0 where a picture at rest is drawn many times.
+    noise_turn: f32,
     // What a white surface shows that faces one of the studio's lights.
     key_color: vec3<f32>,
     // 1 when what mirrors shows the key as a disc, 0 when it is seen in the environment.
     key_mirrored: f32,
-    @size(16) rim_color: vec3<f32>,
+    rim_color: vec3<f32>,
+    // Tangent of the angle under which the lamp is seen from its middle to its edge, or the part of it that is drawn now.
+    lamp_tangent: f32,
 }
 
 @group(0) @binding(1) var<uniform> light: Light;

@@ -20,7 +20,9 @@ struct Material {
     // 1 when smaller levels of the normal map are means of directions, which are the shorter the more these differ.
     normal_lengths: u32,
     // sRGB, a colour to tell the material from others.
-    identity_srgb: vec4<f32>,
+    identity_srgb: vec3<f32>,
+    // By how much the noise is turned from sample to sample against which its alpha is compared, 0..1.
+    threshold_step: f32,
 }
 
 @group(3) @binding(0) var<uniform> material: Material;

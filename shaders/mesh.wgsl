@@ -7,7 +7,7 @@ fn stored(color_srgb: vec3<f32>, pixel: vec2<f32>) -> vec3<f32> {
     if camera.view_mode != 0u {
         return linear_from_srgb(color_srgb);
     }
-    return dithered_linear_from_srgb(color_srgb, pixel);
+    return dithered_linear_from_srgb(color_srgb, pixel, light.noise_turn);
 }
 
 @fragment

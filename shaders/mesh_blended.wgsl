@@ -26,3 +26,16 @@ fn fragment_blended(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) ->
     }
     return vec4<f32>(color * alpha, alpha);
 }
+
+// In one of many pictures: a whole pixel or nothing, with its alpha as the chance, and with depth. Fronts and backs differ in the noise, as
+// submeshes do, or the one would hide the other wherever both are there.
+@fragment
+fn fragment_stochastic(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
+    let point = surface_point(mesh, clockwise);
+    let color = stored(surface_color(point), mesh.clip.xy);
+    let turn = fract(camera.sample * fract(material.threshold_step + select(0.0, 0.41421356, clockwise)));
+    if point.substance.diffuse_texel.a < OPAQUE_ALPHA * turned_noise(mesh.clip.xy, turn) {
+        discard;
+    }
+    return vec4<f32>(color, 1.0);
+}

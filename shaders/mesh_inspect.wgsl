@@ -66,7 +66,7 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
             return vec3<f32>(point.substance.metallic);
         }
         case VIEW_MATERIAL: {
-            return material.identity_srgb.rgb * facing_shade(point);
+            return material.identity_srgb * facing_shade(point);
         }
         case VIEW_DEPTH: {
             let along = dot(point.world_position - camera.eye, camera.forward);

@@ -3,7 +3,7 @@
 @group(1) @binding(0) var geometry_map: texture_2d<f32>;
 
 fn geometry_at(pixel: vec2<i32>) -> vec4<f32> {
-    let last = vec2<i32>(half_size()) - 1;
+    let last = vec2<i32>(camera.map_size) - 1;
     return textureLoad(geometry_map, clamp(pixel, vec2<i32>(0), last), 0);
 }
 
@@ -19,12 +19,12 @@ fn world_at(ndc: vec2<f32>, along: f32) -> vec3<f32> {
 }
 
 fn ndc_of_pixel(pixel: vec2<f32>) -> vec2<f32> {
-    let uv = pixel / half_size();
-    return uv * vec2<f32>(2.0, -2.0) + vec2<f32>(-1.0, 1.0);
+    let uv = pixel / camera.map_size;
+    return uv * vec2<f32>(2.0, -2.0) + vec2<f32>(-1.0, 1.0) - camera.jitter;
 }
 
 fn pixel_of_ndc(ndc: vec2<f32>) -> vec2<f32> {
-    return (ndc * vec2<f32>(0.5, -0.5) + 0.5) * half_size();
+    return (ndc * vec2<f32>(0.5, -0.5) + 0.5) * camera.map_size;
 }
 
 // What is stored of a pixel: the fraction of the environment that it sees, and its depth, for who enlarges it.
@@ -34,5 +34,5 @@ fn stored_occlusion(visible: f32, packed: vec4<f32>) -> vec4<f32> {
 
 // 0..1, spread evenly over any small neighbourhood.
 fn pixel_noise(pixel: vec2<f32>) -> f32 {
-    return fract(52.9829189 * fract(dot(pixel, vec2<f32>(0.06711056, 0.00583715))));
+    return fract(52.9829189 * fract(dot(pixel, vec2<f32>(0.06711056, 0.00583715))) + light.noise_turn);
 }

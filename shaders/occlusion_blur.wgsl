@@ -17,7 +17,7 @@ fn smoothed(pixel: vec2<i32>, step: vec2<i32>) -> vec4<f32> {
     let normal = normal_of(packed);
     let along = distance_of(packed);
     let point = world_at(ndc_of_pixel(vec2<f32>(pixel) + 0.5), along);
-    let last = vec2<i32>(half_size()) - 1;
+    let last = vec2<i32>(camera.map_size) - 1;
     var sum = textureLoad(rough_map, pixel, 0).r;
     var weights = 1.0;
     for (var i = -BLUR_RADIUS; i <= BLUR_RADIUS; i++) {

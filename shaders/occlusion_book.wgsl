@@ -38,7 +38,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     }
     let normal = normal_of(packed);
     let along = distance_of(packed);
-    let point = world_at(view.ndc, along);
+    let point = world_at(view.ndc - camera.jitter, along);
     // Each pixel mirrors the offsets about its own direction. Its two angles come from one evenly spread noise.
     let noise = pixel_noise(view.clip.xy);
     let turn = noise * 6.2831853;
@@ -54,7 +54,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         let clip = camera.clip_from_world * vec4<f32>(probe, 1.0);
         let probe_ndc = clip.xy / clip.w;
         let found_along = distance_of(geometry_at(vec2<i32>(floor(pixel_of_ndc(probe_ndc)))));
-        let found = world_at(probe_ndc, found_along);
+        let found = world_at(probe_ndc - camera.jitter, found_along);
         let occlusion = occlusion_of(along - found_along);
         // A point that is hardly in front gives no reliable direction.
         if occlusion > 0.0 {

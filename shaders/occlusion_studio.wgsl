@@ -44,10 +44,10 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     let normal = normal_of(packed);
     let along = distance_of(packed);
     // The point moves a little towards the viewer, since depth is rounded.
-    let point = world_at(view.ndc, along - (camera.depth_far - camera.depth_near) * 3e-5);
+    let point = world_at(view.ndc - camera.jitter, along - (camera.depth_far - camera.depth_near) * 3e-5);
     let to_eye = towards_eye(point);
-    let world_per_pixel = length(camera.eye_per_y + along * camera.forward_per_y) * 2.0 / half_size().y;
-    let reach = min(light.occlusion_radius / world_per_pixel, MOST_REACH * half_size().y);
+    let world_per_pixel = length(camera.eye_per_y + along * camera.forward_per_y) * 2.0 / camera.map_size.y;
+    let reach = min(light.occlusion_radius / world_per_pixel, MOST_REACH * camera.map_size.y);
     let right = normalize(camera.eye_per_x + camera.forward_per_x);
     let up = normalize(camera.eye_per_y + camera.forward_per_y);
     let noise = pixel_noise(view.clip.xy);

@@ -3,10 +3,8 @@
 // Sunflower disc: each tap turns on by the golden angle, so that the density is even.
 const GOLDEN_TURN: mat2x2<f32> = mat2x2<f32>(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
-// Tangent of the angle under which the lamp is seen from its middle to its edge: 9 degrees.
-const LAMP_TANGENT: f32 = 0.15838444;
 // A disc of more texels shows its few taps as grain.
-const MOST_SHADOW_TEXELS: f32 = 48.0;
+const MOST_SHADOW_TEXELS: f32 = 256.0;
 // A narrower one shows the map's own steps.
 const LEAST_SHADOW_TEXELS: f32 = 1.5;
 // Steeper surfaces are as good as edge on: their plane says nothing of what is beside the point.
@@ -15,21 +13,22 @@ const LEAST_FACING: f32 = 0.2;
 // Receivers may lie beyond the box that the map covers; casters never do.
 const FARTHEST: f32 = 0.9999;
 
-// A point of the world in the shadow map, in texels, and its depth. Depths below 0 are outside the map.
-fn in_shadow_map(world_position: vec3<f32>, side: f32) -> vec3<f32> {
+// A point of the world in the shadow map, in texels, and its depth. Depths below 0 are more than `beside` texels outside the map: the
+// texels at its edge are empty, and stand for what is beside it.
+fn in_shadow_map(world_position: vec3<f32>, side: f32, beside: f32) -> vec3<f32> {
     let clip = light.shadow_clip_from_world * vec4<f32>(world_position, 1.0);
-    let place = clip.xy * vec2<f32>(0.5, -0.5) + 0.5;
-    if any(place < vec2<f32>(0.0)) || any(place > vec2<f32>(1.0)) {
+    let place = (clip.xy * vec2<f32>(0.5, -0.5) + 0.5) * side;
+    if any(place < vec2<f32>(-beside)) || any(place > vec2<f32>(side + beside)) {
         return vec3<f32>(0.0, 0.0, -1.0);
     }
-    return vec3<f32>(place * side, min(clip.z, FARTHEST));
+    return vec3<f32>(place, min(clip.z, FARTHEST));
 }
 
 // The fraction of the key light that reaches a point: 1 lit, 0 in shadow, blurred over `radius_texels` of the map, as the book has it.
 // Points outside the map are lit.
 fn even_visibility(world_position: vec3<f32>, radius_texels: f32) -> f32 {
     let side = f32(textureDimensions(shadow_map).x);
-    let place = in_shadow_map(world_position, side);
+    let place = in_shadow_map(world_position, side, radius_texels);
     if light.key_shadow == 0u || place.z < 0.0 {
         return 1.0;
     }
@@ -51,7 +50,7 @@ fn soft_visibility(world_position: vec3<f32>, normal: vec3<f32>, turn: f32) -> f
     let facing = clamp(dot(normal, light.to_key), 0.0, 1.0);
     // What lies in the texel that the point is in may differ from it by so much.
     let off_surface = normal * (1.5 * light.shadow_texel * sqrt(1.0 - facing * facing));
-    let place = in_shadow_map(world_position + off_surface, side);
+    let place = in_shadow_map(world_position + off_surface, side, MOST_SHADOW_TEXELS);
     if light.key_shadow == 0u || place.z < 0.0 {
         return 1.0;
     }
@@ -63,26 +62,37 @@ fn soft_visibility(world_position: vec3<f32>, normal: vec3<f32>, turn: f32) -> f
     let slope = vec2<f32>(dot(normal, right), -dot(normal, up)) * (depth_per_texel / max(facing, LEAST_FACING));
     let bias = 0.5 * depth_per_texel;
 
-    let texels_per_depth = LAMP_TANGENT / depth_per_texel;
+    // What hides the lamp lies in the cone from the point to it, which is looked through more closely where it is narrow. Where nothing is
+    // found in it, what is nearest to it says how soft a shadow ends there.
+    let texels_per_depth = light.lamp_tangent / depth_per_texel;
     let search = clamp(texels_per_depth * place.z, LEAST_SHADOW_TEXELS, MOST_SHADOW_TEXELS);
     let start = vec2<f32>(cos(turn), sin(turn));
-    let search_taps = light.shadow_taps * 3u / 4u;
+    let search_taps = light.shadow_taps / 2u;
     var found = 0.0;
-    var found_depth = 0.0;
+    var reaches = 0.0;
+    var nearest = vec2<f32>(1e30, 0.0);
     var direction = start;
     for (var i = 0u; i < search_taps; i++) {
-        let offset = sqrt((f32(i) + 0.5) / f32(search_taps)) * search * direction;
+        let part = (f32(i) + 0.5) / f32(search_taps);
+        let away = part * part * search;
+        let offset = away * direction;
         direction = GOLDEN_TURN * direction;
         let depth = textureSampleLevel(shadow_depth_map, shadow_depth_sampler, (place.xy + offset) / side, 0.0).r;
         if depth < min(place.z + dot(slope, offset) - bias, FARTHEST) {
-            found += 1.0;
-            found_depth += depth;
+            let reach = texels_per_depth * (place.z - depth);
+            let in_cone = f32(away <= max(reach, LEAST_SHADOW_TEXELS));
+            found += in_cone;
+            reaches += in_cone * reach;
+            if away - reach < nearest.x {
+                nearest = vec2<f32>(away - reach, reach);
+            }
         }
     }
-    if found == 0.0 {
+    if nearest.x == 1e30 {
         return 1.0;
     }
-    let radius = clamp(texels_per_depth * (place.z - found_depth / found), LEAST_SHADOW_TEXELS, MOST_SHADOW_TEXELS);
+    let reach = select(nearest.y, reaches / found, found > 0.0);
+    let radius = clamp(reach, LEAST_SHADOW_TEXELS, MOST_SHADOW_TEXELS);
     var lit = 0.0;
     for (var i = 0u; i < light.shadow_taps; i++) {
         let offset = sqrt((f32(i) + 0.5) / f32(light.shadow_taps)) * radius * direction;

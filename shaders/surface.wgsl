@@ -48,8 +48,8 @@ struct SurfacePoint {
 // the next: from the pixels of the smaller map about it that are of the same surface, or else from the one that is nearest to it.
 fn occlusion_at(pixel: vec2<f32>, along: f32, steep: f32) -> f32 {
     // Where none is drawn, there is one white texel.
-    let last = min(vec2<i32>(half_size()), vec2<i32>(textureDimensions(occlusion_map))) - 1;
-    let place = pixel / camera.viewport_pixels * half_size() - 0.5;
+    let last = min(vec2<i32>(camera.map_size), vec2<i32>(textureDimensions(occlusion_map))) - 1;
+    let place = pixel / camera.viewport_pixels * camera.map_size - 0.5;
     let first = vec2<i32>(floor(place));
     let part = place - floor(place);
     let reach = 0.01 * light.book_unit + 2.0 * steep;
@@ -120,7 +120,7 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
 // The fraction of the key light that arrives at a point, whichever way its surface faces.
 fn key_arrival(point: SurfacePoint) -> f32 {
     if light.is_book == 0u {
-        return soft_visibility(point.world_position, point.flat_normal, tap_turn(point.pixel));
+        return soft_visibility(point.world_position, point.flat_normal, tap_turn(point.pixel, light.noise_turn));
     }
     // Under grazing light the blur reaches further along the surface, so the point is moved further off it.
     let facing_key = max(dot(point.smooth_normal, light.to_key), 0.0);

@@ -66,6 +66,7 @@ impl App {
         let of_painter = PainterOptions {
             samples: device::sample_count(&gpu.adapter),
             coarse_pointer: options.coarse_pointer,
+            draws_means: device::draws_means(&gpu.adapter),
             now_secs: options.now_secs,
         };
         let waker = Waker::from(Arc::new(Repaint(ctx.clone())));
@@ -136,6 +137,7 @@ impl App {
             || !self.painter.is_current(&session)
             // The GPU refused something: the panels of this pass do not tell of it yet.
             || (session.model_revision(), session.error().is_some()) != seen_by_panels
+            || self.painter.is_sampling(&session)
         {
             ui.ctx().request_repaint();
         } else if let Some(secs) = session.quality().rests_in_secs() {
@@ -212,23 +214,30 @@ impl App {
         self.painter.frames_rendered()
     }
 
+    /// How many pictures the one in the window is the mean of.
+    pub fn samples(&self) -> u32 {
+        self.painter.samples()
+    }
+
     /// The longest side of a picture that this device can draw, in pixels.
     pub fn longest_picture_side(&self) -> u32 {
         self.painter.longest_side().min(ui::MAX_PICTURE_SIDE)
     }
 
     /// Draws the session's view into a target of its own, for a picture of any size. A picture may take its time: passes that
-    /// the window leaves out for speed are drawn. `adjust` may change how it looks.
+    /// the window leaves out for speed are drawn. It is the mean of so many `samples`, or of as many as the session says. `adjust` may change
+    /// how it looks.
     ///
     /// # Errors
     /// When the device draws no picture of this size; whether it could draw this one comes with its pixels.
     pub fn draw_snapshot(
         &mut self,
         size: [u32; 2],
+        samples: Option<u32>,
         adjust: impl FnOnce(&mut FrameOptions),
     ) -> Result<Picture, PictureError> {
         let mut session = self.session.borrow_mut();
-        self.painter.draw_snapshot(&mut session, size, adjust)
+        self.painter.draw_snapshot(&mut session, size, samples, adjust)
     }
 
     /// Begins a contact sheet of what the session shows.
@@ -236,7 +245,8 @@ impl App {
     /// # Errors
     /// When there is no room for so many pictures.
     pub fn begin_contact_sheet(&self, wanted: &ContactSheetRequest) -> Result<ContactSheetJob, ContactSheetFailure> {
-        ContactSheetJob::new(&self.session.borrow(), wanted)
+        let session = self.session.borrow();
+        ContactSheetJob::new(&session, wanted, self.painter.samples_of_pictures(&session))
     }
 
     /// Draws the next picture of a contact sheet. What its session shows must be what the window's shows, but for the view.

@@ -6,8 +6,8 @@ use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
 
 use crate::render::{
-    Compositor, GpuAnswer, Picture, PictureError, PictureTarget, Renderer, RendererOptions, SampleCount, Target,
-    UploadError, watched,
+    Accumulator, Compositor, GpuAnswer, Picture, PictureError, PictureTarget, Renderer, RendererOptions, SampleCount,
+    Target, UploadError, watched,
 };
 use crate::scene::{FrameCost, FrameOptions, RenderFrame};
 use crate::session::{Quality, Session};
@@ -15,6 +15,16 @@ use crate::slices::Slices;
 
 /// Texels along each edge of the shadow map where fingers are the pointer: a phone has less memory to write to.
 const SMALL_SHADOW_MAP_SIDE: u32 = 1024;
+
+/// The mean of pictures at rest is of as many as a second has room for, but of so many at least. From there on it is shown.
+const LEAST_SAMPLES: u32 = 8;
+const SAMPLING_SECS: f64 = 1.0;
+/// So many are drawn in a pass of the window.
+const SAMPLES_A_PASS: u32 = 2;
+/// A picture with depth of field is the mean of so many at least.
+const LENS_SAMPLES: u32 = 16;
+/// Where the device has too little memory for the mean, the next try has this part of its width and height.
+const SMALLER: f32 = 0.75;
 
 /// How long what lights the model is worked on between two passes of the window, seconds.
 const REFINING_SECS: f64 = 0.006;
@@ -30,7 +40,9 @@ struct Drawn {
 #[derive(Clone, Copy)]
 struct Sizes {
     now: [u32; 2],
+    /// Before its mean is drawn.
     at_rest: [u32; 2],
+    mean: [u32; 2],
 }
 
 /// What a painter is told of where it runs.
@@ -39,8 +51,38 @@ pub struct PainterOptions {
     /// As many as [`device::sample_count`](crate::render::device::sample_count) says of the adapter.
     pub samples: SampleCount,
     pub coarse_pointer: bool,
+    /// Whether the device can draw the mean of many pictures: see [`device::draws_means`](crate::render::device::draws_means).
+    pub draws_means: bool,
     /// Seconds since some moment.
     pub now_secs: fn() -> f64,
+}
+
+/// The mean of a picture at rest, and what its samples are drawn into.
+struct Mean {
+    accumulator: Accumulator,
+    target: Target,
+    /// What the GPU has not confirmed yet.
+    answer: Option<GpuAnswer>,
+    /// When the first sample was drawn.
+    since_secs: f64,
+    /// It is shown from so many on.
+    least: u32,
+}
+
+impl Mean {
+    fn new(device: &wgpu::Device, [width, height]: [u32; 2]) -> Self {
+        let ((accumulator, target), answer) = watched(device, || {
+            let target = Target::with_samples(device, width, height, SampleCount::One);
+            (Accumulator::new(device, &target), target)
+        });
+        Self {
+            accumulator,
+            target,
+            answer: Some(answer),
+            since_secs: 0.0,
+            least: LEAST_SAMPLES,
+        }
+    }
 }
 
 /// Draws a session: the renderer, the targets, and the revisions of what was uploaded and drawn.
@@ -53,6 +95,11 @@ pub struct SessionPainter {
     target: Target,
     /// With one sample a pixel, for pictures without smooth edges.
     plain_target: Target,
+    draws_means: bool,
+    /// Of a picture at rest; made when the first rests.
+    mean: Option<Mean>,
+    /// The part of the window's width and height that the device has memory for at rest.
+    affordable_at_rest: f32,
     model: Option<u64>,
     maps: Option<u64>,
     materials: Option<u64>,
@@ -87,6 +134,9 @@ impl SessionPainter {
             renderer: Renderer::new(device, queue, of_renderer),
             target: Target::with_samples(device, 1, 1, samples).with_layer(),
             plain_target: Target::with_samples(device, 1, 1, SampleCount::One).with_layer(),
+            draws_means: options.draws_means,
+            mean: None,
+            affordable_at_rest: 1.0,
             device: device.clone(),
             queue: queue.clone(),
             samples,
@@ -105,11 +155,15 @@ impl SessionPainter {
 
     /// How large the picture is to be now, and at rest, in a window of this size in pixels.
     fn sizes(&self, quality: &Quality, window: [f32; 2]) -> Sizes {
-        let affordable = Target::affordable_scale(window.map(|side| side as u32), self.samples);
-        let scaled = |scale: f32| window.map(|side| (side * scale * affordable).round().max(1.0) as u32);
+        let whole = window.map(|side| side as u32);
+        let affordable = Target::affordable_scale(whole, self.samples);
+        let of_mean = Target::affordable_mean_scale(whole).min(self.affordable_at_rest);
+        let scaled = |scale: f32| window.map(|side| (side * scale).round().max(1.0) as u32);
+        let at_rest = quality.render_scale().fraction();
         Sizes {
-            now: scaled(quality.scale_now()),
-            at_rest: scaled(quality.render_scale().fraction()),
+            now: scaled(quality.scale_now() * affordable),
+            at_rest: scaled(at_rest * affordable),
+            mean: scaled(at_rest * of_mean),
         }
     }
 
@@ -125,11 +179,15 @@ impl SessionPainter {
         };
         self.poll_target(session);
         if self.drawn == Some(wanted) {
+            self.draw_samples(session, sizes.mean, compositor);
             return None;
         }
         let scene_stays = self
             .drawn
             .is_some_and(|drawn| (drawn.scene, drawn.size) == (wanted.scene, wanted.size));
+        if !scene_stays && let Some(mean) = &mut self.mean {
+            mean.accumulator.restart();
+        }
         let (target, largest) = if session.quality().smooths_edges_now() {
             (&mut self.target, sizes.at_rest)
         } else {
@@ -158,11 +216,77 @@ impl SessionPainter {
             }
         }
         cost.cpu_secs = Some(((self.now_secs)() - start_secs) as f32);
-        compositor.prepare(&self.device, &self.queue, target);
+        compositor.prepare(&self.device, &self.queue, target, shown(self.mean.as_ref()));
         self.poll_target(session);
         self.drawn = Some(wanted);
         self.frames_rendered += 1;
         Some(cost)
+    }
+
+    /// Whether the picture of now rests, and its mean is not of enough pictures yet.
+    pub fn is_sampling(&self, session: &Session) -> bool {
+        let quality = session.quality();
+        let rests = self.is_current(session) && quality.is_at_rest() && !session.is_moving();
+        let (count, since_secs) = self
+            .mean
+            .as_ref()
+            .map_or((0, 0.0), |mean| (mean.accumulator.count(), mean.since_secs));
+        let is_late = !quality.samples_are_chosen() && (self.now_secs)() - since_secs > SAMPLING_SECS;
+        let least = quality.samples().min(LEAST_SAMPLES);
+        let goes_on = quality.samples() > 1 && count < quality.samples() && (count < least || !is_late);
+        self.draws_means && rests && goes_on && session.open_model().is_some()
+    }
+
+    /// How many pictures the one in the window is the mean of.
+    pub fn samples(&self) -> u32 {
+        shown(self.mean.as_ref()).map_or(1, Accumulator::count)
+    }
+
+    /// Adds some pictures to the mean of one that rests.
+    fn draw_samples(&mut self, session: &mut Session, size: [u32; 2], compositor: &mut Compositor) {
+        if !self.is_sampling(session) {
+            return;
+        }
+        let device = self.device.clone();
+        let mean = self.mean.get_or_insert_with(|| Mean::new(&device, size));
+        if mean.target.size() != size {
+            let ((), answer) = watched(&device, || {
+                if !mean.target.resize(&device, size, size) {
+                    mean.accumulator = Accumulator::new(&device, &mean.target);
+                }
+            });
+            mean.accumulator.restart();
+            mean.answer = Some(answer);
+        }
+        if let Some(mut answer) = mean.answer.take() {
+            match answer.as_mut().poll(&mut Context::from_waker(&self.waker)) {
+                Poll::Ready(Ok(())) => {}
+                Poll::Ready(Err(_)) => {
+                    // It has too little memory: the picture stays as it is, and a smaller one is tried.
+                    self.affordable_at_rest *= SMALLER;
+                    self.mean = None;
+                    self.renderer.forget_samples();
+                    return;
+                }
+                Poll::Pending => mean.answer = Some(answer),
+            }
+        }
+        if mean.accumulator.count() == 0 {
+            mean.since_secs = (self.now_secs)();
+        }
+        let samples = session.quality().samples();
+        mean.least = samples.min(LEAST_SAMPLES);
+        let frame = session.frame();
+        for _ in 0..SAMPLES_A_PASS.min(samples - mean.accumulator.count()) {
+            self.renderer
+                .accumulate(&frame, &mut mean.target, &mut mean.accumulator);
+        }
+        let drawn = if session.quality().smooths_edges_now() {
+            &self.target
+        } else {
+            &self.plain_target
+        };
+        compositor.prepare(&device, &self.queue, drawn, shown(self.mean.as_ref()));
     }
 
     /// Shows the GPU's error about a resized target in the session, if there is one.
@@ -178,7 +302,7 @@ impl SessionPainter {
     }
 
     /// Draws the session's view into a target of its own. A picture may take its time: what the window leaves out for speed is drawn.
-    /// `adjust` may change how it looks.
+    /// It is the mean of so many `samples`, or of as many as the session says. `adjust` may change how it looks.
     ///
     /// # Errors
     /// When the device draws no picture of this size; whether it could draw this one comes with its pixels.
@@ -186,12 +310,28 @@ impl SessionPainter {
         &mut self,
         session: &mut Session,
         size: [u32; 2],
+        samples: Option<u32>,
         adjust: impl FnOnce(&mut FrameOptions),
     ) -> Result<Picture, PictureError> {
         self.update(session);
+        let asked = samples.filter(|_| self.draws_means);
+        let mut samples = asked.unwrap_or_else(|| self.samples_of_pictures(session));
         let mut frame = session.frame_at_rest();
         adjust(&mut frame.options);
-        self.renderer.picture(&frame, size)
+        if frame.options.aperture > 0.0 && self.draws_means {
+            samples = samples.max(LENS_SAMPLES);
+        }
+        self.renderer
+            .picture_into(&frame, &mut PictureTarget::new(size).with_mean_of(samples))
+    }
+
+    /// Of how many pictures one that is saved is the mean.
+    pub fn samples_of_pictures(&self, session: &Session) -> u32 {
+        if self.draws_means {
+            session.quality().samples()
+        } else {
+            1
+        }
     }
 
     /// Brings the GPU up to date with the session. Whether it then has all that another session shows, but for the view.
@@ -292,6 +432,7 @@ impl SessionPainter {
 
     /// Forgets all that was uploaded.
     pub fn forget(&mut self) {
+        self.mean = None;
         self.renderer.clear_model();
         self.answers.clear();
         (self.model, self.maps, self.materials, self.sky, self.drawn) = (None, None, None, None, None);
@@ -335,4 +476,10 @@ impl SessionPainter {
         }
         Ok(())
     }
+}
+
+/// The mean, once the device has memory for it and it is of enough pictures to be shown.
+fn shown(mean: Option<&Mean>) -> Option<&Accumulator> {
+    let mean = mean.filter(|mean| mean.answer.is_none() && mean.accumulator.count() >= mean.least)?;
+    Some(&mean.accumulator)
 }

@@ -59,7 +59,7 @@ bindpose.reset = async () => {
   const files = (await fetchOpening()) ?? [];
   await give(files, "startOver");
   bindpose.setRenderScale(addressedScale());
-  bindpose.setQuality(addressedQuality());
+  bindpose.setQuality(addressedQuality(), { samples: addressedSamples() });
   bindpose.setCrowd(addressedCrowd());
   return bindpose.state();
 };
@@ -168,7 +168,8 @@ async function start(program, wanted, displaySecs) {
   let loaded;
   try {
     loaded = await program;
-    viewer = new loaded.module.Viewer({ ...kept(), renderScale: addressedScale(), quality: addressedQuality(), displaySecs: displaySecs() }, onEvent);
+    viewer = new loaded.module.Viewer({ ...kept(), renderScale: addressedScale(), quality: addressedQuality(), samples: addressedSamples(), displaySecs: displaySecs() }, onEvent);
+    watchBattery(viewer);
     choices = choicesNow();
   } catch (error) {
     fail(error);
@@ -284,22 +285,32 @@ function showDrop(words) {
   element("drop-what").textContent = words.what;
 }
 
-/** The render scale that the address asks for. */
+/** What the address asks for. */
 function addressedScale() {
   const scale = Number(options.get("scale"));
   return scale > 0 && scale < Infinity ? scale : 1;
 }
 
-/** How finely the address asks for a moving picture to be drawn. */
 function addressedQuality() {
   return options.get("quality") ?? kept().quality ?? "auto";
 }
 
-/** The crowd that the address asks for. */
+function addressedSamples() {
+  return Math.max(0, options.get("samples") | 0);
+}
+
 function addressedCrowd() {
   const whole = (text) => (/^\d{1,10}$/.test(text) && Number(text) < 2 ** 32 ? Number(text) : undefined);
   const [count, seed] = ["crowd", "seed"].map((key) => whole(options.get(key)));
   return { count, seed };
+}
+
+function watchBattery(viewer) {
+  navigator.getBattery?.().then((battery) => {
+    const tell = () => viewer.setSparing(!battery.charging);
+    battery.onchargingchange = tell;
+    tell();
+  }, () => {});
 }
 
 /** Watches the display while nothing is drawn. Returns a function that ends it and tells the seconds between two pictures, if it saw enough. */

@@ -33,11 +33,11 @@ pub struct ContactSheetJob {
 }
 
 impl ContactSheetJob {
-    /// A sheet of what a session shows now: of the clip or the range that plays, or all round.
+    /// A sheet of what a session shows now: of the clip or the range that plays, or all round. Each picture is the mean of so many.
     ///
     /// # Errors
     /// When there is no room for so many pictures.
-    pub fn new(session: &Session, wanted: &ContactSheetRequest) -> Result<Self, ContactSheetFailure> {
+    pub fn new(session: &Session, wanted: &ContactSheetRequest, samples: u32) -> Result<Self, ContactSheetFailure> {
         let mut session = session.clone();
         if wanted.transparent {
             session.apply(LookCommand::SetBackground(Background::None));
@@ -54,7 +54,7 @@ impl ContactSheetJob {
         let [width, height] = sheet.cell_size().map(|side| side as f32);
         Ok(Self {
             series: Series::new(session, width / height, shots),
-            target: PictureTarget::new(sheet.cell_size()),
+            target: PictureTarget::new(sheet.cell_size()).with_mean_of(samples),
             sheet,
             placed: 0,
         })

@@ -18,9 +18,10 @@ use crate::contact_sheet::ContactSheet;
 use crate::image::{self, ImageKind, encode_png};
 use crate::render::device::{self, Gpu};
 use crate::render::{PictureTarget, Renderer, watched};
-use crate::scene::{Background, Shot, Theme, ViewPreset};
+use crate::scene::{Background, FrameOptions, Shot, Theme, ViewPreset};
 use crate::session::{
-    CameraCommand, Command, CrowdCommand, CrowdState, File, FileCommand, MAX_CROWD, PlayCommand, Series, Session,
+    CameraCommand, Command, CrowdCommand, CrowdState, File, FileCommand, MAX_CROWD, MOST_SAMPLES, PlayCommand, Series,
+    Session,
 };
 
 /// Draw a model into PNG files.
@@ -53,6 +54,13 @@ pub(super) struct Arguments {
     /// Where to look from; the model is framed.
     #[arg(long, value_parser = input::one_of(&ViewPreset::ALL, ViewPreset::name), default_value = "three-quarter")]
     view: ViewPreset,
+    /// Of how many pictures each is the mean, 1 to 4096: edges, shadows and what is seen through hair become the smoother; 1 is what the
+    /// page shows while it moves [default: 64; 16 for each of many, and where the CPU draws].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SAMPLES)))]
+    samples: Option<u32>,
+    /// Depth of field: the diameter of the lens as a part of the distance to the model's middle, 0 to 0.5.
+    #[arg(long, value_name = "PART", value_parser = aperture, default_value = "0")]
+    aperture: f32,
     /// How the GPU is driven [default: vulkan, or gl where that is missing].
     #[arg(long, value_enum)]
     backend: Option<Backend>,
@@ -119,6 +127,15 @@ fn size(text: &str) -> Result<[u32; 2], String> {
     input::sides(text).ok_or_else(|| "a size is a width and a height in pixels, such as 1280x720".into())
 }
 
+fn aperture(text: &str) -> Result<f32, String> {
+    let most = FrameOptions::WIDEST_APERTURE;
+    let part = text.parse().ok().filter(|part| (0.0..=most).contains(part));
+    part.ok_or_else(|| format!("an aperture is a number from 0 to {most}"))
+}
+
+/// Of how many pictures each is the mean, where nothing is asked for: one alone, and each of many or where the CPU draws.
+const SAMPLES: [u32; 2] = [64, 16];
+
 pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
     arguments.series.check(&arguments.output)?;
     paths::check_writable(&arguments.output, arguments.force)?;
@@ -134,7 +151,11 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     let size = sheet.as_ref().map_or(arguments.size, ContactSheet::cell_size);
     let said = in_words(arguments, &session, &shots, size);
     let (gpu, backend) = open_gpu(arguments.backend)?;
-    let mut painter = Painter::new(&session, &gpu, size)?;
+    let is_slow = device::is_software(&gpu.info) || shots.len() > 1;
+    let samples = arguments.samples.unwrap_or(SAMPLES[usize::from(is_slow)]);
+    let samples = if gpu.draws_means { samples } else { 1 };
+    let target = PictureTarget::new(size).with_mean_of(samples);
+    let mut painter = Painter::new(&session, &gpu, target, arguments.aperture)?;
     let [width, height] = size.map(|side| side as f32);
     let mut series = Series::new(session, width / height, shots);
 
@@ -294,10 +315,11 @@ fn open_gpu(backend: Option<Backend>) -> Result<(Gpu, device::Backend), Failure>
 struct Painter {
     renderer: Renderer,
     target: PictureTarget,
+    aperture: f32,
 }
 
 impl Painter {
-    fn new(session: &Session, gpu: &Gpu, size: [u32; 2]) -> Result<Self, Failure> {
+    fn new(session: &Session, gpu: &Gpu, target: PictureTarget, aperture: f32) -> Result<Self, Failure> {
         let Gpu {
             device, queue, samples, ..
         } = gpu;
@@ -315,13 +337,15 @@ impl Painter {
         pollster::block_on(answer)?;
         Ok(Self {
             renderer,
-            target: PictureTarget::new(size),
+            target,
+            aperture,
         })
     }
 
     /// The pixels of a picture, as [`encode_png`] takes them.
     fn draw(&mut self, series: &mut Series, index: usize) -> Result<Vec<u8>, Failure> {
-        let frame = series.frame(index);
+        let mut frame = series.frame(index);
+        frame.options.aperture = self.aperture;
         self.renderer.refine_for(&frame);
         let picture = self.renderer.picture_into(&frame, &mut self.target)?;
         Ok(picture.pixels_blocking()?)

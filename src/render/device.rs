@@ -10,7 +10,7 @@ use super::buffers::Queue;
 use super::buffers::bind_group;
 use super::instances::BoneTexture;
 use super::read_back::{ReadBackError, read_back};
-use super::target::{COLOR_FORMAT, DEPTH_FORMAT, SampleCount, Target};
+use super::target::{COLOR_FORMAT, DEPTH_FORMAT, MEAN_FORMAT, SampleCount, Target};
 use super::timing::FrameEncoder;
 use crate::anim::Palette;
 use crate::shaders;
@@ -40,6 +40,8 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// How many samples targets and renderer should use.
     pub samples: SampleCount,
+    /// See [`draws_means`].
+    pub draws_means: bool,
 }
 
 /// Why no GPU was opened.
@@ -138,6 +140,7 @@ pub async fn headless(backend: Backend) -> Result<Gpu, DeviceError> {
             })?;
     Ok(Gpu {
         samples: sample_count(&adapter),
+        draws_means: draws_means(&adapter),
         info,
         device,
         queue,
@@ -262,6 +265,12 @@ fn expect_pixel(pixels: &[u8], x: u32, y: u32, expected: [u8; 4]) -> Result<(), 
     } else {
         Err(ProbeError::WrongPicture { x, y, found, expected })
     }
+}
+
+/// Whether an adapter can draw the mean of many pictures.
+pub fn draws_means(adapter: &wgpu::Adapter) -> bool {
+    let usages = adapter.get_texture_format_features(MEAN_FORMAT).allowed_usages;
+    usages.contains(wgpu::TextureUsages::RENDER_ATTACHMENT)
 }
 
 /// Whether an adapter draws with the CPU. Browsers do not always mark it.

@@ -5,12 +5,12 @@ use crate::scene::{FrameCost, Light, Pass, RenderFrame, ViewMode};
 
 use super::Renderer;
 use super::instances::{InstanceRange, pose_count, poses};
-use super::light_maps::GeometryMap;
-use super::light_passes::{Common, LightPasses};
+use super::light_passes::Common;
 use super::model::{GpuModel, Posed};
 use super::recipe::{Cut, Draw, Faces, Maps, ModelDraw, Purpose, Shading};
 use super::target::Target;
 use super::timing::FrameEncoder;
+use super::view::View;
 
 /// A range of columns of the picture, pixels, under one light. Two lights are two draws of one frame, each inside its columns: no blending,
 /// no second target, and each shows what it alone would show.
@@ -54,17 +54,13 @@ impl Renderer {
         self.overlays.write(device, queue, frame);
         self.shape.update(frame, self.instances.roster(), posed_anew);
         let parts = parts(frame, target.size());
+        let is_sample = frame.sample.is_some();
+        let view = if is_sample { &mut self.at_rest } else { &mut self.window };
         for (light, _) in &parts {
-            if self.lights.iter().all(|passes| passes.light() != *light) {
-                self.lights
-                    .push(LightPasses::new(&self.common, *light, self.options.shadow_map_side));
-            }
+            view.add_light(&self.common, *light, self.options.shadow_map_side);
         }
-
-        let has_room = |map: &GeometryMap| map.has_room(target.size());
-        if frame.options.draws(Pass::AmbientOcclusion) && !self.geometry.as_ref().is_some_and(has_room) {
-            self.drop_view_textures(0, target.size());
-            self.geometry = Some(GeometryMap::new(&self.common.device, target.capacity()));
+        if frame.options.draws(Pass::AmbientOcclusion) {
+            view.make_room(&self.common.device, target, is_sample);
         }
         let pipelines = &self.common.pipelines;
         let model = self.model.as_ref().map(|model| {
@@ -79,20 +75,21 @@ impl Renderer {
             (model, posed)
         });
         let columns_of = |light| parts.iter().find(|part| part.0 == light).map(|(_, columns)| columns);
-        for passes in self.lights.iter_mut().filter(|_| !scene_stays) {
+        let View { lights, geometry } = view;
+        for passes in lights.iter_mut().filter(|_| !scene_stays) {
             if columns_of(passes.light()).is_none() {
                 continue;
             }
             passes.write(&self.common, frame, target.size());
             let is_read = frame.draws_under(Pass::AmbientOcclusion, passes.light());
-            if let (true, Some(model), Some(map)) = (is_read, model, &mut self.geometry) {
+            if let (true, Some(model), Some(map)) = (is_read, model, &mut *geometry) {
                 let model = with(model, self.instances.in_sight());
                 passes.draw_geometry(&self.common, encoder, map, (self.shape.revision_in_sight, model));
             }
         }
-        for passes in self.lights.iter_mut().filter(|_| !scene_stays) {
+        for passes in lights.iter_mut().filter(|_| !scene_stays) {
             if let Some(columns) = columns_of(passes.light()) {
-                let (geometry, shape) = (self.geometry.as_ref(), (self.shape.revision, model));
+                let (geometry, shape) = (geometry.as_ref(), (self.shape.revision, model));
                 passes.draw(&self.common, encoder, frame, (columns, geometry), shape);
             }
         }
@@ -131,7 +128,7 @@ impl Renderer {
         let colored = frame.vertex_colors.is_some();
         // The backdrop replaces all that the model leaves, alpha too. Smooth edges store no alpha: it is there from the beginning.
         let mut pass = target.begin_pass(encoder, wgpu::Color::BLACK);
-        let begin_part = |pass: &mut wgpu::RenderPass<'_>, part: &Columns| self.begin_part(pass, part, height);
+        let begin_part = |pass: &mut wgpu::RenderPass<'_>, part: &Columns| self.begin_part(pass, frame, part, height);
         for part in parts {
             if let Some((model, own)) = model
                 && begin_part(&mut pass, part)
@@ -144,7 +141,11 @@ impl Renderer {
                 };
                 if instances.count > 0 {
                     let (_, posed) = with((model, own), instances);
-                    model.draw(&mut pass, posed, Purpose::Picture(shading));
+                    let purpose = match frame.sample {
+                        Some(_) => Purpose::Sample(shading),
+                        None => Purpose::Picture(shading),
+                    };
+                    model.draw(&mut pass, posed, purpose);
                 }
                 if colored {
                     pass.set_bind_group(2, nothing, &[]);
@@ -199,7 +200,7 @@ impl Renderer {
             ..
         } = &self.common;
         for part in parts {
-            if !self.begin_part(pass, part, size[1]) {
+            if !self.begin_part(pass, frame, part, size[1]) {
                 continue;
             }
             if let Some(model) = model.filter(|_| on_model) {
@@ -218,8 +219,19 @@ impl Renderer {
     }
 
     /// Begins to draw into these columns, under their light. False where that was never drawn.
-    fn begin_part(&self, pass: &mut wgpu::RenderPass<'_>, (light, columns): &Columns, height: u32) -> bool {
-        let passes = self.lights.iter().find(|passes| passes.light() == *light);
+    fn begin_part(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        frame: &RenderFrame<'_>,
+        (light, columns): &Columns,
+        height: u32,
+    ) -> bool {
+        let view = if frame.sample.is_some() {
+            &self.at_rest
+        } else {
+            &self.window
+        };
+        let passes = view.lights.iter().find(|passes| passes.light() == *light);
         let Some((passes, lighting)) = passes.and_then(|passes| Some((passes, passes.lighting_group()?))) else {
             return false;
         };

@@ -42,9 +42,8 @@ pub fn to_book_lights(turn_radians: f32) -> [Vec3; 3] {
     BOOK_DIRECTIONS.map(|direction| turn * -direction.normalize())
 }
 
-/// Texels around the scene's box that stay empty, so that a blurred edge never leaves the map: `MOST_SHADOW_TEXELS` of `shadow.wgsl` and a
-/// little more.
-const MARGIN_TEXELS: f32 = 50.0;
+/// Texels around the scene's box that stay empty: those at the edge stand for all that is beside the map.
+const MARGIN_TEXELS: f32 = 4.0;
 
 /// The demo's map covers a sphere of radius √(10² + 15²) units with 2048 texels: world size of a texel, units of the demo.
 const BOOK_TEXEL: f32 = 2.0 * 18.027_756 / 2048.0;

@@ -7,7 +7,9 @@ use super::buffers::bind_group;
 use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
 use super::recipe::{Draw, ModelDraw, Purpose};
-use super::target::{CONTACT_FORMAT, DEPTH_FORMAT, GEOMETRY_FORMAT, PassTargets, begin_pass, flat_texture, pixels};
+use super::target::{
+    CONTACT_FORMAT, DEPTH_FORMAT, GEOMETRY_FORMAT, PassTargets, begin_pass, flat_texture, half, pixels,
+};
 use super::timing::FrameEncoder;
 use crate::scene::{Light, TimedPass};
 use crate::shaders;
@@ -87,13 +89,14 @@ const NO_GEOMETRY: wgpu::Color = wgpu::Color {
 /// Texels beside a light's columns that its blurs read: one radius for each of the book's four blurs.
 const BLUR_MARGIN: u32 = 4 * 5;
 
-/// Normals and depth of the model in view, at half the picture's resolution. Both lights read it. It may fill a part of its textures, from
-/// the top left.
+/// Normals and depth of the model in view, at half the picture's resolution; of a sample at rest at all of it. Both lights read it. It may
+/// fill a part of its textures, from the top left.
 pub(super) struct GeometryMap {
     /// Texels that are filled.
     size: [u32; 2],
     geometry: wgpu::TextureView,
     depth: wgpu::TextureView,
+    is_full_size: bool,
     /// Revision of the shape, and the camera.
     drawn_from: DrawnFrom<(u64, shaders::Camera)>,
     /// Counts how often it was drawn.
@@ -101,14 +104,17 @@ pub(super) struct GeometryMap {
 }
 
 impl GeometryMap {
-    /// For pictures up to this size, pixels.
-    pub(super) fn new(device: &wgpu::Device, capacity: [u32; 2]) -> Self {
-        let capacity = half(capacity);
-        let depth = wgpu::TextureUsages::RENDER_ATTACHMENT;
+    /// For pictures up to this size, pixels. With the depth of a target of this capacity it has the full size of its picture, which is
+    /// drawn after it.
+    pub(super) fn new(device: &wgpu::Device, capacity: [u32; 2], of_target: Option<&wgpu::TextureView>) -> Self {
+        let capacity = if of_target.is_some() { capacity } else { half(capacity) };
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        let own_depth = || flat_texture(device, "geometry depth", capacity, DEPTH_FORMAT, usage);
         Self {
             size: capacity,
             geometry: flat_texture(device, "geometry", capacity, GEOMETRY_FORMAT, DRAWN_AND_READ),
-            depth: flat_texture(device, "geometry depth", capacity, DEPTH_FORMAT, depth),
+            depth: of_target.cloned().unwrap_or_else(own_depth),
+            is_full_size: of_target.is_some(),
             drawn_from: DrawnFrom(None),
             revision: 0,
         }
@@ -118,14 +124,23 @@ impl GeometryMap {
         [self.geometry.texture().width(), self.geometry.texture().height()]
     }
 
-    /// Whether a picture of this size fits, pixels.
-    pub(super) fn has_room(&self, size: [u32; 2]) -> bool {
-        self.capacity().iter().zip(half(size)).all(|(&has, needs)| has >= needs)
+    /// Whether a picture of this size fits, pixels, of a target with this depth where that is used.
+    pub(super) fn has_room(&self, size: [u32; 2], of_target: Option<&wgpu::TextureView>) -> bool {
+        of_target.map_or(!self.is_full_size, |depth| self.depth == *depth)
+            && self
+                .capacity()
+                .iter()
+                .zip(self.size_for(size))
+                .all(|(&has, needs)| has >= needs)
+    }
+
+    fn size_for(&self, size: [u32; 2]) -> [u32; 2] {
+        if self.is_full_size { size } else { half(size) }
     }
 
     /// Whether it has more than so many times the texels that a picture of this size needs.
     pub(super) fn exceeds(&self, times: u64, size: [u32; 2]) -> bool {
-        pixels(self.capacity()) > times * pixels(half(size))
+        pixels(self.capacity()) > times * pixels(self.size_for(size))
     }
 
     pub(super) fn textures(&self) -> [&wgpu::Texture; 2] {
@@ -142,13 +157,14 @@ impl GeometryMap {
         let place = shaders::Camera {
             exposure_stops: 0.0,
             view_mode: 0,
+            sample: 0.0,
             ..*camera
         };
         if !self.drawn_from.update((shape_revision, place)) {
             return;
         }
         self.revision += 1;
-        self.size = half(camera.viewport_pixels.map(|side| side as u32));
+        self.size = camera.map_size.map(|side| side as u32);
         let targets = PassTargets {
             color: Some((&self.geometry, NO_GEOMETRY)),
             depth: Some(&self.depth),
@@ -171,12 +187,15 @@ struct OcclusionSource {
     radius: f32,
     book_unit: f32,
     fine: u32,
+    noise_turn: f32,
 }
 
-/// Ambient occlusion at half the picture's resolution, from the normals and the depth of what is in view.
+/// Ambient occlusion at the size of the geometry map, from the normals and the depth of what is in view. In samples at rest it is not
+/// blurred: their mean is smooth.
 pub(super) struct OcclusionMap {
     occlusion: wgpu::TextureView,
     half_blurred: wgpu::TextureView,
+    is_blurred: bool,
     /// Reads the geometry and `occlusion`.
     occlusion_group: wgpu::BindGroup,
     /// Reads the geometry and `half_blurred`.
@@ -186,8 +205,11 @@ pub(super) struct OcclusionMap {
 
 impl OcclusionMap {
     pub(super) fn new(device: &wgpu::Device, pipelines: &Pipelines, map: &GeometryMap) -> Self {
-        let texture = |label| flat_texture(device, label, map.capacity(), GEOMETRY_FORMAT, DRAWN_AND_READ);
-        let (occlusion, half_blurred) = (texture("occlusion"), texture("occlusion, half blurred"));
+        let texture = |label, size| flat_texture(device, label, size, GEOMETRY_FORMAT, DRAWN_AND_READ);
+        let is_blurred = !map.is_full_size;
+        let blurred_size = if is_blurred { map.capacity() } else { [1; 2] };
+        let occlusion = texture("occlusion", map.capacity());
+        let half_blurred = texture("occlusion, half blurred", blurred_size);
         let group = |rough| {
             let resources = [&map.geometry, rough].map(wgpu::BindingResource::TextureView);
             bind_group(device, "occlusion", &pipelines.layouts.occlusion, resources)
@@ -197,6 +219,7 @@ impl OcclusionMap {
             half_blurred_group: group(&half_blurred),
             occlusion,
             half_blurred,
+            is_blurred,
             drawn_from: DrawnFrom(None),
         }
     }
@@ -225,13 +248,15 @@ impl OcclusionMap {
             radius: uniform.occlusion_radius,
             book_unit: uniform.book_unit,
             fine: uniform.fine_occlusion,
+            noise_turn: uniform.noise_turn,
         };
         if !self.drawn_from.update(source) {
             return;
         }
         let [width, height] = map.size;
-        let start = (columns.start / 2).saturating_sub(BLUR_MARGIN);
-        let end = (columns.end.div_ceil(2) + BLUR_MARGIN).min(width);
+        let divisor = if self.is_blurred { 2 } else { 1 };
+        let start = (columns.start / divisor).saturating_sub(BLUR_MARGIN);
+        let end = (columns.end.div_ceil(divisor) + BLUR_MARGIN).min(width);
         let mut fill = |draw, source: &wgpu::BindGroup, target: &wgpu::TextureView| {
             let targets = PassTargets {
                 color: Some((target, wgpu::Color::WHITE)),
@@ -246,7 +271,8 @@ impl OcclusionMap {
             pass.draw(0..3, 0..1);
         };
         fill(Draw::Occlusion(light), &self.half_blurred_group, &self.occlusion);
-        for _ in 0..occlusion_blurs(light) {
+        let blurs = if self.is_blurred { occlusion_blurs(light) } else { 0 };
+        for _ in 0..blurs {
             fill(Draw::OcclusionBlurRows, &self.occlusion_group, &self.half_blurred);
             fill(Draw::OcclusionBlurColumns, &self.half_blurred_group, &self.occlusion);
         }
@@ -259,11 +285,6 @@ pub fn occlusion_blurs(light: Light) -> u32 {
         Light::Book => 2,
         Light::Studio => 1,
     }
-}
-
-/// Size of the textures for a picture of this size.
-pub fn half(size: [u32; 2]) -> [u32; 2] {
-    size.map(|side| side.div_ceil(2))
 }
 
 /// Along rows and columns in turn: two narrow blurs read fewer texels than one wide blur.

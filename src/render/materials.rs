@@ -143,7 +143,7 @@ impl GpuMaterials {
             self.bound.push(BoundMaterial {
                 group: self.group(device, layouts, index, kind.maps),
                 kind,
-                is_thin: kind.alpha == Alpha::Blended && material.opacity < LEAST_SOLID_ALPHA,
+                is_thin: kind.alpha.is_blended() && material.opacity < LEAST_SOLID_ALPHA,
             });
         }
         queue.write_buffer(&self.uniforms, 0, &bytes);
@@ -291,7 +291,8 @@ fn maps_of(material: &Material, has_colors: bool) -> Maps {
 fn alpha(material: &Material, uniform: &shaders::Material, maps: MapFacts, has_colors: bool) -> Alpha {
     match material.alpha {
         AlphaMode::Mask { .. } if uniform.alpha_clip > 0.0 => Alpha::Cut,
-        AlphaMode::Blend if maps.has_alpha || has_colors || material.opacity < 1.0 => Alpha::Blended,
+        AlphaMode::Blend if maps.has_alpha || has_colors => Alpha::BlendedByTexel,
+        AlphaMode::Blend if material.opacity < 1.0 => Alpha::Blended,
         AlphaMode::Opaque | AlphaMode::Mask { .. } | AlphaMode::Blend => Alpha::Whole,
     }
 }
@@ -315,6 +316,8 @@ fn material_uniform(index: usize, material: &Material, maps: MapFacts, has_color
         normal_channels: maps.normal_channels,
         normal_lengths: u32::from(maps.has_normal_lengths),
         identity_srgb: identity_color(index),
+        // Of any two materials the steps are incommensurable, so that their noise is independent.
+        threshold_step: (index as f32 * 0.618_034 + 0.754_877_7).fract(),
         roughness: surface.roughness.clamp(0.0, 1.0),
         ..Default::default()
     };
@@ -367,7 +370,7 @@ fn maps_uniform(
         },
         normal_scale: material.normal_scale,
         occlusion_strength: material.occlusion_strength.clamp(0.0, 1.0),
-        least_solid_alpha: if alpha == Alpha::Blended {
+        least_solid_alpha: if alpha.is_blended() {
             LEAST_SOLID_ALPHA
         } else {
             uniform.alpha_clip
@@ -393,11 +396,11 @@ fn srgb_from_linear(linear: f32) -> f32 {
 }
 
 /// Colours far apart on the wheel: each hue is a golden angle further than the one before.
-fn identity_color(index: usize) -> [f32; 4] {
+fn identity_color(index: usize) -> [f32; 3] {
     let turn = (index as f32 * 0.618_034 + 0.58).fract() * 6.0;
     let channel = |shift: f32| {
         let wheel = ((turn + shift).rem_euclid(6.0) - 3.0).abs() - 1.0;
         0.30 + 0.58 * wheel.clamp(0.0, 1.0)
     };
-    [channel(0.0), channel(4.0), channel(2.0), 1.0]
+    [channel(0.0), channel(4.0), channel(2.0)]
 }

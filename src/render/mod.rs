@@ -8,6 +8,7 @@
 //! Only what WebGL2 has is used: no storage buffers and no compute. Joint matrices come from a texture, and textures that are drawn
 //! into and then read have eight bits a channel.
 
+mod accumulator;
 mod blending;
 mod buffers;
 mod composite;
@@ -16,6 +17,7 @@ mod draw;
 mod environment;
 #[doc(hidden)]
 pub mod for_tests;
+mod fullscreen;
 mod instances;
 mod light_fit;
 mod light_maps;
@@ -28,11 +30,14 @@ mod picture;
 mod pipelines;
 mod read_back;
 mod recipe;
+mod samples;
 mod target;
 mod timing;
 mod triangles;
 mod uniforms;
+mod view;
 
+pub use accumulator::Accumulator;
 pub use buffers::{Queue, UploadError};
 pub use composite::Compositor;
 pub use device::{GpuAnswer, GpuError, ProbeError, probe, watched};
@@ -44,19 +49,19 @@ pub use target::{SampleCount, Target};
 
 use crate::image::Image;
 use crate::model::{Material, Model};
-use crate::scene::{FrameCost, RenderFrame};
+use crate::scene::{FrameCost, FrameOptions, Ghosts, Overlay, Overlays, RenderFrame, ViewMode};
 use crate::slices::Slices;
 use buffers::bind_group;
 use environment::Environments;
 use instances::{Instances, Roster};
-use light_maps::GeometryMap;
-use light_passes::{Common, LightPasses, Samplers};
+use light_passes::{Common, Samplers};
 use maps::{MapTextures, one_texel};
 use model::GpuModel;
-use overlays::Overlays;
+use overlays::Overlays as OverlayBuffers;
 use pipelines::Pipelines;
 use recipe::Draw;
 use timing::{FrameEncoder, FrameTimer};
+use view::{MOST_TIMES, View};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RendererOptions {
@@ -80,19 +85,18 @@ impl Default for RendererOptions {
 pub struct Renderer {
     common: Common,
     options: RendererOptions,
-    /// The lights that were shown so far.
-    lights: Vec<LightPasses>,
+    window: View,
+    /// Of the samples of a picture at rest.
+    at_rest: View,
     instances: Instances,
-    overlays: Overlays,
+    overlays: OverlayBuffers,
     /// Bound where a program's layout has bones but none are read.
     no_bones: BoneTexture,
     maps: MapTextures,
     model: Option<GpuModel>,
     shape: Shape,
-    /// For ambient occlusion; has room for the last picture that had it.
-    geometry: Option<GeometryMap>,
     /// Size that the textures of the window's last picture have room for, pixels. None before the first.
-    window: Option<[u32; 2]>,
+    window_capacity: Option<[u32; 2]>,
     /// None where the device tells no times.
     timer: Option<FrameTimer>,
 }
@@ -134,10 +138,6 @@ impl Shape {
     }
 }
 
-/// Textures of ambient occlusion are kept for a window that is so many times smaller: a picture that moves may have a quarter of the
-/// pixels of one at rest, which may have twice the room that it needs.
-const MOST_TIMES: u64 = 8;
-
 impl Renderer {
     /// With so many samples a pixel, and all detail.
     pub fn with_samples(device: &wgpu::Device, queue: &wgpu::Queue, samples: SampleCount) -> Self {
@@ -156,9 +156,10 @@ impl Renderer {
         let nothing = bind_group(device, "nothing", &pipelines.layouts.nothing, []);
         Self {
             options,
-            lights: Vec::new(),
+            window: View::default(),
+            at_rest: View::default(),
             instances: Instances::new(device),
-            overlays: Overlays::new(device, &pipelines.layouts),
+            overlays: OverlayBuffers::new(device, &pipelines.layouts),
             no_bones: BoneTexture::new(device, &pipelines.layouts.bones, 0),
             maps: MapTextures::new(device, &queue),
             common: Common {
@@ -174,8 +175,7 @@ impl Renderer {
             timer,
             model: None,
             shape: Shape::default(),
-            geometry: None,
-            window: None,
+            window_capacity: None,
         }
     }
 
@@ -305,17 +305,12 @@ impl Renderer {
 
     /// The textures whose size goes with the picture's: those of ambient occlusion. They may have room for larger pictures.
     pub fn view_textures(&self) -> Vec<&wgpu::Texture> {
-        let occlusion = self.lights.iter().flat_map(LightPasses::view_textures);
-        let geometry = self.geometry.iter().flat_map(GeometryMap::textures);
-        geometry.chain(occlusion).collect()
+        self.window.textures().chain(self.at_rest.textures()).collect()
     }
 
-    /// Drops them where they have more than so many times the texels that a picture of this size needs.
-    fn drop_view_textures(&mut self, times: u64, size: [u32; 2]) {
-        if self.geometry.as_ref().is_some_and(|map| map.exceeds(times, size)) {
-            self.geometry = None;
-            self.lights.iter_mut().for_each(LightPasses::forget_view);
-        }
+    /// Drops what samples of a picture at rest were drawn with.
+    pub fn forget_samples(&mut self) {
+        self.at_rest = View::default();
     }
 
     /// Draws a frame and submits it. A skinned model with an empty palette is drawn in bind space. Returns what it cost; nobody waits
@@ -330,8 +325,8 @@ impl Renderer {
     }
 
     fn render_window(&mut self, frame: &RenderFrame<'_>, target: &mut Target, scene_stays: bool) -> FrameCost {
-        self.window = Some(target.capacity());
-        self.drop_view_textures(MOST_TIMES, target.capacity());
+        self.window_capacity = Some(target.capacity());
+        self.window.drop_textures(MOST_TIMES, target.capacity());
         let mut encoder = FrameEncoder::new(&self.common.device, "frame");
         if let Some(timer) = &mut self.timer {
             timer.begin_frame(&mut encoder);
@@ -346,6 +341,29 @@ impl Renderer {
             gpu_secs: timer.latest(),
             ..cost
         }
+    }
+
+    /// Adds one more picture of a frame at rest to a mean, by a target with one sample a pixel and no layer. What lies over the model is
+    /// left out.
+    pub fn accumulate(&mut self, frame: &RenderFrame<'_>, target: &mut Target, accumulator: &mut Accumulator) {
+        let mut overlays = Overlays::none();
+        overlays.set(Overlay::Grid, frame.options.overlays.has(Overlay::Grid));
+        let sample = RenderFrame {
+            sample: Some(accumulator.count()),
+            highlighted_submesh: None,
+            ghosts: Ghosts::default(),
+            seen_through: None,
+            options: FrameOptions {
+                overlays,
+                ..frame.options
+            },
+            ..frame.clone()
+        };
+        let mut encoder = FrameEncoder::new(&self.common.device, "sample");
+        self.draw(&sample, target, &mut encoder, false);
+        let dithers = frame.options.view_mode == ViewMode::Lit;
+        accumulator.add(&self.common.device, &self.common.queue, &mut encoder, target, dithers);
+        self.common.queue.inner.submit([encoder.commands.finish()]);
     }
 
     /// Draws a frame into a target of its own. The picture's pixels come with what the device answered: it may have too little
@@ -367,15 +385,50 @@ impl Renderer {
         target: &mut PictureTarget,
     ) -> Result<Picture, PictureError> {
         let (device, queue) = (self.common.device.clone(), self.common.queue.inner.clone());
-        Picture::start(&device, &queue, self.options.samples, target, |target| {
-            // Its times would be taken for those of the window.
-            let mut encoder = FrameEncoder::new(&self.common.device, "picture");
-            self.draw(frame, target, &mut encoder, false);
-            self.common.queue.inner.submit([encoder.commands.finish()]);
+        let samples = target.samples_of(frame);
+        let per_pixel = if samples > 1 {
+            SampleCount::One
+        } else {
+            self.options.samples
+        };
+        Picture::start(&device, &queue, (per_pixel, samples > 1), target, |target| {
+            if samples > 1 {
+                self.draw_mean(frame, target, samples);
+            } else {
+                self.draw_alone(frame, target, "picture");
+            }
             // A window at rest would hold what a large picture took.
-            if let Some(window) = self.window {
-                self.drop_view_textures(1, window);
+            if let Some(window) = self.window_capacity {
+                self.window.drop_textures(1, window);
             }
         })
+    }
+
+    fn draw_alone(&mut self, frame: &RenderFrame<'_>, target: &mut Target, label: &str) {
+        // Its times would be taken for those of the window.
+        let mut encoder = FrameEncoder::new(&self.common.device, label);
+        self.draw(frame, target, &mut encoder, false);
+        self.common.queue.inner.submit([encoder.commands.finish()]);
+    }
+
+    /// Draws the mean of so many pictures into a target, and what lies over the model once.
+    fn draw_mean(&mut self, frame: &RenderFrame<'_>, target: &mut Target, samples: u32) {
+        let device = self.common.device.clone();
+        let mut mean = Accumulator::new(&device, target);
+        for _ in 0..samples {
+            self.accumulate(frame, target, &mut mean);
+        }
+        self.forget_samples();
+        let is_covered = frame.has_overlays().contains(&true);
+        let [width, height] = if is_covered { target.size() } else { [1; 2] };
+        let mut over = Target::with_samples(&device, width, height, self.options.samples).with_layer();
+        if is_covered {
+            self.draw_alone(frame, &mut over, "layer");
+        }
+        let mut compositor = Compositor::into_picture(&device);
+        compositor.prepare(&device, &self.common.queue.inner, &over, Some(&mean));
+        let mut encoder = FrameEncoder::new(&device, "mean");
+        compositor.paint(&mut target.begin_picture(&mut encoder));
+        self.common.queue.inner.submit([encoder.commands.finish()]);
     }
 }

@@ -215,7 +215,9 @@ impl GpuModel {
             let range = &self.ranges[range];
             match self.materials.kind(range.material) {
                 _ if is_hidden(frame.hidden_submeshes, range.submesh) => &[],
-                Kind { alpha, .. } if alpha != Alpha::Blended => &[],
+                Kind { alpha, .. } if !alpha.is_blended() => &[],
+                // It is drawn among the opaque ones.
+                Kind { alpha, .. } if alpha == Alpha::BlendedByTexel && frame.sample.is_some() => &[],
                 Kind { double_sided, .. } if double_sided => &[false, true],
                 _ => &[true],
             }

@@ -2,7 +2,8 @@
 
 use super::device::{GpuAnswer, GpuError, answer_at_once, watched};
 use super::read_back::{Pending, ReadBackError};
-use super::target::{SampleCount, Target};
+use super::target::{BYTES_PER_MEAN_PIXEL, SampleCount, Target, pixels};
+use crate::scene::RenderFrame;
 
 /// Why there is no picture.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -37,9 +38,17 @@ pub enum PictureError {
     ReadBack(#[from] ReadBackError),
 }
 
+/// Pixels of all the pictures that a mean is made of: 64 of 3840 × 2160.
+const MOST_SAMPLED: u64 = 64 * 3840 * 2160;
+/// Of a large picture the mean is made of so many.
+const LEAST_SAMPLES: u64 = 8;
+/// Pixels of a picture that has a layer over it as well.
+const MOST_UNDER_LAYER: u64 = 4096 * 4096;
+
 /// What pictures of one size are drawn into, one after another: it is allocated once.
 pub struct PictureTarget {
     size: [u32; 2],
+    samples: u32,
     /// `None` until the first picture.
     target: Option<Target>,
 }
@@ -47,14 +56,36 @@ pub struct PictureTarget {
 impl PictureTarget {
     /// Of a size in pixels.
     pub fn new(size: [u32; 2]) -> Self {
-        Self { size, target: None }
+        Self {
+            size,
+            samples: 1,
+            target: None,
+        }
+    }
+
+    /// Draws the mean of so many pictures with one sample a pixel each, as a window shows it at rest; with 1 a single one, as a window
+    /// shows it that moves.
+    #[must_use]
+    pub fn with_mean_of(mut self, samples: u32) -> Self {
+        self.samples = samples;
+        self
+    }
+
+    /// How many pictures its next one is the mean of: of a large one fewer, so that the device answers in time.
+    pub(super) fn samples_of(&self, frame: &RenderFrame<'_>) -> u32 {
+        let pixels = pixels(self.size);
+        // A layer takes as much memory as the picture.
+        let is_too_large = frame.has_overlays().contains(&true) && pixels > MOST_UNDER_LAYER;
+        let most = (MOST_SAMPLED / pixels.max(1)).max(LEAST_SAMPLES) as u32;
+        if is_too_large { 1 } else { self.samples.min(most) }
     }
 }
 
 /// A picture that the device is drawing.
 pub struct Picture {
     size: [u32; 2],
-    samples: SampleCount,
+    /// What it takes of the GPU's memory.
+    bytes_per_pixel: u64,
     answer: GpuAnswer,
     /// A pixel of the same target, read after the target was filled with white. GL does not report when it has no memory for a
     /// target: what is drawn into it is lost, and so is the white.
@@ -63,15 +94,15 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Has `draw` draw into a target, watches the device meanwhile, and begins to read the pixels.
+    /// Has `draw` draw into a target, watches the device meanwhile, and begins to read the pixels. `is_mean`: it draws the mean of many.
     pub(super) fn start(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        samples: SampleCount,
+        (samples, is_mean): (SampleCount, bool),
         into: &mut PictureTarget,
         draw: impl FnOnce(&mut Target),
     ) -> Result<Self, PictureError> {
-        let PictureTarget { size, target } = into;
+        let PictureTarget { size, target, .. } = into;
         let size = *size;
         fits(&device.limits(), size)?;
         let ((proof, pixels), answer) = watched(device, || {
@@ -83,7 +114,7 @@ impl Picture {
         });
         Ok(Self {
             size,
-            samples,
+            bytes_per_pixel: bytes_per_pixel(samples, is_mean),
             answer,
             proof,
             pixels,
@@ -132,16 +163,22 @@ impl Picture {
 
     fn out_of_memory(&self) -> PictureError {
         let [width, height] = self.size;
-        // Colour and depth of each sample, the picture that they are resolved to, and the bytes that are read.
-        let samples = u64::from(self.samples.count());
-        let resolved = if samples > 1 { 4 } else { 0 };
-        let bytes_per_pixel = samples * 8 + resolved + 4;
         PictureError::OutOfMemory {
             width,
             height,
-            megabytes: (u64::from(width) * u64::from(height) * bytes_per_pixel).div_ceil(1_000_000),
+            megabytes: (u64::from(width) * u64::from(height) * self.bytes_per_pixel).div_ceil(1_000_000),
         }
     }
+}
+
+/// Colour and depth of each sample, the picture that they are resolved to, or all that a mean takes; and the bytes that are read.
+fn bytes_per_pixel(samples: SampleCount, is_mean: bool) -> u64 {
+    let read = 4;
+    if is_mean {
+        return BYTES_PER_MEAN_PIXEL + read;
+    }
+    let resolved = if samples == SampleCount::One { 0 } else { 4 };
+    u64::from(samples.count()) * 8 + resolved + read
 }
 
 /// Whether a device can draw a picture of this size and hand it over.

@@ -112,12 +112,20 @@ fn samples_of(draw: Draw, picture: SampleCount) -> SampleCount {
     }
 }
 
-fn uniform<T>() -> wgpu::BindingType {
+pub(super) fn uniform<T>() -> wgpu::BindingType {
     wgpu::BindingType::Buffer {
         ty: wgpu::BufferBindingType::Uniform,
         has_dynamic_offset: false,
         min_binding_size: std::num::NonZeroU64::new(size_of::<T>() as u64),
     }
+}
+
+/// A flat texture that a sampler may filter.
+pub(super) fn filtered_texture() -> wgpu::BindingType {
+    texture(
+        wgpu::TextureSampleType::Float { filterable: true },
+        wgpu::TextureViewDimension::D2,
+    )
 }
 
 fn texture(sample_type: wgpu::TextureSampleType, view_dimension: wgpu::TextureViewDimension) -> wgpu::BindingType {

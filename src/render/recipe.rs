@@ -30,6 +30,14 @@ pub(super) enum Alpha {
     Whole,
     Cut,
     Blended,
+    /// Blended as a map or colours of vertices say: hair and leaves, which overlap themselves.
+    BlendedByTexel,
+}
+
+impl Alpha {
+    pub(super) fn is_blended(self) -> bool {
+        matches!(self, Self::Blended | Self::BlendedByTexel)
+    }
 }
 
 /// Which triangles are drawn, by the way that their corners run on the screen.
@@ -78,12 +86,16 @@ pub(super) enum Cut {
     OpaquePart,
     /// The others of it, blended over what is there.
     Blended,
+    /// Each pixel whole or not at all, with alpha as the chance: the mean of many pictures is as if all were sorted.
+    Stochastic,
 }
 
 /// For what the model's triangles are drawn with their materials.
 #[derive(Clone, Copy)]
 pub(super) enum Purpose {
     Picture(Shading),
+    /// One of many pictures of which a mean is made.
+    Sample(Shading),
     SkinView,
     Caster,
     Geometry,
@@ -94,13 +106,17 @@ impl Purpose {
     pub(super) fn draw(self, kind: Kind) -> ModelDraw {
         let cut = match (kind.alpha, self) {
             (Alpha::Whole, _) => Cut::Whole,
-            (Alpha::Blended, Self::Picture(Shading::Lit(_))) => Cut::OpaquePart,
+            (Alpha::BlendedByTexel, Self::Sample(Shading::Lit(_))) => Cut::Stochastic,
+            (
+                Alpha::Blended | Alpha::BlendedByTexel,
+                Self::Picture(Shading::Lit(_)) | Self::Sample(Shading::Lit(_)),
+            ) => Cut::OpaquePart,
             // A property that is seen through another could not be read off: blended surfaces show theirs alone.
-            (Alpha::Cut | Alpha::Blended, Self::Picture(_)) => Cut::Smooth,
-            (Alpha::Cut | Alpha::Blended, Self::SkinView | Self::Caster | Self::Geometry) => Cut::Hard,
+            (_, Self::Picture(_) | Self::Sample(_)) => Cut::Smooth,
+            (_, Self::SkinView | Self::Caster | Self::Geometry) => Cut::Hard,
         };
         match self {
-            Self::Picture(shading) => ModelDraw::Mesh(shading, cut, kind.maps),
+            Self::Picture(shading) | Self::Sample(shading) => ModelDraw::Mesh(shading, cut, kind.maps),
             Self::SkinView => ModelDraw::SkinView(cut, kind.maps),
             Self::Caster => ModelDraw::Caster(cut, kind.maps),
             Self::Geometry => ModelDraw::Geometry(cut, kind.maps),
@@ -199,7 +215,7 @@ impl Draw {
         for light in Light::ALL {
             let shading = Shading::Lit(light);
             draws.extend(for_purpose(Purpose::Picture(shading)));
-            for kind in kinds.iter().filter(|kind| kind.alpha == Alpha::Blended) {
+            for kind in kinds.iter().filter(|kind| kind.alpha.is_blended()) {
                 // Backs have a draw of their own.
                 let back = if kind.double_sided { front.turned() } else { front };
                 let blended = ModelDraw::Mesh(shading, Cut::Blended, kind.maps);
@@ -342,6 +358,7 @@ impl Recipe {
                     Cut::Hard | Cut::Smooth => "fragment_cut",
                     Cut::OpaquePart => "fragment_opaque_part",
                     Cut::Blended => "fragment_blended",
+                    Cut::Stochastic => "fragment_stochastic",
                 };
                 let is_blended = cut == Cut::Blended;
                 let color = wgpu::ColorTargetState {

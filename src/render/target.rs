@@ -25,6 +25,8 @@ impl SampleCount {
 /// Linear light goes in, the hardware encodes as sRGB. Alpha is premultiplied.
 pub(super) const COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 pub(super) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// Roots of means; see `accumulate.wgsl`.
+pub(super) const MEAN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 /// Normals and depth in view; see `geometry.wgsl`.
 pub(super) const GEOMETRY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// One number from 0 to 1 a pixel.
@@ -148,6 +150,10 @@ pub(super) fn begin_pass<'a>(
 const CAPACITY_STEP: u32 = 128;
 /// The most that the textures of a picture in a window may take. 4K with four samples a pixel would take 266 MiB.
 const MOST_BYTES: u64 = 192 << 20;
+/// The most that those of the mean of one at rest may take: 5120 × 2880 fit.
+const MOST_BYTES_AT_REST: u64 = 576 << 20;
+/// Colour, depth, two means, normals with depth, ambient occlusion.
+pub const BYTES_PER_MEAN_PIXEL: u64 = 4 + 4 + 2 * 8 + 4 + 4;
 const BYTES_PER_SAMPLE: u64 = 8;
 const BYTES_PER_RESOLVED_PIXEL: u64 = 4;
 
@@ -271,6 +277,10 @@ impl Target {
         }
     }
 
+    pub(super) fn depth_view(&self) -> &wgpu::TextureView {
+        &self.depth_view
+    }
+
     /// Of each pixel.
     pub(super) fn samples(&self) -> SampleCount {
         self.samples
@@ -286,10 +296,9 @@ impl Target {
         [self.resolved.width(), self.resolved.height()]
     }
 
-    /// The picture as fractions of the width and height of [`Target::texture`].
-    pub(super) fn filled(&self) -> [f32; 2] {
-        let ([width, height], [whole_width, whole_height]) = (self.size, self.capacity());
-        [width as f32 / whole_width as f32, height as f32 / whole_height as f32]
+    /// The picture as fractions of the width and height of [`Target::texture`], and the centre of its last texel.
+    pub(super) fn filled(&self) -> [f32; 4] {
+        filled_part(self.size, self.capacity())
     }
 
     /// Changes the size and loses the picture. Textures with room for the `largest` picture that is to come stay, unless they are more
@@ -315,6 +324,12 @@ impl Target {
         let per_pixel = u64::from(samples.count()) * BYTES_PER_SAMPLE + BYTES_PER_RESOLVED_PIXEL;
         let bytes = pixels(size) * per_pixel;
         (MOST_BYTES as f32 / bytes.max(1) as f32).sqrt().min(1.0)
+    }
+
+    /// The same of the mean of a picture at rest.
+    pub fn affordable_mean_scale(size: [u32; 2]) -> f32 {
+        let bytes = pixels(size) * BYTES_PER_MEAN_PIXEL;
+        (MOST_BYTES_AT_REST as f32 / bytes.max(1) as f32).sqrt().min(1.0)
     }
 
     /// The picture: one sample a pixel, sRGB, premultiplied alpha. A resize may replace the texture, and may leave more room in it
@@ -381,6 +396,16 @@ impl Target {
         }
     }
 
+    /// A pass over the picture alone, which has one sample a pixel.
+    pub(super) fn begin_picture<'a>(&self, encoder: &'a mut FrameEncoder) -> wgpu::RenderPass<'a> {
+        let targets = PassTargets {
+            color: Some((&self.resolved_view, wgpu::Color::TRANSPARENT)),
+            filled: Some(self.size),
+            ..PassTargets::default()
+        };
+        begin_pass(encoder, TimedPass::Picture, targets)
+    }
+
     /// A pass over a picture of this colour.
     pub(super) fn begin_pass<'a>(&self, encoder: &'a mut FrameEncoder, color: wgpu::Color) -> wgpu::RenderPass<'a> {
         let (view, resolved) = match &self.multisampled_view {
@@ -397,6 +422,18 @@ impl Target {
         };
         begin_pass(encoder, TimedPass::Picture, targets)
     }
+}
+
+/// A picture as fractions of the width and height of its texture, and the centre of its last texel.
+pub(super) fn filled_part(size: [u32; 2], capacity: [u32; 2]) -> [f32; 4] {
+    let [width, height] = std::array::from_fn(|axis| size[axis] as f32 / capacity[axis] as f32);
+    let half_texel = capacity.map(|side| 0.5 / side as f32);
+    [width, height, width - half_texel[0], height - half_texel[1]]
+}
+
+/// Size of the maps of half the resolution for a picture of this size.
+pub fn half(size: [u32; 2]) -> [u32; 2] {
+    size.map(|side| side.div_ceil(2))
 }
 
 /// How many pixels a picture of this size has.

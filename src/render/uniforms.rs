@@ -1,12 +1,14 @@
 //! A [`RenderFrame`] as the uniforms that shaders read, and the colours of the themes.
 
-use glam::{Quat, Vec3};
+use glam::{Mat4, Quat, Vec3};
 
 use super::environment::{Lamps, room};
-use super::light_fit::{ContactFit, ShadowFit, StudioLights, to_book_lights};
-use crate::light::RoomLights;
+use super::light_fit::{ContactFit, ShadowFit, StudioLights, light_axes, to_book_lights};
+use super::samples::{lamp_offset, lens_offset, noise_turn, pixel_offset};
+use super::target::half;
+use crate::light::{LAMP_RADIUS_RADIANS, RoomLights};
 use crate::scene::{
-    Aabb, Background, Detail, Light, Overlay, Pass, Projection, RenderFrame, Theme, ViewMode, linear_from_srgb8,
+    Aabb, Background, Camera, Detail, Light, Overlay, Pass, Projection, RenderFrame, Theme, ViewMode, linear_from_srgb8,
 };
 use crate::shaders;
 
@@ -68,15 +70,20 @@ const BOOK_HEIGHT: f32 = 3.6;
 const LEAST_HEIGHT_OF_DIAGONAL: f32 = 0.3;
 /// Samples of the shadow map for each point.
 pub const SHADOW_TAPS: u32 = 16;
+/// The part of the lamp's angle by which each of its points is softened where a picture at rest is drawn many times: there are 4 × 4.
+const STRATUM: f32 = 0.25;
 /// How far occluders reach under the studio light, in units of the books' demo.
 const STUDIO_OCCLUSION_RADIUS: f32 = 0.6;
 
 /// The view of a picture of this size, pixels.
 pub(super) fn camera_uniform(frame: &RenderFrame<'_>, size: [u32; 2]) -> shaders::Camera {
-    let camera = &frame.camera;
     let [width, height] = size.map(|side| side as f32);
     let aspect = width / height;
-    let clip_from_world = camera.clip_from_view(aspect, &frame.world_bounds) * camera.view_from_world();
+    let (camera, lens_shift) = through_lens(frame, aspect);
+    let [right, up] = frame.sample.map_or([0.0; 2], pixel_offset);
+    let jitter = [right * 2.0 / width + lens_shift[0], up * 2.0 / height + lens_shift[1]];
+    let jittered = Mat4::from_translation(Vec3::new(jitter[0], jitter[1], 0.0));
+    let clip_from_world = jittered * camera.clip_from_view(aspect, &frame.world_bounds) * camera.view_from_world();
     let half_height = camera.height_in_view() * 0.5;
     let (per_y, per_x) = (camera.up() * half_height, camera.right() * (half_height * aspect));
     let (is_perspective, eye_scale, forward_scale) = match camera.projection {
@@ -98,8 +105,31 @@ pub(super) fn camera_uniform(frame: &RenderFrame<'_>, size: [u32; 2]) -> shaders
         view_mode: frame.options.view_mode as u32,
         forward_per_y: (per_y * forward_scale).to_array(),
         viewport_pixels: [width, height],
+        jitter,
+        sample: frame.sample.unwrap_or_default() as f32,
+        map_size: if frame.sample.is_some() { size } else { half(size) }.map(|side| side as f32),
         ..Default::default()
     }
+}
+
+/// The camera moved to a point of the lens, and by how much the picture is moved back, ndc, so that what is in focus stays where it is.
+fn through_lens(frame: &RenderFrame<'_>, aspect: f32) -> (Camera, [f32; 2]) {
+    let mut camera = frame.camera;
+    let options = &frame.options;
+    let (Some(sample), true) = (frame.sample, options.aperture > 0.0) else {
+        return (camera, [0.0; 2]);
+    };
+    let focus = options.focus.unwrap_or(camera.target);
+    let focus_distance = (focus - camera.eye()).dot(camera.forward()).max(camera.distance * 0.01);
+    let [x, y] = lens_offset(sample).map(|offset| offset * 0.5 * options.aperture * focus_distance);
+    camera.target += camera.right() * x + camera.up() * y;
+    let half_height = 0.5
+        * camera.height_in_view()
+        * match camera.projection {
+            Projection::Perspective { .. } => focus_distance / camera.distance,
+            Projection::Orthographic => 1.0,
+        };
+    (camera, [x / (half_height * aspect), y / half_height])
 }
 
 /// The part of a picture that this light lights, with a shadow map of so many texels along each edge.
@@ -145,9 +175,10 @@ pub fn light_uniform(frame: &RenderFrame<'_>, light: Light, lamps: Lamps, map_si
             Detail::Low => SHADOW_TAPS / 2,
         },
         key_color: lights.key.to_array(),
+        noise_turn: frame.sample.map_or(0.0, noise_turn),
+        lamp_tangent: LAMP_RADIUS_RADIANS.tan() * if frame.sample.is_some() { STRATUM } else { 1.0 },
         key_mirrored: f32::from(u8::from(is_mirrored)),
         rim_color: lights.rim.to_array(),
-        ..Default::default()
     }
 }
 
@@ -211,7 +242,13 @@ fn key_light(frame: &RenderFrame<'_>, light: Light, lamps: Lamps, map_side: u32)
                 Lamps::Studio => StudioLights::beside(&frame.camera, turn).to_key,
                 Lamps::Sky(lamp) => Quat::from_rotation_y(turn) * lamp.map_or(Vec3::Y, |lamp| lamp.direction),
             };
-            (to_key, ShadowFit::studio(bounds, to_key, map_side))
+            // A sample at rest has the shadow of one point of the lamp.
+            let [right, up, _] = light_axes(to_key);
+            let lamp_point = frame.sample.map_or(to_key, |sample| {
+                let [x, y] = lamp_offset(sample).map(|offset| offset * LAMP_RADIUS_RADIANS.tan());
+                (to_key + right * x + up * y).normalize()
+            });
+            (to_key, ShadowFit::studio(bounds, lamp_point, map_side))
         }
         Light::Book => {
             let [to_key, ..] = to_book_lights(options.book_lights_turn_radians);

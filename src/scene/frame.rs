@@ -39,9 +39,17 @@ pub struct FrameOptions {
     /// Whether the green of normal maps points against the bitangent (up in the picture, the way of OpenGL) instead of along
     /// it (down in the picture, the way of DirectX and of the books).
     pub normal_green_flipped: bool,
+    /// Diameter of the lens as a part of the distance to what is in focus; 0 for a picture that is sharp everywhere. Only the mean of many
+    /// pictures shows it, and only in perspective.
+    pub aperture: f32,
+    /// What is in focus, world space: where nothing is, the camera's target.
+    pub focus: Option<Vec3>,
 }
 
 impl FrameOptions {
+    /// More blurs all but a line.
+    pub const WIDEST_APERTURE: f32 = 0.5;
+
     /// Whether a pass is drawn for some part of the picture.
     pub fn draws(&self, pass: Pass) -> bool {
         let beside = self.split.map(|_| self.light.other());
@@ -81,6 +89,8 @@ pub struct RenderFrame<'a> {
     pub ghosts: Ghosts<'a>,
     /// Lines and triangles that show through the model; `None` where there are none.
     pub seen_through: Option<&'a OverlayGeometry>,
+    /// Which of the many pictures this is that a mean is made of, as one at rest is; none of a picture by itself.
+    pub sample: Option<u32>,
     /// How the model is drawn, and what is drawn beside it.
     pub options: FrameOptions,
 }

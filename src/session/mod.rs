@@ -29,7 +29,9 @@ pub use event::{Event, News};
 pub use history::{History, HistoryCommand};
 pub use look::camera::CameraCommand;
 pub use look::materials::{MAX_SPEC_POWER, MaterialCommand};
-pub use look::quality::{Lowered, PassChoice, PassState, Quality, QualityCommand, QualityMode, RenderScale};
+pub use look::quality::{
+    Lowered, MOST_SAMPLES, PassChoice, PassState, Quality, QualityCommand, QualityMode, RenderScale,
+};
 pub use look::skeleton_cache::SkinColorsKey;
 pub use look::{Look, LookCommand, MAX_EXPOSURE_STOPS, MAX_GROUND_OFFSET, MAX_LINE_LENGTH};
 pub use open::files::{FILE_KINDS, File, FileKind, FileSet};

@@ -21,7 +21,10 @@ pub struct Camera {
     pub forward_per_y: [f32; 3],
     pub unused: f32,
     pub viewport_pixels: [f32; 2],
-    pub unused_2: [f32; 2],
+    pub jitter: [f32; 2],
+    pub map_size: [f32; 2],
+    pub sample: f32,
+    pub unused_2: f32,
 }
 
 /// Twin of `Light` in `light.wgsl`, which says what each member means. Matrices are column by column, as in glam.
@@ -45,11 +48,11 @@ pub struct Light {
     pub fine_occlusion: u32,
     pub shadow_taps: u32,
     pub shadow_depth: f32,
-    pub unused: u32,
+    pub noise_turn: f32,
     pub key_color: [f32; 3],
     pub key_mirrored: f32,
     pub rim_color: [f32; 3],
-    pub unused_2: u32,
+    pub lamp_tangent: f32,
 }
 
 /// Twin of `Ground` in `ground.wgsl`, which says what each member means.
@@ -92,7 +95,8 @@ pub struct Material {
     pub normal_channels: u32,
     pub reflectivity: [f32; 3],
     pub normal_lengths: u32,
-    pub identity_srgb: [f32; 4],
+    pub identity_srgb: [f32; 3],
+    pub threshold_step: f32,
 }
 
 /// Twin of `MapPlace` in `all_maps.wgsl`: the rows of a 2×3 matrix. The first row's w is 1 for the second texture coordinates.
@@ -137,14 +141,26 @@ pub struct Environment {
     pub specular_level_count: f32,
 }
 
-/// Twin of `Filled` in `composite.wgsl`.
+/// Twin of `Accumulation` in `accumulate.wgsl`, which says what each member means.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
-pub struct Filled {
-    /// The part of a texture that its picture fills, from the top left.
-    pub part: [f32; 2],
-    /// The centre of the picture's last texel, in the texture's coordinates.
-    pub last: [f32; 2],
+#[expect(missing_docs, reason = "documented in accumulate.wgsl, where each is used")]
+pub struct Accumulation {
+    pub share: f32,
+    pub turn: f32,
+    pub unused: [f32; 2],
+}
+
+/// Twin of `Composite` in `composite.wgsl`, which says what each member means.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+#[expect(missing_docs, reason = "documented in composite.wgsl, where each is used")]
+pub struct Composite {
+    pub picture: [f32; 4],
+    pub layer: [f32; 4],
+    pub is_root: f32,
+    pub dithers: f32,
+    pub unused: [f32; 2],
 }
 
 /// Twin of `Line` in `lines.wgsl`.

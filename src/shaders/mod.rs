@@ -6,8 +6,8 @@
 mod layout;
 
 pub use layout::{
-    Camera, Environment, Filled, Ground, InfluenceVertex, Instance, Light, Line, MapPlace, Material, MaterialMaps,
-    MoreMapsVertex, PositionVertex, SurfaceVertex,
+    Accumulation, Camera, Composite, Environment, Ground, InfluenceVertex, Instance, Light, Line, MapPlace, Material,
+    MaterialMaps, MoreMapsVertex, PositionVertex, SurfaceVertex,
 };
 
 /// Joints in a row of the bone texture, three texels each: 768 texels, well below the 2 048 that every device has.
@@ -161,6 +161,9 @@ programs! {
 
     /// The model or a part of it in one transparent colour.
     HIGHLIGHT "highlight" ["camera" "skinning" "instance" "color" "highlight"]
+
+    /// The mean of many pictures.
+    ACCUMULATE "accumulate" ["color" "fullscreen" "accumulate"]
 
     /// The finished picture onto a surface.
     COMPOSITE "composite" ["color" "fullscreen" "composite"]

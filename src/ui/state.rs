@@ -23,7 +23,7 @@ use crate::ui::window::viewport::ViewHold;
 pub const MAX_PICTURE_SIDE: u32 = 8192;
 
 /// What only the page around the interface can do.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Request {
     PickFiles,
     /// Read the files opened last once more.
@@ -38,6 +38,8 @@ pub enum Request {
         size: [u32; 2],
         /// Without a background.
         transparent: bool,
+        /// See [`FrameOptions::aperture`](crate::scene::FrameOptions::aperture).
+        aperture: f32,
     },
     /// Save a contact sheet; [`contact_sheet_name`](crate::ui::contact_sheet_name) says how the file is called.
     SaveContactSheet(ContactSheetRequest),
@@ -237,6 +239,7 @@ impl UiState {
         self.requests.push(Request::SavePicture {
             size,
             transparent: transparent || self.picture.transparent,
+            aperture: self.picture.aperture,
         });
     }
 
@@ -288,13 +291,15 @@ pub(super) struct DrawnSheet {
 }
 
 /// How to save a picture or a contact sheet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PictureChoice {
     /// Width and height in pixels. None: the window's.
     pub(super) size: Option<[u32; 2]>,
     /// A picture is without a background.
     pub(super) transparent: bool,
     pub(super) sheet_transparent: bool,
+    /// Of a picture.
+    pub(super) aperture: f32,
     /// Columns and rows of a contact sheet.
     pub(super) cells: [u32; 2],
     /// A contact sheet shows the model from all sides, not through the clip.
@@ -307,6 +312,7 @@ impl Default for PictureChoice {
             size: None,
             transparent: false,
             sheet_transparent: false,
+            aperture: 0.0,
             cells: [4, 3],
             turntable: false,
         }

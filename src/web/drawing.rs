@@ -3,8 +3,8 @@
 use wasm_bindgen::prelude::*;
 
 use super::arguments::{checked, given, optional};
-use super::field;
 use super::viewer::Viewer;
+use super::{field, is_absent, reduced_motion};
 use crate::scene::Pass;
 use crate::script::{self, Misuse};
 use crate::session::{CrowdCommand, PassChoice, QualityCommand, QualityMode, RenderScale};
@@ -23,13 +23,28 @@ impl Viewer {
     }
 
     /// Sets how finely the picture is drawn while it moves: `auto`, `full` or `low`. Returns whether the name is one of these.
+    /// `options`: `{samples: number}`, of how many pictures one at rest is the mean, however long they take; 0 for as many as the device
+    /// draws in a second, where it has a GPU.
     ///
     /// # Errors
-    /// When the name is no text.
+    /// When the name is no text, or the number no whole one from 0.
     #[wasm_bindgen(js_name = setQuality)]
-    pub fn set_quality(&self, name: &JsValue) -> Result<bool, JsValue> {
+    pub fn set_quality(&self, name: &JsValue, options: &JsValue) -> Result<bool, JsValue> {
+        let samples = field(options, "samples");
+        if !is_absent(&samples) {
+            let samples = checked(script::natural("setQuality", &given(&samples)))?;
+            self.shared
+                .apply(QualityCommand::SetSamples((samples > 0).then_some(samples)));
+        }
         self.shared
             .apply_named("setQuality", name, QualityMode::from_name, QualityCommand::SetMode)
+    }
+
+    /// Learns whether energy is to be saved: pictures at rest are then the means of fewer.
+    #[wasm_bindgen(js_name = setSparing)]
+    pub fn set_sparing(&self, sparing: bool) {
+        self.shared
+            .apply(QualityCommand::SetSparing(sparing || reduced_motion()));
     }
 
     /// Draws the view in the window with this fraction of its width and height in pixels, clamped to 0.1 … 1.

@@ -9,6 +9,7 @@ use wasm_bindgen::prelude::*;
 use super::{abort_error, field, is_absent, next_task, sleep};
 use crate::app::{App, ContactSheetFailure};
 use crate::scene::{Background, FrameOptions, Light, Overlay, ViewMode};
+use crate::session::MOST_SAMPLES;
 use crate::ui::ContactSheetRequest;
 
 pub(super) type AppSlot = Rc<RefCell<Option<App>>>;
@@ -19,7 +20,9 @@ pub(super) async fn snapshot(app: AppSlot, canvas_size: [u32; 2], options: JsVal
     let wanted = PictureOptions::read(|name| field(&options, name))?;
     let sides = ["width", "height"].map(|name| (name, field(&options, name)));
     let size = whole_numbers(sides, canvas_size, longest_side(&app)?)?;
-    png(app, size, |options| wanted.apply(options)).await
+    let samples =
+        number(&field(&options, "samples"), "samples", [1.0, f64::from(MOST_SAMPLES)])?.map(|samples| samples as u32);
+    png(app, size, samples, |options| wanted.apply(options)).await
 }
 
 /// Two numbers from 1 to a greatest one; where one is absent, that of the default.
@@ -107,23 +110,34 @@ async fn sheet(
 }
 
 /// The picture that is asked for in the window, and its size. A size beyond the device's reach is drawn as large as it can be.
-pub(super) async fn of_window(app: AppSlot, size: [u32; 2], transparent: bool) -> Result<(JsValue, [u32; 2]), JsError> {
+pub(super) async fn of_window(
+    app: AppSlot,
+    size: [u32; 2],
+    transparent: bool,
+    aperture: f32,
+) -> Result<(JsValue, [u32; 2]), JsError> {
     let size = within(size, longest_side(&app)?);
     let adjust = |options: &mut FrameOptions| {
+        options.aperture = aperture;
         if transparent {
             options.background = Background::None;
         }
     };
-    Ok((png(app, size, adjust).await?, size))
+    Ok((png(app, size, None, adjust).await?, size))
 }
 
-/// The bytes of a PNG of the view, without the interface.
+/// The bytes of a PNG of the view, without the interface: the mean of so many pictures, else of as many as the session says.
 ///
 /// # Errors
 /// When the viewer is not running or the GPU fails.
-async fn png(app: AppSlot, size: [u32; 2], adjust: impl FnOnce(&mut FrameOptions)) -> Result<JsValue, JsError> {
+async fn png(
+    app: AppSlot,
+    size: [u32; 2],
+    samples: Option<u32>,
+    adjust: impl FnOnce(&mut FrameOptions),
+) -> Result<JsValue, JsError> {
     let picture = match app.borrow_mut().as_mut() {
-        Some(app) => app.draw_snapshot(size, adjust)?,
+        Some(app) => app.draw_snapshot(size, samples, adjust)?,
         None => return Err(not_running()),
     };
     let [width, height] = size;
@@ -158,6 +172,7 @@ struct PictureOptions {
     background: Option<Background>,
     split: Option<f32>,
     overlays: Option<Vec<Overlay>>,
+    aperture: f32,
 }
 
 impl PictureOptions {
@@ -171,17 +186,18 @@ impl PictureOptions {
         } else {
             named(&field, "background", Background::from_name)?
         };
-        let split = field("split");
         Ok(Self {
             light: named(&field, "light", Light::from_name)?,
             view_mode: named(&field, "viewMode", ViewMode::from_name)?,
             background,
-            split: match split.as_f64() {
-                Some(fraction) if (0.0..=1.0).contains(&fraction) => Some(fraction as f32),
-                None if is_absent(&split) => None,
-                _ => return Err(JsError::new("split must be a number from 0 to 1")),
-            },
+            split: number(&field("split"), "split", [0.0, 1.0])?.map(|fraction| fraction as f32),
             overlays: overlays(&field("overlays"))?,
+            aperture: number(
+                &field("aperture"),
+                "aperture",
+                [0.0, f64::from(FrameOptions::WIDEST_APERTURE)],
+            )?
+            .unwrap_or(0.0) as f32,
         })
     }
 
@@ -192,6 +208,7 @@ impl PictureOptions {
         if self.split.is_some() {
             options.split = self.split;
         }
+        options.aperture = self.aperture;
         options.view_mode = self.view_mode.unwrap_or(options.view_mode);
         options.background = self.background.unwrap_or(options.background);
         if let Some(overlays) = &self.overlays {
@@ -199,6 +216,15 @@ impl PictureOptions {
                 options.overlays.set(overlay, overlays.contains(&overlay));
             }
         }
+    }
+}
+
+/// A number within a range, if there is one.
+fn number(value: &JsValue, name: &str, [least, most]: [f64; 2]) -> Result<Option<f64>, JsError> {
+    match value.as_f64() {
+        Some(number) if (least..=most).contains(&number) => Ok(Some(number)),
+        None if is_absent(value) => Ok(None),
+        _ => Err(JsError::new(&format!("{name} must be a number from {least} to {most}"))),
     }
 }
 

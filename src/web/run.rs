@@ -45,12 +45,12 @@ pub(super) async fn start(
         ("backend", running.backend.into()),
         ("adapter", (&*running.adapter).into()),
     ]);
-    let frames = Rc::clone(&running.frames_rendered);
+    let frames = Rc::clone(&running.drawn);
     running.ctx.request_repaint();
     shared.running.replace(Some(running));
     // In a hidden tab no frame comes. Elsewhere the page does not wait for it for ever.
     for _ in 0..100 {
-        if frames.get() > 0 || is_hidden() {
+        if frames.get()[0] > 0 || is_hidden() {
             break;
         }
         sleep(20).await;
@@ -81,7 +81,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
         ..Default::default()
     };
     let app = Rc::new(RefCell::new(None));
-    let frames_rendered = Rc::new(Cell::new(0));
+    let drawn = Rc::new(Cell::new([0, 1]));
     let (tell_of_loss, loss) = mpsc::channel();
     let shell = Shell {
         canvas: canvas.clone(),
@@ -91,7 +91,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
         loss,
         is_lost: false,
         exports: Rc::default(),
-        frames: Rc::clone(&frames_rendered),
+        drawn: Rc::clone(&drawn),
         names: JointNames::default(),
         saving: Saving::new(Rc::clone(&app), Rc::clone(shared)),
     };
@@ -143,7 +143,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
         ctx,
         backend,
         adapter,
-        frames_rendered,
+        drawn,
         device,
         runner,
         _context_watch: context_watch,
@@ -180,7 +180,7 @@ struct Shell {
     is_lost: bool,
     /// Whether tasks go on with an export.
     exports: Rc<Cell<bool>>,
-    frames: Rc<Cell<u64>>,
+    drawn: Rc<Cell<[u64; 2]>>,
     names: JointNames,
     saving: Saving,
 }
@@ -234,7 +234,8 @@ impl eframe::App for Shell {
         if let Some(app) = self.app.borrow_mut().as_mut() {
             app.set_contrast(contrast());
             requests = app.ui(ui);
-            if self.frames.replace(app.frames_rendered()) != app.frames_rendered() {
+            let drawn = [app.frames_rendered(), app.samples().into()];
+            if self.drawn.replace(drawn)[0] != drawn[0] {
                 self.shared.timings.note_drawn();
             }
         }
@@ -243,7 +244,13 @@ impl eframe::App for Shell {
                 Request::PickFiles => self.shared.emit("pickfiles", &JsValue::UNDEFINED),
                 Request::ReadAgain => self.shared.emit("readagain", &JsValue::UNDEFINED),
                 Request::PickClips => self.shared.emit("pickclips", &JsValue::UNDEFINED),
-                Request::SavePicture { size, transparent } => self.saving.save_picture(ui.ctx(), size, transparent),
+                Request::SavePicture {
+                    size,
+                    transparent,
+                    aperture,
+                } => {
+                    self.saving.save_picture(ui.ctx(), size, transparent, aperture);
+                }
                 Request::SaveContactSheet(wanted) => self.saving.save_contact_sheet(ui.ctx(), wanted),
                 Request::SavePictureAs => self.saving.save_picture_as(),
                 Request::SaveReport => self.saving.save_report(),

@@ -54,10 +54,10 @@ impl Saving {
     }
 
     /// Draws a picture and hands it to the page, which saves it. A message says so.
-    pub(super) fn save_picture(&self, ctx: &egui::Context, size: [u32; 2], transparent: bool) {
+    pub(super) fn save_picture(&self, ctx: &egui::Context, size: [u32; 2], transparent: bool, aperture: f32) {
         // The name is made now: the clip and the time may change until the picture is drawn.
         let name = picture_name(&self.shared.session.borrow());
-        let drawn = picture::of_window(Rc::clone(&self.app), size, transparent);
+        let drawn = picture::of_window(Rc::clone(&self.app), size, transparent, aperture);
         self.hand_over(ctx, name, async { drawn.await.map(Some) });
     }
 

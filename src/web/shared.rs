@@ -41,7 +41,8 @@ pub(super) struct Running {
     pub(super) ctx: egui::Context,
     pub(super) backend: &'static str,
     pub(super) adapter: String,
-    pub(super) frames_rendered: Rc<Cell<u64>>,
+    /// How many frames, and of how many pictures the one in the window is the mean.
+    pub(super) drawn: Rc<Cell<[u64; 2]>>,
     pub(super) device: wgpu::Device,
     pub(super) runner: eframe::WebRunner,
     pub(super) _context_watch: ContextWatch,

@@ -105,6 +105,8 @@ struct Look {
     passes: BTreeMap<&'static str, &'static str>,
     render_scale: f32,
     quality: &'static str,
+    /// Of how many pictures the one in the window is the mean.
+    samples: u64,
     /// What is less fine while the picture moves.
     lowered: Option<Lowered>,
 }
@@ -150,12 +152,12 @@ struct FileError<'a> {
 }
 
 impl<'a> State<'a> {
-    /// `backend` and `adapter` are those of the running viewer, and so is the number of frames.
+    /// `backend` and `adapter` are those of the running viewer, and so are the number of frames, and that of the pictures whose mean is shown.
     pub(super) fn new(
         session: &'a Session,
         backend: Option<&'a str>,
         adapter: Option<&'a str>,
-        frames_rendered: u64,
+        [frames_rendered, samples]: [u64; 2],
         theme: Option<Theme>,
         timings: BTreeMap<&'static str, f64>,
     ) -> Self {
@@ -193,7 +195,7 @@ impl<'a> State<'a> {
                 orthographic: camera.orthographic,
             },
             grid_visible: session.grid_visible(),
-            look: look(&appearance, session.quality()),
+            look: look(&appearance, session.quality(), samples),
             skeleton: Skeleton {
                 selected: selection.bone,
                 vertex: selection.vertex,
@@ -247,7 +249,7 @@ impl From<PlaybackState> for Playback {
     }
 }
 
-fn look(look: &AppearanceState, quality: &Quality) -> Look {
+fn look(look: &AppearanceState, quality: &Quality, samples: u64) -> Look {
     Look {
         light: look.light.name(),
         split: look.split,
@@ -258,6 +260,7 @@ fn look(look: &AppearanceState, quality: &Quality) -> Look {
         passes: Pass::ALL.map(|pass| (pass.name(), quality.state(pass).name())).into(),
         render_scale: quality.render_scale().fraction(),
         quality: quality.mode().name(),
+        samples,
         lowered: quality.lowered().map(|lowered| Lowered {
             scale: lowered.scale,
             occlusion: if lowered.without_occlusion {

@@ -31,8 +31,8 @@ pub struct Viewer {
 impl Viewer {
     /// Makes a viewer with nothing open and no canvas.
     ///
-    /// `options`: `{renderScale: number, quality: "auto" | "full" | "low", displaySecs: number}`, 1 and `auto` where
-    /// they are absent; `displaySecs` is how often the display shows a picture, 60 times a second where it is absent. `theme`, `light` and
+    /// `options`: `{renderScale: number, quality: "auto" | "full" | "low", samples: number, displaySecs: number}`, 1 and
+    /// `auto` where they are absent; `samples` is as `setQuality` takes it; `displaySecs` is how often the display shows a picture, 60 times a second where it is absent. `theme`, `light` and
     /// `split` are as the state has them. `on_event(type, detail)` hears of `load`, `error`, `play`, `pause`, `timeupdate` and `playbackchange`; of `devicelost` (`{reason}`); and of what only the page
     /// can do: `pickfiles`, `pickclips`, `readagain`, `picture` (`{name, bytes}`, and `choosesPlace` where the person asks where to save it),
     /// `picturefailed` (`{message}`), `greetingclosed` after `greet`, `save` (`{name, contents, type}`: a file to save, as text or bytes), `explain` (`{code}`: its place on the page of codes) and `announce` (`{text, assertive}`). It also tells of its controls, for
@@ -50,6 +50,12 @@ impl Viewer {
         if let Some(mode) = named.and_then(|name| QualityMode::from_name(&name)) {
             session.apply(QualityCommand::SetMode(mode));
         }
+        if let Some(samples) = field(options, "samples").as_f64() {
+            session.apply(QualityCommand::SetSamples(
+                Some(samples as u32).filter(|&samples| samples > 0),
+            ));
+        }
+        session.apply(QualityCommand::SetSparing(reduced_motion()));
         let named = |name| field(options, name).as_string();
         if let Some(light) = named("light").and_then(|name| Light::from_name(&name)) {
             session.apply(LookCommand::SetLight(light));
@@ -182,7 +188,7 @@ impl Shared {
             &self.session.borrow(),
             running.map(|running| running.backend),
             running.map(|running| running.adapter.as_str()),
-            running.map_or(0, |running| running.frames_rendered.get()),
+            running.map_or([0, 1], |running| running.drawn.get()),
             self.ui.borrow().theme,
             self.timings.millis(),
         ))

@@ -1,8 +1,8 @@
 // What moves by itself: the camera after a drag, on the turntable, in flight; and what is left out when that is too slow.
 
 import assert from "node:assert/strict";
-import { atRest, call, settled, state, test, until } from "./harness.js";
-import { assertGolden, picture } from "./picture.js";
+import { BACKEND, atRest, call, settled, state, test, until } from "./harness.js";
+import { assertGolden, difference, picture } from "./picture.js";
 import { GROUND, click } from "./widgets.js";
 
 /** A window so small that this GPU of software draws several frames a second. */
@@ -41,6 +41,31 @@ async function flick(page) {
 test("a view that is let go in a drag turns on and comes to rest", { ...SMALL, prepare: slowClock }, async (page) => {
   const { released, rested } = await flick(page);
   assert.ok(Math.abs(rested - released) > 0.01, `from ${released} to ${rested} radians`);
+});
+
+test("a picture at rest becomes the mean of as many as are asked for, and then none is drawn", {
+  query: `?backend=${BACKEND}&quality=full&scale=0.3&samples=12`,
+}, async (page) => {
+  await call(page, "pause");
+  const clip = { x: 300, y: 60, width: 400, height: 440 };
+  const { framesRendered } = await until(page, ({ look }) => look.samples === 12);
+  await settled(page);
+  const rested = await page.screenshot({ clip });
+  await page.waitForTimeout(600);
+  const still = await state(page);
+  assert.deepEqual([still.framesRendered, still.look.samples], [framesRendered, 12]);
+  assert.ok((await page.screenshot({ clip })).equals(rested), "nothing changes any more");
+  await call(page, "seek", 0.3);
+  await until(page, (now) => now.framesRendered > framesRendered && now.look.samples === 12);
+  const [few, many] = [await picture(page, { samples: 1 }), await picture(page)];
+  const differs = difference(few, many, { tolerance: 24 });
+  assert.ok(few.digest !== many.digest && differs < 0.05, `${differs} of the pixels differ by more than 24`);
+  // A device that draws with its CPU does so only when it is asked.
+  await call(page, "setQuality", "full", { samples: 0 });
+  await call(page, "seek", 0.4);
+  await page.waitForTimeout(600);
+  assert.equal((await state(page)).look.samples, 1);
+  await assert.rejects(call(page, "setQuality", "full", { samples: -1 }), /setQuality/);
 });
 
 test("under reduced motion it stays where it was let go", {

@@ -124,7 +124,7 @@ test("scripts and the browser's timeline see how long each stage of an opening t
   assert.ok(times.every((time, index) => index === 0 || time >= times[index - 1]), `in their order: ${times}`);
   for (const [index, stage] of expected.entries()) {
     const between = marks[index + 1][1] - marks[index][1];
-    assert.ok(Math.abs(timings[stage] - between) < 1, `${stage}: ${timings[stage]} ms, and ${between} ms between the marks`);
+    assert.ok(Math.abs(timings[stage] - between) < 5, `${stage}: ${timings[stage]} ms, and ${between} ms between the marks`);
   }
   assert.ok(timings.reading > 0 && timings.building > 0 && timings.drawing > 0, JSON.stringify(timings));
 });

@@ -56,10 +56,10 @@ fn a_split_shows_both_lights_side_by_side() {
 #[test]
 fn the_background_is_the_one_that_was_asked_for() {
     let corner = |picture: &RgbaImage| picture.get_pixel(0, 0).0;
-    assert_eq!(
-        corner(&draw("color", &["--background", "#205080"])),
-        [0x20, 0x50, 0x80, 255]
-    );
+    // So far from the model there is hardly a trace of the floor.
+    let color = corner(&draw("color", &["--background", "#205080"]));
+    let is_near = |(found, asked): (u8, u8)| found.abs_diff(asked) <= 1;
+    assert!(color.into_iter().zip([0x20, 0x50, 0x80, 255]).all(is_near), "{color:?}");
     assert_eq!(corner(&draw("none", &["--background", "none"]))[3], 0);
     let shadow = |picture: RgbaImage| {
         picture

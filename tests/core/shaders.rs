@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::mem::offset_of;
 
 use bindpose::shaders::{
-    Camera, Environment, Filled, Ground, InfluenceVertex, Instance, JOINTS_PER_ROW, Light, Line, Material,
-    MaterialMaps, MoreMapsVertex, PROGRAMS, PositionVertex, Program, SurfaceVertex,
+    Accumulation, Camera, Composite, Environment, Ground, InfluenceVertex, Instance, JOINTS_PER_ROW, Light, Line,
+    Material, MaterialMaps, MoreMapsVertex, PROGRAMS, PositionVertex, Program, SurfaceVertex,
 };
 use naga::back::glsl;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
@@ -52,10 +52,10 @@ fn every_entry_point_is_valid_and_translates_to_glsl_es_300() {
     let expected = [
         "mesh-studio: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth",
         "mesh-studio-all: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth fragment_opaque_part \
-            fragment_blended",
+            fragment_blended fragment_stochastic",
         "mesh-book: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth",
         "mesh-book-all: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth fragment_opaque_part \
-            fragment_blended",
+            fragment_blended fragment_stochastic",
         "mesh-inspect: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth",
         "mesh-inspect-all: vertex_static vertex_skinned fragment fragment_cut fragment_cut_smooth",
         "skin-view: vertex_static vertex_skinned fragment fragment_cut",
@@ -74,7 +74,8 @@ fn every_entry_point_is_valid_and_translates_to_glsl_es_300() {
         "lines: edge_static edge_skinned normal_static normal_skinned tangent_static tangent_skinned world_vertex \
             fragment",
         "highlight: vertex_static vertex_skinned fragment",
-        "composite: vertex fragment",
+        "accumulate: vertex fragment",
+        "composite: vertex fragment fragment_picture",
         "probe: vertex fragment",
     ];
     assert_eq!(found.len(), expected.len());
@@ -119,6 +120,9 @@ fn twins() -> BTreeMap<String, Layout> {
             view_mode,
             forward_per_y,
             viewport_pixels,
+            jitter,
+            map_size,
+            sample,
         }),
         twin!(Light {
             shadow_clip_from_world,
@@ -137,9 +141,11 @@ fn twins() -> BTreeMap<String, Layout> {
             fine_occlusion,
             shadow_taps,
             shadow_depth,
+            noise_turn,
             key_color,
             key_mirrored,
             rim_color,
+            lamp_tangent,
         }),
         twin!(Ground {
             backdrop_center_srgb,
@@ -172,6 +178,7 @@ fn twins() -> BTreeMap<String, Layout> {
             reflectivity,
             normal_lengths,
             identity_srgb,
+            threshold_step,
         }),
         twin!(MaterialMaps {
             places,
@@ -194,7 +201,13 @@ fn twins() -> BTreeMap<String, Layout> {
             specular_level_count,
         }),
         twin!(Line { color_srgb, length }),
-        twin!(Filled { part, last }),
+        twin!(Composite {
+            picture,
+            layer,
+            is_root,
+            dithers
+        }),
+        twin!(Accumulation { share, turn }),
     ])
 }
 

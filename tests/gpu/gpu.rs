@@ -49,6 +49,7 @@ pub(crate) fn without_blocks(backend: Backend) -> Gpu {
     let open = device::Gpu {
         info: adapter.get_info(),
         samples: device::sample_count(&adapter),
+        draws_means: device::draws_means(&adapter),
         device,
         queue,
     };

@@ -25,6 +25,7 @@ macro_rules! on_both_backends {
 }
 
 mod alpha_clip;
+mod at_rest;
 mod big_picture;
 mod book_light;
 mod chart;

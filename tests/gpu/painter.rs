@@ -8,7 +8,7 @@ use bindpose::painter::{PainterOptions, SessionPainter};
 use bindpose::render::Compositor;
 use bindpose::scene::{FrameCost, Overlay};
 use bindpose::session::{
-    CameraCommand, Command, File, FileCommand, JointCommand, LookCommand, Session, SubmeshCommand,
+    CameraCommand, Command, File, FileCommand, JointCommand, LookCommand, QualityCommand, Session, SubmeshCommand,
 };
 
 use crate::gpu::{Gpu, Picture, without_blocks};
@@ -29,6 +29,7 @@ impl Easel {
         let options = PainterOptions {
             samples: gpu.open.samples,
             coarse_pointer: false,
+            draws_means: true,
             now_secs: || 0.0,
         };
         Self {
@@ -122,7 +123,7 @@ on_both_backends! {
         }
 
         // Saved pictures are drawn in one pass.
-        let saved = easel.painter.draw_snapshot(&mut session, size, |_| ()).expect("it is small");
+        let saved = easel.painter.draw_snapshot(&mut session, size, Some(1), |_| ()).expect("it is small");
         let saved = saved.pixels_blocking().expect("it is small");
         let off = saved.iter().zip(&before.rgba).map(|(&a, &b)| a.abs_diff(b));
         let (most, sum) = off.fold((0, 0.0), |(most, sum), off| (most.max(off), sum + f64::from(off)));
@@ -144,5 +145,68 @@ on_both_backends! {
         assert_eq!(easel.cost.draws, 0);
         let (anew, _) = Easel::new(gpu).show(&mut session, size);
         assert!(clear.rgba == anew.rgba, "nothing of it is left");
+    }
+
+    fn a_picture_at_rest_becomes_the_mean_of_many_and_then_nothing_is_drawn(gpu) {
+        let mut session = opened();
+        session.apply(QualityCommand::SetSamples(Some(20)));
+        let size = [160, 120];
+        let mut easel = Easel::new(gpu);
+        let (first, _) = easel.show(&mut session, size);
+        assert_eq!(easel.painter.samples(), 1);
+        let mut passes = 0;
+        while easel.painter.is_sampling(&session) {
+            let (picture, drawn) = easel.show(&mut session, size);
+            assert!(!drawn, "the scene stays as it was drawn");
+            assert!(easel.painter.samples() > 1 || picture.rgba == first.rgba, "the first is shown until the mean is good");
+            passes += 1;
+            assert!(passes < 20);
+        }
+        assert_eq!((easel.painter.samples(), easel.painter.frames_rendered()), (20, 1));
+        let (rested, _) = easel.show(&mut session, size);
+        assert!(rested.rgba != first.rgba && rested.share_that_differs(&first, 24) < 0.05);
+        let (same, _) = easel.show(&mut session, size);
+        assert!(same.rgba == rested.rgba, "nothing is drawn any more");
+
+        // What lies over the model is drawn over the mean, which stays.
+        session.apply(LookCommand::SetBonesVisible(true));
+        let (with_bones, drawn) = easel.show(&mut session, size);
+        assert!(drawn && easel.cost.draws == 0 && easel.painter.samples() == 20 && with_bones.rgba != rested.rgba);
+        session.apply(LookCommand::SetBonesVisible(false));
+        assert!(easel.show(&mut session, size).0.rgba == rested.rgba);
+
+        // What changes the scene begins anew, with a picture of its own.
+        session.apply(CameraCommand::Orbit { yaw_radians: 0.5, pitch_radians: 0.0 });
+        let (moved, _) = easel.show(&mut session, size);
+        assert_eq!(easel.painter.samples(), 1);
+        assert!(moved.rgba == Easel::new(gpu).show(&mut session, size).0.rgba);
+        while easel.painter.is_sampling(&session) {
+            easel.show(&mut session, [200, 90]);
+        }
+        assert_eq!(easel.painter.samples(), 20, "in a window of another size too");
+
+        // A saved picture is the mean of as many.
+        let mut saved = || easel.painter.draw_snapshot(&mut session, size, None, |_| ()).expect("small").pixels_blocking().expect("small");
+        let (saved, again) = (saved(), saved());
+        assert!(saved == again, "the same bytes every time");
+    }
+
+    fn a_slow_device_does_not_refine_unless_it_is_asked_to(gpu) {
+        let mut session = opened();
+        session.apply(QualityCommand::SetSlowDevice(true));
+        let mut easel = Easel::new(gpu);
+        easel.show(&mut session, [96, 64]);
+        assert!(!easel.painter.is_sampling(&session));
+        session.apply(QualityCommand::SetSamples(Some(4)));
+        assert!(easel.painter.is_sampling(&session));
+        session.apply(QualityCommand::SetSamples(None));
+        session.apply(QualityCommand::SetSlowDevice(false));
+        assert!(easel.painter.is_sampling(&session));
+        easel.show(&mut session, [96, 64]);
+        session.apply(QualityCommand::SetSparing(true));
+        while easel.painter.is_sampling(&session) {
+            easel.show(&mut session, [96, 64]);
+        }
+        assert_eq!(easel.painter.samples(), 16);
     }
 }

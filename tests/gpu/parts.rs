@@ -5,6 +5,7 @@ mod instances;
 mod light_fit;
 mod maps;
 mod read_back;
+mod samples;
 mod timing;
 mod triangles;
 mod uniforms;

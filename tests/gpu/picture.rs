@@ -360,7 +360,7 @@ fn textures_are_kept_while_a_window_is_resized() {
 /// Composites onto a surface and reads that.
 fn composite(gpu: &Gpu, target: &Target) -> Picture {
     let mut compositor = Compositor::new(&gpu.open.device, SURFACE_FORMAT);
-    compositor.prepare(&gpu.open.device, &gpu.open.queue, target);
+    compositor.prepare(&gpu.open.device, &gpu.open.queue, target, None);
     on_surface(gpu, &compositor, [target.texture().width(), target.texture().height()])
 }
 

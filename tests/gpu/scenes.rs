@@ -128,6 +128,7 @@ impl Scene {
                 colors_srgb: &GHOST_SRGB[..self.ghosts.len()],
             },
             seen_through: Some(&self.seen_through),
+            sample: None,
             options: self.options,
         }
     }

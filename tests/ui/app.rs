@@ -7,7 +7,7 @@ use std::time::Duration;
 use bindpose::app::{App, AppOptions, ContactSheetFailure, ContactSheetJob};
 use bindpose::scene::Theme;
 use bindpose::session::{
-    CameraCommand, ExportCommand, ExportOptions, File, FileCommand, LookCommand, PlayCommand, Session,
+    CameraCommand, ExportCommand, ExportOptions, File, FileCommand, LookCommand, PlayCommand, QualityCommand, Session,
 };
 use bindpose::ui::{self, ContactSheetRequest, UiState};
 use egui_kittest::Harness;
@@ -44,6 +44,10 @@ fn window(file: File) -> (Harness<'static>, Shared<Session>, Shared<Option<App>>
 /// A start on a GPU and a context of its own.
 fn start(session: &Shared<Session>, state: &Shared<UiState>) -> (Harness<'static>, Shared<Option<App>>) {
     let gpu = create_render_state(default_wgpu_setup(), egui_wgpu::RendererOptions::PREDICTABLE);
+    // The CPU draws: nothing is refined unless a test asks for it.
+    if !session.borrow().quality().samples_are_chosen() {
+        session.borrow_mut().apply(QualityCommand::SetSamples(Some(1)));
+    }
     let (session, state) = (Rc::clone(session), Rc::clone(state));
     let app: Shared<Option<App>> = Rc::default();
     let (of_window, of_app) = (Rc::clone(&app), gpu.clone());
@@ -205,6 +209,27 @@ fn a_contact_sheet_without_room_is_refused() {
         told,
         "a sheet of 300 × 200 pixels has no room for 50 × 50 pictures of 8 × 8 pixels"
     );
+}
+
+#[test]
+fn passes_go_on_until_the_mean_of_a_picture_at_rest_is_complete() {
+    let session = Rc::new(RefCell::new(Session::new(true)));
+    session.borrow_mut().apply(FileCommand::Add(vec![moving("a.m3d")]));
+    session.borrow_mut().apply(QualityCommand::SetSamples(Some(12)));
+    let (mut harness, app) = start(&session, &Rc::default());
+    // Ends when no pass is asked for.
+    harness.run();
+    let drawn = |app: &Shared<Option<App>>| app.borrow().as_ref().map(|app| (app.samples(), app.frames_rendered()));
+    let (samples, frames) = drawn(&app).expect("it runs");
+    assert_eq!(samples, 12);
+    session.borrow_mut().apply(CameraCommand::Orbit {
+        yaw_radians: 0.3,
+        pitch_radians: 0.0,
+    });
+    harness.step();
+    assert_eq!(drawn(&app), Some((1, frames + 1)));
+    harness.run();
+    assert_eq!(drawn(&app), Some((12, frames + 1)));
 }
 
 #[test]

@@ -59,7 +59,11 @@ fn a_native_device_draws_what_browsers_draw() {
 
     let mut differing = Vec::new();
     let mut compare = |name: &str, adjust: &dyn Fn(&mut FrameOptions)| {
-        let drawn = app.borrow_mut().as_mut().expect("it ran").draw_snapshot(SIZE, adjust);
+        let drawn = app
+            .borrow_mut()
+            .as_mut()
+            .expect("it ran")
+            .draw_snapshot(SIZE, Some(1), adjust);
         let pixels = drawn.and_then(Picture::pixels_blocking).expect("a small picture");
         let drawn = RgbaImage::from_raw(SIZE[0], SIZE[1], pixels).expect("as large as asked");
         let beside = format!("{}/browser-{name}-native.png", env!("CARGO_TARGET_TMPDIR"));

@@ -313,7 +313,11 @@ fn p_asks_for_a_picture_as_large_as_the_window_and_shift_leaves_the_ground_out()
     window.press(SHIFT, Key::P);
     window.press(CTRL, Key::P);
     let size = [1440, 900];
-    let pictures = [false, true].map(|transparent| Request::SavePicture { size, transparent });
+    let pictures = [false, true].map(|transparent| Request::SavePicture {
+        size,
+        transparent,
+        aperture: 0.0,
+    });
     assert_eq!(window.harness.state().requests, pictures);
 }
 

@@ -177,7 +177,7 @@ fn what_is_less_fine_for_speed_is_said_and_can_be_insisted_on() {
     let at = window.rect("Lighting").center();
     window.harness.hover_at(at);
     window.wait(0.6);
-    let note = "50 % of the pixels each way: frames took 200 ms";
+    let note = "50 % of the pixels each way, no smooth edges: frames took 200 ms";
     assert!(
         window
             .named(|name| name.starts_with("Light and background") && name.ends_with(&format!("While it moves: {note}")))
@@ -189,7 +189,9 @@ fn what_is_less_fine_for_speed_is_said_and_can_be_insisted_on() {
     assert!(window.shows(note));
     slow_frames(&mut window, 24);
     window.pass_on();
-    assert!(window.shows("50 % of the pixels each way, no ambient occlusion, coarser shadows: frames took 200 ms"));
+    assert!(window.shows(
+        "50 % of the pixels each way, no smooth edges, no ambient occlusion, coarser shadows: frames took 200 ms"
+    ));
     assert_eq!(
         window.node("Ambient occlusion").data().description(),
         Some("Drawn only at rest")

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use bindpose::app::{App, AppOptions};
-use bindpose::session::{Command, ExportedFile, File, FileCommand, Session};
+use bindpose::session::{Command, ExportedFile, File, FileCommand, QualityCommand, Session};
 use bindpose::ui::{self, DrawerPage, Mirror, MirrorAction, MirrorNode, Request, UiState};
 use egui::accesskit::{Action, ActionData, ActionRequest, Role};
 use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, Rect, TouchPhase, Vec2};
@@ -352,13 +352,14 @@ pub(crate) fn wheel_event(unit: MouseWheelUnit, delta: Vec2, modifiers: Modifier
     }
 }
 
-/// The app over a session, with panels as at first and a clock that stands still.
+/// The app over a session, with panels as at first and a clock that stands still. It draws with the CPU: pictures at rest are not refined.
 pub(crate) fn new_app(
     ctx: &egui::Context,
     gpu: &egui_wgpu::RenderState,
     session: &Rc<RefCell<Session>>,
     coarse_pointer: bool,
 ) -> App {
+    session.borrow_mut().apply(QualityCommand::SetSamples(Some(1)));
     App::new(ctx, gpu, Rc::clone(session), Rc::default(), app_options(coarse_pointer))
 }
 

@@ -273,7 +273,11 @@ fn behind_the_dots_of_a_phone_is_all_that_the_bar_has() {
     window.click("Save PNG");
     let size = [390, 844];
     let transparent = false;
-    let picture = Request::SavePicture { size, transparent };
+    let picture = Request::SavePicture {
+        size,
+        transparent,
+        aperture: 0.0,
+    };
     assert_eq!(window.harness.state().requests, [picture]);
     window.click("More");
     window.click("Turntable");

@@ -67,7 +67,7 @@ fn a_model_that_the_gpu_refuses_leaves_the_one_before_drawn_picked_and_told() {
             .borrow_mut()
             .as_mut()
             .expect("it ran")
-            .draw_snapshot([96, 64], |_| {});
+            .draw_snapshot([96, 64], None, |_| {});
         drawn.and_then(Picture::pixels_blocking).expect("a small picture")
     };
     session

@@ -32,7 +32,11 @@ fn sizes_are_chosen_by_name() {
         let transparent = false;
         assert_eq!(
             pictures(&window).last(),
-            Some(&Request::SavePicture { size, transparent })
+            Some(&Request::SavePicture {
+                size,
+                transparent,
+                aperture: 0.0
+            })
         );
     }
 }
@@ -53,7 +57,11 @@ fn sizes_are_typed_and_refused_out_of_reach() {
         let (size, transparent) = ([width, 900], false);
         assert_eq!(
             pictures(&window).last(),
-            Some(&Request::SavePicture { size, transparent })
+            Some(&Request::SavePicture {
+                size,
+                transparent,
+                aperture: 0.0
+            })
         );
     }
 }
@@ -64,7 +72,14 @@ fn the_ground_is_left_out_when_asked() {
     window.click("Transparent ground");
     window.click("Save PNG");
     let (size, transparent) = ([1440, 900], true);
-    assert_eq!(pictures(&window), [Request::SavePicture { size, transparent }]);
+    assert_eq!(
+        pictures(&window),
+        [Request::SavePicture {
+            size,
+            transparent,
+            aperture: 0.0
+        }]
+    );
 }
 
 #[test]
@@ -132,7 +147,14 @@ fn a_contact_sheet_is_asked_for_as_chosen() {
     window.click("Save PNG");
     let (size, transparent) = ([2048, 2048], false);
     let last = pictures(&window).last().cloned();
-    assert_eq!(last, Some(Request::SavePicture { size, transparent }));
+    assert_eq!(
+        last,
+        Some(Request::SavePicture {
+            size,
+            transparent,
+            aperture: 0.0
+        })
+    );
 }
 
 #[test]

@@ -64,7 +64,7 @@ impl Session {
 
     /// Vertices that the selected joint moves for the greater part, with its bones; or the selected vertex or triangle with a little
     /// around it; or those of the selected submesh. World space, as they are posed now.
-    fn selected_points(&mut self) -> Vec<Vec3> {
+    pub(in crate::session) fn selected_points(&mut self) -> Vec<Vec3> {
         self.pose_vertices();
         let around_vertex = VERTEX_ROOM * self.selected_bounds().radius();
         let world_from_model = self.world_from_model();

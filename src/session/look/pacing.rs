@@ -50,15 +50,20 @@ const FULL: Step = Step {
     draws_occlusion: true,
     smooths_edges: true,
 };
-const HALF: Step = Step { scale: 0.5, ..FULL };
+const PLAIN: Step = Step {
+    smooths_edges: false,
+    ..FULL
+};
+const HALF: Step = Step { scale: 0.5, ..PLAIN };
 
-/// From the finest to the coarsest: first fewer pixels, which the compositor filters, then fewer samples of ambient occlusion, fewer
-/// taps of shadows, no ambient occlusion. Reflections stay: they are one lookup a pixel.
-const STEPS: [Step; 8] = [
+/// From the finest to the coarsest: first one sample a pixel, which halves what is written, then fewer pixels, which the compositor filters,
+/// then fewer samples of ambient occlusion, fewer taps of shadows, no ambient occlusion. Reflections stay: they are one lookup a pixel.
+const STEPS: [Step; 9] = [
     FULL,
-    Step { scale: 0.85, ..FULL },
-    Step { scale: 0.7, ..FULL },
-    Step { scale: 0.6, ..FULL },
+    PLAIN,
+    Step { scale: 0.85, ..PLAIN },
+    Step { scale: 0.7, ..PLAIN },
+    Step { scale: 0.6, ..PLAIN },
     HALF,
     Step {
         occlusion: Detail::Low,
@@ -77,7 +82,7 @@ const STEPS: [Step; 8] = [
     },
 ];
 /// The last step that has fewer pixels than the one before.
-const COARSEST_SCALE: usize = 4;
+const COARSEST_SCALE: usize = 5;
 
 /// Judges how long frames of a moving picture take.
 #[derive(Clone, Debug, PartialEq)]
@@ -128,27 +133,13 @@ impl Default for Pacer {
 }
 
 impl Pacer {
-    const COARSEST: Step = STEPS[STEPS.len() - 1];
+    /// What is drawn at the coarsest step.
+    pub const COARSEST: Step = STEPS[STEPS.len() - 1];
     pub const FINEST: Step = FULL;
 
     /// What to draw while the picture moves.
     pub fn step(&self) -> Step {
-        self.on_this_device(STEPS[self.step])
-    }
-
-    /// What is drawn at the coarsest step.
-    pub fn coarsest(&self) -> Step {
-        self.on_this_device(Self::COARSEST)
-    }
-
-    /// A device that draws with its CPU takes up to twice as long for four samples a pixel as for one. It has them only where the compositor
-    /// does not smooth pixels into each other anyway.
-    fn on_this_device(&self, step: Step) -> Step {
-        let is_slow = self.first_step > 0;
-        Step {
-            smooths_edges: !is_slow || step.scale > HALF.scale,
-            ..step
-        }
+        STEPS[self.step]
     }
 
     /// How long three of four of the frames took that were judged last, seconds; 0 before.
@@ -167,6 +158,11 @@ impl Pacer {
     pub fn set_slow_device(&mut self, slow: bool) {
         self.first_step = if slow { COARSEST_SCALE } else { 0 };
         self.restart();
+    }
+
+    /// Whether it does.
+    pub(in crate::session) fn is_slow_device(&self) -> bool {
+        self.first_step > 0
     }
 
     /// Begins anew, as for another model.
@@ -257,11 +253,14 @@ impl Pacer {
     /// The next step, or the first whose pixels are few enough if their number decides.
     fn coarser(&self) -> usize {
         let next = self.step + 1;
-        if next > COARSEST_SCALE {
+        let share = if self.by_gpu { GPU_SHARE } else { 1.0 };
+        // One sample a pixel takes half of the time of four, or more.
+        let faster = if self.step == 0 { 2.0 } else { 1.0 };
+        let part = self.target_secs * share * faster / self.frame_secs;
+        if next > COARSEST_SCALE || (self.step == 0 && part >= 1.0) {
             return next;
         }
-        let share = if self.by_gpu { GPU_SHARE } else { 1.0 };
-        let wanted = self.step().scale * (self.target_secs * share / self.frame_secs).sqrt();
+        let wanted = self.step().scale * part.sqrt();
         let fits = (next..COARSEST_SCALE).find(|&step| STEPS[step].scale <= wanted);
         fits.unwrap_or(COARSEST_SCALE)
     }

@@ -92,7 +92,18 @@ pub enum QualityCommand {
     SetDisplayInterval(f32),
     /// Whether the device draws with its CPU.
     SetSlowDevice(bool),
+    /// Of how many pictures one at rest, or one that is saved, is the mean.
+    SetSamples(Option<u32>),
+    /// Whether energy is to be saved: a battery drives the device, or the person wants less motion.
+    SetSparing(bool),
 }
+
+/// Of so many pictures one at rest is the mean, where nothing else is asked for …
+const SAMPLES: u32 = 64;
+/// … and of so many where energy is saved.
+const FEW_SAMPLES: u32 = 16;
+/// More are not asked for.
+pub const MOST_SAMPLES: u32 = 4096;
 
 /// What is drawn less finely than it could be, while the picture moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -131,6 +142,8 @@ pub struct Quality {
     times_frame: bool,
     /// What the GPU took for a frame of late, if it tells.
     gpu_secs: Option<f32>,
+    samples: Option<u32>,
+    sparing: bool,
 }
 
 impl Quality {
@@ -185,6 +198,26 @@ impl Quality {
         self.render_scale.fraction() * self.step().scale
     }
 
+    /// Of how many pictures one that is saved is the mean. A device that draws with its CPU draws one, unless more are asked for.
+    pub fn samples(&self) -> u32 {
+        self.samples
+            .unwrap_or_else(|| match (self.pacer.is_slow_device(), self.sparing) {
+                (true, _) => 1,
+                (false, true) => FEW_SAMPLES,
+                (false, false) => SAMPLES,
+            })
+    }
+
+    /// Whether that many were asked for, however long they take.
+    pub fn samples_are_chosen(&self) -> bool {
+        self.samples.is_some()
+    }
+
+    /// Whether nothing moves, nor did a moment ago.
+    pub fn is_at_rest(&self) -> bool {
+        !self.in_motion
+    }
+
     /// Whether pixels at edges are made of several samples now.
     pub fn smooths_edges_now(&self) -> bool {
         self.step().smooths_edges
@@ -232,8 +265,9 @@ impl Quality {
 
     /// In how many seconds the picture rests, if nothing moves until then. None when it rests, or when it would be the same.
     pub fn rests_in_secs(&self) -> Option<f32> {
-        let is_lowered = (self.in_motion && self.moving_step() != Pacer::FINEST) || !self.poses_all();
-        is_lowered.then_some((REST_SECS - self.rested_secs).max(0.0))
+        let is_finer = self.moving_step() != Pacer::FINEST || self.samples() > 1;
+        let will_differ = (self.in_motion && is_finer) || !self.poses_all();
+        will_differ.then_some((REST_SECS - self.rested_secs).max(0.0))
     }
 
     /// What is drawn while the picture moves.
@@ -241,7 +275,7 @@ impl Quality {
         match self.mode {
             QualityMode::Auto => self.pacer.step(),
             QualityMode::Full => Pacer::FINEST,
-            QualityMode::Low => self.pacer.coarsest(),
+            QualityMode::Low => Pacer::COARSEST,
         }
     }
 
@@ -259,6 +293,7 @@ impl Quality {
         pacer.restart();
         Self {
             pacer,
+            sparing: self.sparing,
             ..Self::default()
         }
     }
@@ -277,6 +312,8 @@ impl Quality {
             QualityCommand::SetRenderScale(scale) => self.render_scale = scale,
             QualityCommand::SetDisplayInterval(secs) => self.pacer.set_display_secs(secs),
             QualityCommand::SetSlowDevice(slow) => self.pacer.set_slow_device(slow),
+            QualityCommand::SetSamples(samples) => self.samples = samples.map(|count| count.clamp(1, MOST_SAMPLES)),
+            QualityCommand::SetSparing(sparing) => self.sparing = sparing,
         }
     }
 

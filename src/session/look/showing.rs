@@ -6,7 +6,7 @@ use super::skeleton_cache::{PlaceKey, SkinColorsKey};
 use super::view::View;
 use crate::anim::{Extent, JointReadout, SkinView, VertexExplanation, explain_vertex};
 use crate::model::{JointIndex, Skeleton};
-use crate::scene::{BoneColors, Bones, Crowd, Ground, LabelPlace, RenderFrame, Screen, label_places};
+use crate::scene::{Aabb, BoneColors, Bones, Crowd, Ground, LabelPlace, RenderFrame, Screen, label_places};
 use crate::session::{Caches, Session};
 
 impl Session {
@@ -26,8 +26,10 @@ impl Session {
     /// The same for a picture that is saved: as at rest, with all detail, and without the mark of the selected instance.
     pub fn frame_at_rest(&mut self) -> RenderFrame<'_> {
         let passes = self.quality.wanted();
+        let selected = Aabb::from_points(self.selected_points());
         self.prepare(true);
         let mut frame = self.prepared_frame();
+        frame.options.focus = (!selected.is_empty()).then(|| selected.center());
         frame.options.passes = passes;
         (frame.options.occlusion_detail, frame.options.shadow_detail) = Default::default();
         frame
@@ -56,6 +58,7 @@ impl Session {
             vertex_colors: self.caches.overlays.vertex_colors(),
             ghosts: self.caches.overlays.ghosts(),
             seen_through: Some(self.caches.overlays.geometry()),
+            sample: None,
             options: self.frame_options(),
         }
     }

@@ -106,6 +106,8 @@ impl View {
             exposure_stops: look.exposure_stops,
             book_lights_turn_radians: look.book_lights_turn_radians,
             normal_green_flipped: look.normal_green_flipped,
+            aperture: 0.0,
+            focus: None,
         }
     }
 

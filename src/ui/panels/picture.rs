@@ -2,11 +2,12 @@
 
 use egui::{Id, Rangef, Ui, UiBuilder, vec2};
 
-use crate::actions;
+use crate::actions::{self, Control};
+use crate::scene::FrameOptions;
 use crate::session::Session;
 use crate::ui::kit::theme::Tokens;
 use crate::ui::kit::{
-    MenuLine, TextButton, choices, choose, control_size, menu_item, number_field, progress_bar, section_name,
+    MenuLine, Slider, TextButton, choices, choose, control_size, menu_item, number_field, progress_bar, section_name,
     switch_row,
 };
 use crate::ui::state::{MAX_PICTURE_SIDE, UiState};
@@ -47,6 +48,20 @@ pub(in crate::ui) fn show(ui: &mut Ui, session: &Session, state: &mut UiState) {
     ui.add_space(6.0);
     let transparent = &mut state.picture.transparent;
     *transparent ^= switch_row(ui, "Transparent ground", "", *transparent).clicked();
+    ui.add_space(6.0);
+    if !session.view_state().camera.orthographic {
+        let aperture = state.picture.aperture;
+        let text = if aperture > 0.0 {
+            format!("{:.0} %", aperture * 100.0)
+        } else {
+            "Off".to_owned()
+        };
+        let named = ("Depth of field", Control::new("depth-of-field"));
+        let slider = Slider::new(named, aperture, 0.0..=FrameOptions::WIDEST_APERTURE, &text);
+        if let Some(chosen) = slider.reset_to(0.0).show(ui) {
+            state.picture.aperture = chosen;
+        }
+    }
     popover_gap(ui);
     let save = &actions::SAVE_PICTURE;
     if TextButton::new(save.label, &save.hint()).show_wide(ui).clicked() {

@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 
 use bindpose::light::LAMP_RADIUS_RADIANS;
-use bindpose::shaders::{BOOK_WGSL, Environment, MESH_STUDIO, STUDIO_LIGHT, TONE_MAP_WGSL};
+use bindpose::shaders::{BOOK_WGSL, Environment, STUDIO_LIGHT, TONE_MAP_WGSL};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 use crate::twins::book::{BOOK_AMBIENT, BOOK_STRENGTHS};
@@ -108,17 +108,6 @@ fn numbers(module: &naga::Module, expression: naga::Handle<naga::Expression>) ->
 fn a_white_surface_that_faces_the_lamp_shows_its_colour() {
     assert_eq!(constant(&module(), "LAMP_RADIANCE"), [LAMP_RADIANCE]);
     assert!((LAMP_RADIANCE * LAMP_RADIUS_RADIANS.sin().powi(2) - 1.0).abs() < 1e-5);
-}
-
-#[test]
-fn the_shadow_is_of_the_same_lamp() {
-    let source = MESH_STUDIO.source();
-    let module =
-        naga::front::wgsl::parse_str(&source).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&source)));
-    let [tangent] = constant(&module, "LAMP_TANGENT")[..] else {
-        panic!("one number")
-    };
-    assert!((tangent - LAMP_RADIUS_RADIANS.tan()).abs() < 1e-6, "{tangent}");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use bindpose::session::for_tests::{Pacer, Step};
 /// All is drawn.
 const FULL: Step = Pacer::FINEST;
 /// How many steps there are, and how long the pacer waits before it tries a finer one for the first time.
-const STEPS: f32 = 8.0;
+const STEPS: f32 = 9.0;
 const FIRST_WAIT_SECS: f32 = 2.0;
 /// A frame that takes longer is late.
 const LATE_SECS: f32 = 1.25 / 60.0;
@@ -26,7 +26,8 @@ impl Device {
             (true, Detail::Low) => 0.8,
             (true, Detail::Full) => 1.0,
         };
-        let drawn = self.fixed_secs + self.pixels_secs * step.scale * step.scale * samples;
+        let edges = if step.smooths_edges { 1.0 } else { 0.8 };
+        let drawn = self.fixed_secs + self.pixels_secs * step.scale * step.scale * samples * edges;
         // The display shows whole frames.
         (drawn / self.display_secs).ceil() * self.display_secs
     }
@@ -83,10 +84,21 @@ fn a_device_of_20_frames_draws_fewer_pixels_and_no_fewer_than_it_needs() {
 }
 
 #[test]
+fn one_sample_a_pixel_comes_before_fewer_pixels() {
+    let (device, mut pacer) = device(0.019, 60.0);
+    device.play(&mut pacer, 3.0);
+    let plain = Step {
+        smooths_edges: false,
+        ..FULL
+    };
+    assert_eq!(pacer.step(), plain);
+}
+
+#[test]
 fn a_device_of_5_frames_comes_to_the_coarsest_step_in_seconds() {
     let (device, mut pacer) = device(0.2, 60.0);
     device.play(&mut pacer, 4.0);
-    assert_eq!(pacer.step(), pacer.coarsest());
+    assert_eq!(pacer.step(), Pacer::COARSEST);
 }
 
 #[test]
@@ -144,7 +156,7 @@ fn a_slow_device_begins_with_few_pixels_and_returns_there_with_another_model() {
     assert_eq!(pacer.step(), first);
     let (device, _) = device(1.5, 60.0);
     device.play(&mut pacer, 10.0);
-    assert_eq!(pacer.step(), pacer.coarsest());
+    assert_eq!(pacer.step(), Pacer::COARSEST);
     pacer.restart();
     assert_eq!(pacer.step(), first);
     let easy = Device {

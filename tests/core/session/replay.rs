@@ -107,6 +107,7 @@ fn told_to_renderer(session: &mut Session) -> [String; 2] {
         vertex_colors,
         ghosts,
         seen_through,
+        sample: _,
         options,
     } = session.frame();
     let colors = vertex_colors.map(|colors| colors.colors_srgb);

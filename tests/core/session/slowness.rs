@@ -195,7 +195,7 @@ fn a_quick_gpu_under_a_slow_page_draws_all() {
 fn a_slow_gpu_draws_fewer_pixels() {
     let mut window = Window::new(opened(moving("a.m3d")), 0.03);
     (window.page_secs, window.gpu_secs) = (0.02, Some(0.03));
-    assert_eq!(play(&mut window, 40), 0.7, "half of the pixels take 15 ms");
+    assert_eq!(play(&mut window, 60), 0.7, "half of the pixels take 15 ms");
     let lowered = window.session.quality().lowered().expect("lowered");
     assert!(
         (lowered.frame_secs - 0.0147).abs() < 1e-4,

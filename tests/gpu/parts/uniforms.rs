@@ -45,6 +45,7 @@ fn lengths_of_the_light_are_the_same_in_a_crowd() {
         vertex_colors: None,
         ghosts: Ghosts::default(),
         seen_through: None,
+        sample: None,
         options: FrameOptions::default(),
     };
     for count in [0, 1, 7] {
