@@ -19,7 +19,7 @@ struct Camera {
     view_mode: u32,
     forward_per_y: vec3<f32>,
     viewport_pixels: vec2<f32>,
-    // How far the picture is moved within its pixels, ndc: other than 0 where one at rest is drawn many times.
+    // How far the picture is moved, ndc: within its pixels, and back by what the lens moves it. Other than 0 where many are drawn for a mean.
     jitter: vec2<f32>,
     // Size of the maps of normals, depth and ambient occlusion in view, texels. Their textures may be larger.
     map_size: vec2<f32>,

@@ -31,8 +31,3 @@ fn pixel_of_ndc(ndc: vec2<f32>) -> vec2<f32> {
 fn stored_occlusion(visible: f32, packed: vec4<f32>) -> vec4<f32> {
     return vec4<f32>(visible, packed.ba, 1.0);
 }
-
-// 0..1, spread evenly over any small neighbourhood.
-fn pixel_noise(pixel: vec2<f32>) -> f32 {
-    return fract(52.9829189 * fract(dot(pixel, vec2<f32>(0.06711056, 0.00583715))) + light.noise_turn);
-}

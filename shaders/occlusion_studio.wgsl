@@ -50,7 +50,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     let reach = min(light.occlusion_radius / world_per_pixel, MOST_REACH * camera.map_size.y);
     let right = normalize(camera.eye_per_x + camera.forward_per_x);
     let up = normalize(camera.eye_per_y + camera.forward_per_y);
-    let noise = pixel_noise(view.clip.xy);
+    let noise = turned_noise(view.clip.xy, light.noise_turn);
     let start = 0.25 + 0.75 * fract(noise * 7.0 + 0.37);
 
     let slices = select(FEW_SLICES, SLICES, light.fine_occlusion == 1u);

@@ -91,7 +91,7 @@ fn soft_visibility(world_position: vec3<f32>, normal: vec3<f32>, turn: f32) -> f
     if nearest.x == 1e30 {
         return 1.0;
     }
-    let reach = select(nearest.y, reaches / found, found > 0.0);
+    let reach = select(nearest.y, reaches / max(found, 1.0), found > 0.0);
     let radius = clamp(reach, LEAST_SHADOW_TEXELS, MOST_SHADOW_TEXELS);
     var lit = 0.0;
     for (var i = 0u; i < light.shadow_taps; i++) {

@@ -1,31 +1,26 @@
 //! Draws a session on a GPU, for whoever has a surface: what changed is uploaded, what the GPU refuses is taken back, and a picture is drawn
 //! when it would differ. It knows no window and no interface; a lost GPU takes it along, and another one brings all of it back.
 
+mod at_rest;
+
 use std::cell::Cell;
 use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
 
 use crate::render::{
-    Accumulator, Compositor, GpuAnswer, Picture, PictureError, PictureTarget, Renderer, RendererOptions, SampleCount,
-    Target, UploadError, watched,
+    Compositor, GpuAnswer, Picture, PictureError, PictureTarget, Renderer, RendererOptions, SampleCount, Target,
+    UploadError, watched,
 };
 use crate::scene::{FrameCost, FrameOptions, RenderFrame};
 use crate::session::{Quality, Session};
 use crate::slices::Slices;
+use at_rest::{Mean, shown};
 
 /// Texels along each edge of the shadow map where fingers are the pointer: a phone has less memory to write to.
 const SMALL_SHADOW_MAP_SIDE: u32 = 1024;
 
-/// The mean of pictures at rest is of as many as a second has room for, but of so many at least. From there on it is shown.
-const LEAST_SAMPLES: u32 = 8;
-const SAMPLING_SECS: f64 = 1.0;
-/// So many are drawn in a pass of the window.
-const SAMPLES_A_PASS: u32 = 2;
 /// A picture with depth of field is the mean of so many at least.
 const LENS_SAMPLES: u32 = 16;
-/// Where the device has too little memory for the mean, the next try has this part of its width and height.
-const SMALLER: f32 = 0.75;
-
 /// How long what lights the model is worked on between two passes of the window, seconds.
 const REFINING_SECS: f64 = 0.006;
 
@@ -55,34 +50,6 @@ pub struct PainterOptions {
     pub draws_means: bool,
     /// Seconds since some moment.
     pub now_secs: fn() -> f64,
-}
-
-/// The mean of a picture at rest, and what its samples are drawn into.
-struct Mean {
-    accumulator: Accumulator,
-    target: Target,
-    /// What the GPU has not confirmed yet.
-    answer: Option<GpuAnswer>,
-    /// When the first sample was drawn.
-    since_secs: f64,
-    /// It is shown from so many on.
-    least: u32,
-}
-
-impl Mean {
-    fn new(device: &wgpu::Device, [width, height]: [u32; 2]) -> Self {
-        let ((accumulator, target), answer) = watched(device, || {
-            let target = Target::with_samples(device, width, height, SampleCount::One);
-            (Accumulator::new(device, &target), target)
-        });
-        Self {
-            accumulator,
-            target,
-            answer: Some(answer),
-            since_secs: 0.0,
-            least: LEAST_SAMPLES,
-        }
-    }
 }
 
 /// Draws a session: the renderer, the targets, and the revisions of what was uploaded and drawn.
@@ -221,72 +188,6 @@ impl SessionPainter {
         self.drawn = Some(wanted);
         self.frames_rendered += 1;
         Some(cost)
-    }
-
-    /// Whether the picture of now rests, and its mean is not of enough pictures yet.
-    pub fn is_sampling(&self, session: &Session) -> bool {
-        let quality = session.quality();
-        let rests = self.is_current(session) && quality.is_at_rest() && !session.is_moving();
-        let (count, since_secs) = self
-            .mean
-            .as_ref()
-            .map_or((0, 0.0), |mean| (mean.accumulator.count(), mean.since_secs));
-        let is_late = !quality.samples_are_chosen() && (self.now_secs)() - since_secs > SAMPLING_SECS;
-        let least = quality.samples().min(LEAST_SAMPLES);
-        let goes_on = quality.samples() > 1 && count < quality.samples() && (count < least || !is_late);
-        self.draws_means && rests && goes_on && session.open_model().is_some()
-    }
-
-    /// How many pictures the one in the window is the mean of.
-    pub fn samples(&self) -> u32 {
-        shown(self.mean.as_ref()).map_or(1, Accumulator::count)
-    }
-
-    /// Adds some pictures to the mean of one that rests.
-    fn draw_samples(&mut self, session: &mut Session, size: [u32; 2], compositor: &mut Compositor) {
-        if !self.is_sampling(session) {
-            return;
-        }
-        let device = self.device.clone();
-        let mean = self.mean.get_or_insert_with(|| Mean::new(&device, size));
-        if mean.target.size() != size {
-            let ((), answer) = watched(&device, || {
-                if !mean.target.resize(&device, size, size) {
-                    mean.accumulator = Accumulator::new(&device, &mean.target);
-                }
-            });
-            mean.accumulator.restart();
-            mean.answer = Some(answer);
-        }
-        if let Some(mut answer) = mean.answer.take() {
-            match answer.as_mut().poll(&mut Context::from_waker(&self.waker)) {
-                Poll::Ready(Ok(())) => {}
-                Poll::Ready(Err(_)) => {
-                    // It has too little memory: the picture stays as it is, and a smaller one is tried.
-                    self.affordable_at_rest *= SMALLER;
-                    self.mean = None;
-                    self.renderer.forget_samples();
-                    return;
-                }
-                Poll::Pending => mean.answer = Some(answer),
-            }
-        }
-        if mean.accumulator.count() == 0 {
-            mean.since_secs = (self.now_secs)();
-        }
-        let samples = session.quality().samples();
-        mean.least = samples.min(LEAST_SAMPLES);
-        let frame = session.frame();
-        for _ in 0..SAMPLES_A_PASS.min(samples - mean.accumulator.count()) {
-            self.renderer
-                .accumulate(&frame, &mut mean.target, &mut mean.accumulator);
-        }
-        let drawn = if session.quality().smooths_edges_now() {
-            &self.target
-        } else {
-            &self.plain_target
-        };
-        compositor.prepare(&device, &self.queue, drawn, shown(self.mean.as_ref()));
     }
 
     /// Shows the GPU's error about a resized target in the session, if there is one.
@@ -476,10 +377,4 @@ impl SessionPainter {
         }
         Ok(())
     }
-}
-
-/// The mean, once the device has memory for it and it is of enough pictures to be shown.
-fn shown(mean: Option<&Mean>) -> Option<&Accumulator> {
-    let mean = mean.filter(|mean| mean.answer.is_none() && mean.accumulator.count() >= mean.least)?;
-    Some(&mean.accumulator)
 }

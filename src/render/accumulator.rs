@@ -30,17 +30,24 @@ impl Accumulator {
             filtered_texture(),
             uniform::<shaders::Accumulation>(),
         ];
-        let usages = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
-        let mean = |_| flat_texture(device, "mean", target.capacity(), MEAN_FORMAT, usages);
         Self {
             pass: FullscreenPass::new(device, &shaders::ACCUMULATE, "fragment", &bindings, MEAN_FORMAT),
             uniform: uniform_buffer::<shaders::Accumulation>(device, "accumulation"),
-            means: [0, 1].map(mean),
+            means: means(device, target),
             source: None,
             size: target.size(),
             count: 0,
             dithers: false,
         }
+    }
+
+    /// Follows a target that was resized, and forgets the pictures.
+    pub fn follow(&mut self, device: &wgpu::Device, target: &Target) {
+        if self.capacity() != target.capacity() {
+            self.means = means(device, target);
+            self.source = None;
+        }
+        self.restart();
     }
 
     fn capacity(&self) -> [u32; 2] {
@@ -112,4 +119,9 @@ impl Accumulator {
         }
         self.count += 1;
     }
+}
+
+fn means(device: &wgpu::Device, target: &Target) -> [wgpu::TextureView; 2] {
+    let usages = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+    [0, 1].map(|_| flat_texture(device, "mean", target.capacity(), MEAN_FORMAT, usages))
 }

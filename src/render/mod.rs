@@ -6,7 +6,7 @@
 //! [`read_back`] turns it into bytes, so a browser, a snapshot, the command line and the tests all see the same pixels.
 //!
 //! Only what WebGL2 has is used: no storage buffers and no compute. Joint matrices come from a texture, and textures that are drawn
-//! into and then read have eight bits a channel.
+//! into and then read have eight bits a channel, but for the mean of a picture at rest, which is left out where half floats cannot be drawn.
 
 mod accumulator;
 mod blending;
@@ -49,7 +49,7 @@ pub use target::{SampleCount, Target};
 
 use crate::image::Image;
 use crate::model::{Material, Model};
-use crate::scene::{FrameCost, FrameOptions, Ghosts, Overlay, Overlays, RenderFrame, ViewMode};
+use crate::scene::{FrameCost, RenderFrame, ViewMode};
 use crate::slices::Slices;
 use buffers::bind_group;
 use environment::Environments;
@@ -57,7 +57,8 @@ use instances::{Instances, Roster};
 use light_passes::{Common, Samplers};
 use maps::{MapTextures, one_texel};
 use model::GpuModel;
-use overlays::Overlays as OverlayBuffers;
+use overlays::Overlays;
+use picture::PictureMean;
 use pipelines::Pipelines;
 use recipe::Draw;
 use timing::{FrameEncoder, FrameTimer};
@@ -89,7 +90,7 @@ pub struct Renderer {
     /// Of the samples of a picture at rest.
     at_rest: View,
     instances: Instances,
-    overlays: OverlayBuffers,
+    overlays: Overlays,
     /// Bound where a program's layout has bones but none are read.
     no_bones: BoneTexture,
     maps: MapTextures,
@@ -159,7 +160,7 @@ impl Renderer {
             window: View::default(),
             at_rest: View::default(),
             instances: Instances::new(device),
-            overlays: OverlayBuffers::new(device, &pipelines.layouts),
+            overlays: Overlays::new(device, &pipelines.layouts),
             no_bones: BoneTexture::new(device, &pipelines.layouts.bones, 0),
             maps: MapTextures::new(device, &queue),
             common: Common {
@@ -346,18 +347,9 @@ impl Renderer {
     /// Adds one more picture of a frame at rest to a mean, by a target with one sample a pixel and no layer. What lies over the model is
     /// left out.
     pub fn accumulate(&mut self, frame: &RenderFrame<'_>, target: &mut Target, accumulator: &mut Accumulator) {
-        let mut overlays = Overlays::none();
-        overlays.set(Overlay::Grid, frame.options.overlays.has(Overlay::Grid));
         let sample = RenderFrame {
             sample: Some(accumulator.count()),
-            highlighted_submesh: None,
-            ghosts: Ghosts::default(),
-            seen_through: None,
-            options: FrameOptions {
-                overlays,
-                ..frame.options
-            },
-            ..frame.clone()
+            ..frame.without_overlays()
         };
         let mut encoder = FrameEncoder::new(&self.common.device, "sample");
         self.draw(&sample, target, &mut encoder, false);
@@ -391,15 +383,16 @@ impl Renderer {
         } else {
             self.options.samples
         };
-        Picture::start(&device, &queue, (per_pixel, samples > 1), target, |target| {
+        Picture::start(&device, &queue, (per_pixel, samples > 1), target, |target, mean| {
             if samples > 1 {
-                self.draw_mean(frame, target, samples);
+                self.draw_mean(frame, target, mean, samples);
             } else {
                 self.draw_alone(frame, target, "picture");
             }
             // A window at rest would hold what a large picture took.
             if let Some(window) = self.window_capacity {
                 self.window.drop_textures(1, window);
+                self.at_rest.drop_textures(0, window);
             }
         })
     }
@@ -412,23 +405,37 @@ impl Renderer {
     }
 
     /// Draws the mean of so many pictures into a target, and what lies over the model once.
-    fn draw_mean(&mut self, frame: &RenderFrame<'_>, target: &mut Target, samples: u32) {
-        let device = self.common.device.clone();
-        let mut mean = Accumulator::new(&device, target);
+    fn draw_mean(
+        &mut self,
+        frame: &RenderFrame<'_>,
+        target: &mut Target,
+        mean: &mut Option<PictureMean>,
+        samples: u32,
+    ) {
+        let (device, per_pixel) = (self.common.device.clone(), self.options.samples);
+        let layer = |[width, height]: [u32; 2]| Target::with_samples(&device, width, height, per_pixel).with_layer();
+        let mean = mean.get_or_insert_with(|| PictureMean {
+            accumulator: Accumulator::new(&device, target),
+            over: layer([1; 2]),
+            compositor: Compositor::into_picture(&device),
+        });
+        mean.accumulator.restart();
         for _ in 0..samples {
-            self.accumulate(frame, target, &mut mean);
+            self.accumulate(frame, target, &mut mean.accumulator);
         }
-        self.forget_samples();
-        let is_covered = frame.has_overlays().contains(&true);
-        let [width, height] = if is_covered { target.size() } else { [1; 2] };
-        let mut over = Target::with_samples(&device, width, height, self.options.samples).with_layer();
-        if is_covered {
-            self.draw_alone(frame, &mut over, "layer");
+        if !frame.has_overlays().contains(&true) {
+            mean.over = layer([1; 2]);
+        } else {
+            if mean.over.size() != target.size() {
+                mean.over = layer(target.size());
+            }
+            self.draw_alone(frame, &mut mean.over, "layer");
         }
-        let mut compositor = Compositor::into_picture(&device);
-        compositor.prepare(&device, &self.common.queue.inner, &over, Some(&mean));
+        let queue = &self.common.queue.inner;
+        mean.compositor
+            .prepare(&device, queue, &mean.over, Some(&mean.accumulator));
         let mut encoder = FrameEncoder::new(&device, "mean");
-        compositor.paint(&mut target.begin_picture(&mut encoder));
-        self.common.queue.inner.submit([encoder.commands.finish()]);
+        mean.compositor.paint(&mut target.begin_picture(&mut encoder));
+        queue.submit([encoder.commands.finish()]);
     }
 }

@@ -1,5 +1,7 @@
 //! A picture by itself, of any size that the device can draw: complete, or an error.
 
+use super::accumulator::Accumulator;
+use super::composite::Compositor;
 use super::device::{GpuAnswer, GpuError, answer_at_once, watched};
 use super::read_back::{Pending, ReadBackError};
 use super::target::{BYTES_PER_MEAN_PIXEL, SampleCount, Target, pixels};
@@ -51,6 +53,17 @@ pub struct PictureTarget {
     samples: u32,
     /// `None` until the first picture.
     target: Option<Target>,
+    /// `None` until the first mean.
+    mean: Option<PictureMean>,
+}
+
+/// What the mean of many pictures is made with.
+pub(super) struct PictureMean {
+    pub(super) accumulator: Accumulator,
+    /// Has the layer with what lies over the model.
+    pub(super) over: Target,
+    /// Brings both together.
+    pub(super) compositor: Compositor,
 }
 
 impl PictureTarget {
@@ -60,6 +73,7 @@ impl PictureTarget {
             size,
             samples: 1,
             target: None,
+            mean: None,
         }
     }
 
@@ -100,16 +114,16 @@ impl Picture {
         queue: &wgpu::Queue,
         (samples, is_mean): (SampleCount, bool),
         into: &mut PictureTarget,
-        draw: impl FnOnce(&mut Target),
+        draw: impl FnOnce(&mut Target, &mut Option<PictureMean>),
     ) -> Result<Self, PictureError> {
-        let PictureTarget { size, target, .. } = into;
+        let PictureTarget { size, target, mean, .. } = into;
         let size = *size;
         fits(&device.limits(), size)?;
         let ((proof, pixels), answer) = watched(device, || {
             let target = target.get_or_insert_with(|| Target::with_samples(device, size[0], size[1], samples));
             target.fill(device, queue, wgpu::Color::WHITE);
             let proof = Pending::start(device, queue, target, [1, 1]);
-            draw(target);
+            draw(target, mean);
             (proof, Pending::start(device, queue, target, size))
         });
         Ok(Self {

@@ -108,6 +108,23 @@ impl RenderFrame<'_> {
         ]
     }
 
+    /// The same without all that [`RenderFrame::has_overlays`] tells of. The grid stays: it lies on the ground.
+    #[must_use]
+    pub fn without_overlays(&self) -> Self {
+        let mut options = self.options;
+        options.overlays = Overlays::none();
+        options
+            .overlays
+            .set(Overlay::Grid, self.options.overlays.has(Overlay::Grid));
+        Self {
+            highlighted_submesh: None,
+            ghosts: Ghosts::default(),
+            seen_through: None,
+            options,
+            ..self.clone()
+        }
+    }
+
     /// Whether a pass is drawn in the part of the picture that has this light: [`FrameOptions::draws_under`], and not only colours of
     /// vertices are shown, which do not use it.
     pub fn draws_under(&self, pass: Pass, light: Light) -> bool {

@@ -137,10 +137,10 @@ programs! {
     ]
 
     /// Ambient occlusion of the DirectX 12 book.
-    OCCLUSION_BOOK "occlusion-book" ["camera" "light" "geometry" "occlusion" "fullscreen" "occlusion_book"]
+    OCCLUSION_BOOK "occlusion-book" ["camera" "light" "color" "geometry" "occlusion" "fullscreen" "occlusion_book"]
 
     /// Ambient occlusion by horizons.
-    OCCLUSION_STUDIO "occlusion-studio" ["camera" "light" "geometry" "occlusion" "fullscreen" "occlusion_studio"]
+    OCCLUSION_STUDIO "occlusion-studio" ["camera" "light" "color" "geometry" "occlusion" "fullscreen" "occlusion_studio"]
 
     /// Blurs ambient occlusion, but not across edges.
     OCCLUSION_BLUR "occlusion-blur" ["camera" "light" "geometry" "occlusion" "fullscreen" "occlusion_blur"]

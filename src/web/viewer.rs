@@ -128,7 +128,8 @@ impl Viewer {
 
     /// A picture of the view without the interface, as the bytes of a PNG. `width` and `height` are those of the canvas where they are
     /// absent. `transparent`, `light`, `viewMode`, `background`, `split` and `overlays` (an array of names) may have it drawn in another
-    /// way than the window shows; the names are those of the command line.
+    /// way than the window shows; the names are those of the command line. It is the mean of so many `samples`, 1 to 4096, where they are
+    /// given; `aperture`, 0 to 0.5, is the lens' diameter as a part of the distance to what is in focus.
     ///
     /// Rejects when the viewer is not running, the size is not possible, a name is none, or the GPU fails.
     pub fn snapshot(&self, options: JsValue) -> Promise {
