@@ -8,13 +8,13 @@ use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
 
 use crate::render::{
-    Compositor, GpuAnswer, Picture, PictureError, PictureTarget, Renderer, RendererOptions, SampleCount, Target,
-    UploadError, watched,
+    Accumulator, Compositor, GpuAnswer, Picture, PictureError, PictureTarget, Renderer, RendererOptions, SampleCount,
+    Target, UploadError, watched,
 };
 use crate::scene::{FrameCost, FrameOptions, RenderFrame};
 use crate::session::{Quality, Session};
 use crate::slices::Slices;
-use at_rest::{Mean, shown};
+use at_rest::AtRest;
 
 /// Texels along each edge of the shadow map where fingers are the pointer: a phone has less memory to write to.
 const SMALL_SHADOW_MAP_SIDE: u32 = 1024;
@@ -62,11 +62,7 @@ pub struct SessionPainter {
     target: Target,
     /// With one sample a pixel, for pictures without smooth edges.
     plain_target: Target,
-    draws_means: bool,
-    /// Of a picture at rest; made when the first rests.
-    mean: Option<Mean>,
-    /// The part of the window's width and height that the device has memory for at rest.
-    affordable_at_rest: f32,
+    at_rest: AtRest,
     model: Option<u64>,
     maps: Option<u64>,
     materials: Option<u64>,
@@ -101,9 +97,7 @@ impl SessionPainter {
             renderer: Renderer::new(device, queue, of_renderer),
             target: Target::with_samples(device, 1, 1, samples).with_layer(),
             plain_target: Target::with_samples(device, 1, 1, SampleCount::One).with_layer(),
-            draws_means: options.draws_means,
-            mean: None,
-            affordable_at_rest: 1.0,
+            at_rest: AtRest::new(options.draws_means),
             device: device.clone(),
             queue: queue.clone(),
             samples,
@@ -124,7 +118,7 @@ impl SessionPainter {
     fn sizes(&self, quality: &Quality, window: [f32; 2]) -> Sizes {
         let whole = window.map(|side| side as u32);
         let affordable = Target::affordable_scale(whole, self.samples);
-        let of_mean = Target::affordable_mean_scale(whole).min(self.affordable_at_rest);
+        let of_mean = self.at_rest.affordable_scale(whole);
         let scaled = |scale: f32| window.map(|side| (side * scale).round().max(1.0) as u32);
         let at_rest = quality.render_scale().fraction();
         Sizes {
@@ -152,8 +146,8 @@ impl SessionPainter {
         let scene_stays = self
             .drawn
             .is_some_and(|drawn| (drawn.scene, drawn.size) == (wanted.scene, wanted.size));
-        if !scene_stays && let Some(mean) = &mut self.mean {
-            mean.accumulator.restart();
+        if !scene_stays {
+            self.at_rest.restart();
         }
         let (target, largest) = if session.quality().smooths_edges_now() {
             (&mut self.target, sizes.at_rest)
@@ -183,11 +177,36 @@ impl SessionPainter {
             }
         }
         cost.cpu_secs = Some(((self.now_secs)() - start_secs) as f32);
-        compositor.prepare(&self.device, &self.queue, target, shown(self.mean.as_ref()));
+        compositor.prepare(&self.device, &self.queue, target, self.at_rest.shown());
         self.poll_target(session);
         self.drawn = Some(wanted);
         self.frames_rendered += 1;
         Some(cost)
+    }
+
+    /// Whether the picture of now rests, and its mean is not complete.
+    pub fn is_sampling(&self, session: &Session) -> bool {
+        self.is_current(session) && self.at_rest.lacks_samples(session, (self.now_secs)())
+    }
+
+    /// How many samples the picture in the window is the mean of.
+    pub fn samples(&self) -> u32 {
+        self.at_rest.shown().map_or(1, Accumulator::count)
+    }
+
+    /// Adds some samples to the mean of a picture that rests.
+    fn draw_samples(&mut self, session: &mut Session, size: [u32; 2], compositor: &mut Compositor) {
+        if !self.is_sampling(session) {
+            return;
+        }
+        let (gpu, now_secs) = ((&self.device, &mut self.renderer), (self.now_secs)());
+        self.at_rest.draw(gpu, session, size, now_secs, &self.waker);
+        let drawn = if session.quality().smooths_edges_now() {
+            &self.target
+        } else {
+            &self.plain_target
+        };
+        compositor.prepare(&self.device, &self.queue, drawn, self.at_rest.shown());
     }
 
     /// Shows the GPU's error about a resized target in the session, if there is one.
@@ -215,11 +234,11 @@ impl SessionPainter {
         adjust: impl FnOnce(&mut FrameOptions),
     ) -> Result<Picture, PictureError> {
         self.update(session);
-        let asked = samples.filter(|_| self.draws_means);
+        let asked = samples.filter(|_| self.at_rest.draws_means);
         let mut samples = asked.unwrap_or_else(|| self.samples_of_pictures(session));
         let mut frame = session.frame_at_rest();
         adjust(&mut frame.options);
-        if frame.options.aperture > 0.0 && self.draws_means {
+        if frame.options.aperture > 0.0 && self.at_rest.draws_means {
             samples = samples.max(LENS_SAMPLES);
         }
         self.renderer
@@ -228,7 +247,7 @@ impl SessionPainter {
 
     /// Of how many pictures one that is saved is the mean.
     pub fn samples_of_pictures(&self, session: &Session) -> u32 {
-        if self.draws_means {
+        if self.at_rest.draws_means {
             session.quality().samples()
         } else {
             1
@@ -333,7 +352,7 @@ impl SessionPainter {
 
     /// Forgets all that was uploaded.
     pub fn forget(&mut self) {
-        self.mean = None;
+        self.at_rest.forget();
         self.renderer.clear_model();
         self.answers.clear();
         (self.model, self.maps, self.materials, self.sky, self.drawn) = (None, None, None, None, None);

@@ -1,9 +1,8 @@
 //! A picture at rest: while nothing moves, samples of it are drawn, a few in each pass of the window, until their mean is good.
 
-use std::task::{Context, Poll};
+use std::task::{Context, Poll, Waker};
 
-use super::SessionPainter;
-use crate::render::{Accumulator, Compositor, GpuAnswer, SampleCount, Target, watched};
+use crate::render::{Accumulator, GpuAnswer, Renderer, SampleCount, Target, watched};
 use crate::session::Session;
 
 /// The mean is of as many samples as a second has room for, but of so many at least. From there on it is shown.
@@ -14,9 +13,19 @@ const SAMPLES_A_PASS: u32 = 2;
 /// Where the device has too little memory for the mean, the next try has this part of its width and height.
 const SMALLER: f32 = 0.75;
 
-/// The mean of a picture at rest, and what its samples are drawn into.
-pub(super) struct Mean {
-    pub(super) accumulator: Accumulator,
+/// The mean of the picture in the window.
+pub(super) struct AtRest {
+    /// Whether the device can draw one.
+    pub(super) draws_means: bool,
+    /// Made when the first picture rests.
+    mean: Option<Mean>,
+    /// The part of the window's width and height that the device has memory for.
+    affordable: f32,
+}
+
+/// The mean, and what its samples are drawn into.
+struct Mean {
+    accumulator: Accumulator,
     target: Target,
     /// What the GPU has not confirmed yet.
     answer: Option<GpuAnswer>,
@@ -50,71 +59,91 @@ impl Mean {
     }
 }
 
-/// The mean, once the device has memory for it and it is of enough samples to be shown.
-pub(super) fn shown(mean: Option<&Mean>) -> Option<&Accumulator> {
-    let mean = mean.filter(|mean| mean.answer.is_none() && mean.accumulator.count() >= mean.least)?;
-    Some(&mean.accumulator)
-}
-
-impl SessionPainter {
-    /// Whether the picture of now rests, and its mean is not of enough samples yet, or the GPU has not confirmed it.
-    pub fn is_sampling(&self, session: &Session) -> bool {
-        let quality = session.quality();
-        let rests = self.is_current(session) && quality.is_at_rest() && !session.is_moving();
-        let can = self.draws_means && quality.samples() > 1 && session.open_model().is_some();
-        let Some(mean) = &self.mean else {
-            return rests && can;
-        };
-        let count = mean.accumulator.count();
-        let is_late = !quality.samples_are_chosen() && (self.now_secs)() - mean.since_secs > SAMPLING_SECS;
-        let least = quality.samples().min(LEAST_SAMPLES);
-        let lacks_samples = count < quality.samples() && (count < least || !is_late);
-        rests && can && (lacks_samples || mean.answer.is_some())
-    }
-
-    /// How many samples the picture in the window is the mean of.
-    pub fn samples(&self) -> u32 {
-        shown(self.mean.as_ref()).map_or(1, Accumulator::count)
-    }
-
-    /// Adds some samples to the mean of a picture that rests.
-    pub(super) fn draw_samples(&mut self, session: &mut Session, size: [u32; 2], compositor: &mut Compositor) {
-        if !self.is_sampling(session) {
-            return;
+impl AtRest {
+    pub(super) fn new(draws_means: bool) -> Self {
+        Self {
+            draws_means,
+            mean: None,
+            affordable: 1.0,
         }
-        let device = self.device.clone();
-        let mean = self.mean.get_or_insert_with(|| Mean::new(&device, size));
+    }
+
+    /// By how much the sides of the mean are smaller than those of a window of this size in pixels: at most 1.
+    pub(super) fn affordable_scale(&self, window: [u32; 2]) -> f32 {
+        Target::affordable_mean_scale(window).min(self.affordable)
+    }
+
+    /// Another scene begins.
+    pub(super) fn restart(&mut self) {
+        if let Some(mean) = &mut self.mean {
+            mean.accumulator.restart();
+        }
+    }
+
+    /// Gives the GPU's memory back.
+    pub(super) fn forget(&mut self) {
+        self.mean = None;
+    }
+
+    /// The mean, once the device has memory for it and it is of enough samples to be shown.
+    pub(super) fn shown(&self) -> Option<&Accumulator> {
+        let mean = self.mean.as_ref();
+        let mean = mean.filter(|mean| mean.answer.is_none() && mean.accumulator.count() >= mean.least)?;
+        Some(&mean.accumulator)
+    }
+
+    /// Whether the session's picture rests, and the mean is not of enough samples yet, or the GPU has not confirmed it.
+    pub(super) fn lacks_samples(&self, session: &Session, now_secs: f64) -> bool {
+        let quality = session.quality();
+        if !self.draws_means
+            || quality.samples() < 2
+            || !quality.is_at_rest()
+            || session.is_moving()
+            || session.open_model().is_none()
+        {
+            return false;
+        }
+        let Some(mean) = &self.mean else { return true };
+        let count = mean.accumulator.count();
+        let is_late = !quality.samples_are_chosen() && now_secs - mean.since_secs > SAMPLING_SECS;
+        let least = quality.samples().min(LEAST_SAMPLES);
+        mean.answer.is_some() || (count < quality.samples() && (count < least || !is_late))
+    }
+
+    /// Adds some samples of the session's picture, in this size in pixels. The waker is woken when the GPU has answered.
+    pub(super) fn draw(
+        &mut self,
+        (device, renderer): (&wgpu::Device, &mut Renderer),
+        session: &mut Session,
+        size: [u32; 2],
+        now_secs: f64,
+        waker: &Waker,
+    ) {
+        let mean = self.mean.get_or_insert_with(|| Mean::new(device, size));
         if mean.target.size() != size {
-            mean.resize(&device, size);
+            mean.resize(device, size);
         }
         if let Some(mut answer) = mean.answer.take() {
-            match answer.as_mut().poll(&mut Context::from_waker(&self.waker)) {
+            match answer.as_mut().poll(&mut Context::from_waker(waker)) {
                 Poll::Ready(Ok(())) => {}
                 Poll::Ready(Err(_)) => {
                     // It has too little memory: the picture stays as it is, and a smaller one is tried.
-                    self.affordable_at_rest *= SMALLER;
+                    self.affordable *= SMALLER;
                     self.mean = None;
-                    self.renderer.forget_samples();
+                    renderer.forget_samples();
                     return;
                 }
                 Poll::Pending => mean.answer = Some(answer),
             }
         }
         if mean.accumulator.count() == 0 {
-            mean.since_secs = (self.now_secs)();
+            mean.since_secs = now_secs;
         }
         let samples = session.quality().samples();
         mean.least = samples.min(LEAST_SAMPLES);
         let frame = session.frame();
         for _ in 0..SAMPLES_A_PASS.min(samples.saturating_sub(mean.accumulator.count())) {
-            self.renderer
-                .accumulate(&frame, &mut mean.target, &mut mean.accumulator);
+            renderer.accumulate(&frame, &mut mean.target, &mut mean.accumulator);
         }
-        let drawn = if session.quality().smooths_edges_now() {
-            &self.target
-        } else {
-            &self.plain_target
-        };
-        compositor.prepare(&device, &self.queue, drawn, shown(self.mean.as_ref()));
     }
 }

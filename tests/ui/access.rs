@@ -153,7 +153,7 @@ fn on_a_phone_too() {
 }
 
 /// Asks what a program asks that reads the screen.
-fn ask(window: &mut Window, start: &str, action: Action, data: Option<ActionData>) {
+pub(crate) fn ask(window: &mut Window, start: &str, action: Action, data: Option<ActionData>) {
     let node = controls(window)
         .into_iter()
         .find(|node| {

@@ -1,10 +1,12 @@
 //! Pictures and contact sheets as files: their size, their ground and their name.
 
-use bindpose::session::{FileCommand, PlayCommand, Session};
+use bindpose::scene::FrameOptions;
+use bindpose::session::{CameraCommand, FileCommand, PlayCommand, Session};
 use bindpose::ui::{ContactSheetRequest, Request, contact_sheet_name, picture_name};
-use egui::accesskit::{Action, Role};
+use egui::accesskit::{Action, ActionData, Role};
 use egui::{Event, Key, Modifiers};
 
+use crate::access::ask;
 use crate::models::{self, moving, still};
 use crate::page::{WIDE, Window, window};
 
@@ -64,6 +66,27 @@ fn sizes_are_typed_and_refused_out_of_reach() {
             })
         );
     }
+}
+
+#[test]
+fn depth_of_field_is_chosen_where_the_view_is_in_perspective() {
+    let mut window = open();
+    let value = ActionData::NumericValue(9.0);
+    ask(&mut window, "Depth of field", Action::SetValue, Some(value));
+    window.click("Save PNG");
+    let (size, transparent) = ([1440, 900], false);
+    let widest = FrameOptions::WIDEST_APERTURE;
+    assert_eq!(
+        pictures(&window),
+        [Request::SavePicture {
+            size,
+            transparent,
+            aperture: widest
+        }]
+    );
+    window.apply(CameraCommand::ToggleProjection);
+    window.pass_on();
+    assert!(window.shows("Transparent ground") && !window.shows("Depth of field"));
 }
 
 #[test]
