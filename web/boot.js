@@ -15,14 +15,8 @@ import { fetchFile, readAgain, rememberSources } from "./sources.js";
 /** The sample: the model, then its maps. Addresses may carry a hash, names never do. */
 const SAMPLE = {
   "figure.m3d": "sample/figure.m3d",
-  "suit_diff.png": "sample/suit_diff.png",
-  "suit_norm.png": "sample/suit_norm.png",
-  "trim_diff.png": "sample/trim_diff.png",
-  "trim_norm.png": "sample/trim_norm.png",
-  "rubber_diff.png": "sample/rubber_diff.png",
-  "rubber_norm.png": "sample/rubber_norm.png",
-  "visor_diff.png": "sample/visor_diff.png",
-  "visor_norm.png": "sample/visor_norm.png",
+  "figure_diff.png": "sample/figure_diff.png",
+  "figure_norm.png": "sample/figure_norm.png",
 };
 
 /** "\0asm", version 1, and the type of a function that gives a vector of 128 bits: the least that needs SIMD. */

@@ -171,7 +171,7 @@ test("R reads the sample again, and with a model the maps and clips that joined 
   writeFileSync(path, readFileSync(path, "latin1").replace(/^DiffuseMap:.*$/m, "DiffuseMap: late.png"), "latin1");
   const [clips, map] = [join(folder, "more.m3d"), join(folder, "late.png")];
   copyFileSync(SAMPLE, clips);
-  copyFileSync(join(SAMPLE, "../suit_diff.png"), map);
+  copyFileSync(join(SAMPLE, "../figure_diff.png"), map);
   await dropAndWait(page, [path]);
   await drop(page, [map]);
   await until(page, ({ textures }) => !textures.missing.includes("late.png"));

@@ -21,17 +21,17 @@ test("the page opens the sample, draws it and logs no error", { draws: true, vie
 });
 
 test("the sample opens with all of its maps", {}, async (page) => {
-  assert.deepEqual((await state(page)).textures, { named: 8, missing: [], unreadable: [] });
+  assert.deepEqual((await state(page)).textures, { named: 2, missing: [], unreadable: [] });
 });
 
 test("the sample opens although one of its maps does not arrive", {
   expectErrors: true,
-  prepare: (page) => page.route("**/suit_norm*.png", (route) => route.abort()),
+  prepare: (page) => page.route("**/figure_norm*.png", (route) => route.abort()),
 }, async (page) => {
   const { model, error, textures } = await state(page);
   assert.equal(model.name, "figure.m3d");
   assert.equal(error, null);
-  assert.deepEqual(textures, { named: 8, missing: ["suit_norm.dds"], unreadable: [] });
+  assert.deepEqual(textures, { named: 2, missing: ["figure_norm.dds"], unreadable: [] });
 });
 
 test("the light scheme is followed", { colorScheme: "light", viewport: LARGE, fine: true }, async (page) => {

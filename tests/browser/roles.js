@@ -294,7 +294,7 @@ test("axe finds nothing in any state of the page", { own: true, expectErrors: tr
   await assertSound(page, "the dope sheet");
   await press(page, "(Sheet: )?Curves", "Space");
   await assertSound(page, "the curves");
-  await press(page, "Suit");
+  await press(page, "Shell");
   await assertSound(page, "a subset");
   await page.keyboard.press("Escape");
   await press(page, "(Panel: )?Skeleton", "Space");

@@ -30,7 +30,7 @@ export function timeBar({ x, y, width, height }) {
 /** The part of the page where the inspector is, as large as it is for a subset with maps. */
 export const INSPECTOR = { x: 662, y: 62, width: 284, height: 386 };
 
-/** The figure's chest, on its first frame: a part of its suit. */
+/** The figure's chest, on its first frame: a part of its shell. */
 export const CHEST = [500, 240];
 /** Ground beside the figure that no panel covers. */
 export const GROUND = [600, 510];

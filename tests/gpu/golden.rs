@@ -146,7 +146,7 @@ on_both_backends! {
         scene.camera.yaw_radians += std::f32::consts::PI;
         compare_picture(gpu, "gltf-still-life-behind", &easel.draw(&scene));
     }
-    /// The sample, as the page opens: in the middle of a step, both lights.
+    /// The sample, in the middle of a step, both lights.
     fn figure_in_the_middle_of_a_step(gpu) {
         let mut session = Session::new(true);
         let figure = include_bytes!("../../web/sample/figure.m3d").to_vec();

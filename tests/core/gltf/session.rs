@@ -13,7 +13,7 @@ use super::{bare, triangle};
 use crate::gltf_files::Gltf;
 
 /// A PNG of one pixel.
-const PIXEL: &[u8] = include_bytes!("../../../web/sample/visor_norm.png");
+const PIXEL: &[u8] = include_bytes!("../../../web/sample/figure_norm.png");
 
 fn textured(image: &serde_json::Value) -> Gltf {
     let material = json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } });

@@ -2,9 +2,9 @@
 //! `cargo run --package sample-figure` writes it to `web/sample`.
 //!
 //! ```text
-//! rig -> volumes -> body -> skin (surface nets, relaxed, snapped) -> weights, charts -> Document
-//!    \-> motion (poses, two-bone legs) -> clips                                        /     \-> demo -> figure.m3d
-//! maps (reliefs: cloth, moulded panels, grip, visor) -> texels
+//! rig -> parts (lists of rings and outlines) -> shape (lofts, plates, tubes) -> solids -> Document -> demo -> figure.m3d
+//!    \-> motion (poses, two-bone legs) -> clips                                         /
+//! parts' marks -> atlas -> maps (grooves, rivets, letters) -> texels
 //! ```
 //!
 //! The same document on every machine: the topology depends on + − × ÷ √ alone, which IEEE 754 fixes; sines and arc tangents
@@ -12,20 +12,16 @@
 //! A sine that differs in its last bit between systems could still flip the last decimal of a rare number. Maps need no sine:
 //! their bytes are the same everywhere.
 
-mod body;
-mod charts;
+mod atlas;
 mod demo;
 mod document;
 mod maps;
 mod materials;
 mod motion;
 mod order;
+mod parts;
 mod rig;
-mod sdf;
-mod skin;
-mod surface_nets;
-mod volumes;
-mod weights;
+mod shape;
 
 use std::path::{Path, PathBuf};
 
@@ -33,16 +29,18 @@ use bindpose::format::{self, Document};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder as _};
 
-pub use maps::{SampleMap, maps};
+pub use maps::SampleMap;
 
 /// The figure as it is made: left-handed, y up, 1.8 m tall, standing on y = 0 and facing −z, with the clips `Walk`, `Run`, `Wave`
 /// and `Idle` at 30 keys a second, each of which loops.
 pub fn figure() -> Document {
     let rig = rig::Rig::new();
-    let body = body::Body::new(&rig);
-    let skin = skin::Skin::new(&body, &rig);
-    let influences = weights::influences(&skin, &body, &rig);
-    document::document(&skin, &influences, &rig, motion::clips(&rig))
+    document::document(&parts::Kit::figure(&rig), motion::clips(&rig))
+}
+
+/// The maps that the figure's materials name.
+pub fn maps() -> Vec<SampleMap> {
+    maps::maps(&parts::Kit::figure(&rig::Rig::new()))
 }
 
 /// The sample: a figure as the DirectX 12 book's demo shows it, right-handed, 72 units high, and walking in the clip `Take1`. Its materials

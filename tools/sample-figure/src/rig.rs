@@ -67,6 +67,15 @@ pub(crate) fn joint(side: Side, limb: Limb) -> usize {
     CENTRE_COUNT + (side as usize) * LIMB_COUNT + limb as usize
 }
 
+/// The same joint of the other side; the middle has its own.
+pub(crate) fn mirrored_joint(joint: usize) -> usize {
+    match joint.checked_sub(CENTRE_COUNT) {
+        None => joint,
+        Some(left) if left < LIMB_COUNT => joint + LIMB_COUNT,
+        Some(_) => joint - LIMB_COUNT,
+    }
+}
+
 /// Along the left arm from shoulder to fingers, palm down and inwards, thumb forwards.
 pub(crate) const ARM: DVec3 = DVec3::new(0.8, -0.6, 0.0);
 /// Out of the left palm.
@@ -103,7 +112,7 @@ impl Rig {
                 rotation: orientation(along),
             });
         };
-        let spine = [0.0, 0.93, 1.03, 1.13, 1.24, 1.41, 1.49, 1.78].map(|y| DVec3::new(0.0, y, 0.0));
+        let spine = [0.0, 0.93, 1.03, 1.13, 1.24, 1.41, 1.46, 1.795].map(|y| DVec3::new(0.0, y, 0.0));
         for index in 0..CENTRE_COUNT {
             add(index.checked_sub(1), spine[index], spine[index + 1], DVec3::Y);
         }
@@ -139,26 +148,26 @@ struct LeftLimb {
 
 /// Joints of the left side in the order of [`Limb`].
 fn left_limbs() -> [LeftLimb; LIMB_COUNT] {
-    let clavicle = DVec3::new(0.03, 1.365, 0.005);
-    let shoulder = DVec3::new(0.178, 1.358, 0.005);
+    let clavicle = DVec3::new(0.05, 1.35, 0.005);
+    let shoulder = DVec3::new(0.205, 1.345, 0.005);
     let elbow = shoulder + ARM * 0.25;
     let wrist = elbow + ARM * 0.235;
     let bone = |parent, origin, tip| LeftLimb { parent, origin, tip };
     let finger = |z: f64, fan: f64, length: f64| {
         let along = (ARM + DVec3::Z * fan + PALM * 0.06).normalize();
-        let knuckle = wrist + ARM * (0.098 - 20.0 * z * z) + DVec3::Z * z;
+        let knuckle = wrist + ARM * (0.1 - 6.0 * z * z) + DVec3::Z * z;
         (knuckle, knuckle + along * (0.52 * length), knuckle + along * length)
     };
-    let index = finger(-0.036, -0.25, 0.098);
-    let middle = finger(0.001, 0.0, 0.106);
-    let outer = finger(0.038, 0.25, 0.092);
+    let index = finger(-0.042, -0.16, 0.092);
+    let middle = finger(-0.014, -0.04, 0.1);
+    let outer = finger(0.028, 0.12, 0.09);
     let thumb_along = (ARM * 0.62 + FORWARD * 0.75 + PALM * 0.22).normalize();
     let thumb = wrist + ARM * 0.022 + FORWARD * 0.026;
     let (thumb_middle, thumb_end) = (thumb + thumb_along * 0.055, thumb + thumb_along * 0.1);
-    let hip = DVec3::new(0.098, 0.885, 0.0);
-    let knee = DVec3::new(0.1, 0.49, -0.006);
-    let ankle = DVec3::new(0.102, 0.11, 0.012);
-    let ball = DVec3::new(0.104, 0.034, -0.115);
+    let hip = DVec3::new(0.104, 0.875, 0.0);
+    let knee = DVec3::new(0.106, 0.49, -0.006);
+    let ankle = DVec3::new(0.108, 0.11, 0.012);
+    let ball = DVec3::new(0.11, 0.034, -0.115);
     [
         bone(Parent::Centre(CHEST), clavicle, shoulder),
         bone(Parent::Limb(Limb::Clavicle), shoulder, elbow),

@@ -9,7 +9,7 @@ use super::pose::{Arm, Footing, Pose, pitch, roll, set_leg, yaw};
 use crate::rig::{CHEST, HEAD, HIPS, NECK, RIBS, Rig, Side, WAIST};
 
 /// Length of [`idle`] in thirtieths of a second.
-pub(crate) const IDLE_KEY_SPANS: usize = 108;
+pub(crate) const IDLE_KEY_SPANS: usize = 120;
 
 /// Degrees to the figure's right.
 const LOOK: Curve<'_> = Curve::new(&[

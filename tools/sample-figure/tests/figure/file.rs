@@ -19,7 +19,7 @@ fn materials_are_physically_plausible() {
             panic!("{} is not of the DirectX 12 book", material.name)
         };
         assert!(
-            fresnel0.iter().all(|f| (0.02..0.2).contains(f)),
+            fresnel0.iter().all(|f| (0.02..=1.0).contains(f)),
             "{}: {fresnel0:?}",
             material.name
         );
@@ -41,7 +41,7 @@ fn the_committed_file_is_reproduced() {
     let committed =
         std::fs::read_to_string(path).expect("cargo run --package sample-figure writes the file that is missing");
     // The download stays small before compression too.
-    assert!(committed.len() < 2_500_000, "{} bytes", committed.len());
+    assert!(committed.len() < 4_300_000, "{} bytes", committed.len());
     if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
         assert!(
             committed == text,

