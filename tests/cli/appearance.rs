@@ -3,7 +3,7 @@
 use bindpose::scene::ViewMode;
 use image::RgbaImage;
 
-use crate::program::{FIGURE, run, scratch_name, words};
+use crate::program::{FIGURE, run, scratch_folder, scratch_name, words};
 
 fn draw(name: &str, arguments: &[&str]) -> RgbaImage {
     let path = scratch_name(&format!("look-{name}.png"));
@@ -89,7 +89,6 @@ fn lines_exposure_turn_and_steps_change_the_picture() {
         ("axes", &["--overlay", "axes"]),
         ("exposure", &["--exposure", "-1.5"]),
         ("turn", &["--turn", "120"]),
-        ("green", &["--flip-green"]),
         ("no-shadow", &["--without", "shadow"]),
         ("no-reflections", &["--without", "reflections"]),
         ("no-contact", &["--without", "contact"]),
@@ -98,6 +97,26 @@ fn lines_exposure_turn_and_steps_change_the_picture() {
         let share = differs(&plain, &draw(name, more));
         assert!(share > 0.0005, "{name}: {share}");
     }
+}
+
+#[test]
+fn green_that_is_turned_round_leans_the_other_way() {
+    let folder = scratch_folder("green");
+    // All of its normals lean up.
+    let map = RgbaImage::from_pixel(4, 4, [128, 200, 230, 255].into());
+    map.save(folder.join("figure_norm.png")).expect("the folder is there");
+    let maps = folder.to_string_lossy();
+    let [up, down] = [&[][..], &["--flip-green"]].map(|more| {
+        let path = folder
+            .join(format!("{}.png", more.len()))
+            .to_string_lossy()
+            .into_owned();
+        let plain = ["render", FIGURE, "--textures", &maps, "--size", "160x120", "-o", &path];
+        run(plain.iter().chain(more)).fine();
+        image::open(&path).expect("is a picture").into_rgba8()
+    });
+    let share = differs(&up, &down);
+    assert!(share > 0.01, "{share}");
 }
 
 #[test]

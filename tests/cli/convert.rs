@@ -236,8 +236,10 @@ fn keys_are_reduced_and_the_error_told() {
         let error: f64 = error.expect("an error").parse().expect("a number");
         assert!(error <= 0.001, "{message}");
     }
+    let whole = out("reduce-not", "figure.m3d");
+    convert(FIGURE, &whole, &["--hand", "right"]);
     let size = |file: &str| std::fs::metadata(file).expect("is there").len();
-    assert!(size(&output) < size(FIGURE));
+    assert!(size(&output) < size(&whole));
 }
 
 #[test]

@@ -427,7 +427,7 @@ fn the_tree_and_a_joint_on_dark_and_light() {
 fn a_vertex_explained_in_a_small_window() {
     let mut then = inspected();
     then.retain(|command| !matches!(command, Command::Joint(JointCommand::Select(_))));
-    then.push(JointCommand::SelectVertex(Some(4_962)).into());
+    then.push(JointCommand::SelectVertex(Some(12_408)).into());
     let clicks = ["Panel: Skeleton", "Explain"];
     shows("small-light-vertex", then, &clicks);
 }
@@ -436,7 +436,7 @@ fn a_vertex_explained_in_a_small_window() {
 fn a_vertex_explained_with_the_matrices_of_a_bone() {
     let then = vec![
         LookCommand::SetBonesVisible(true).into(),
-        JointCommand::SelectVertex(Some(4_962)).into(),
+        JointCommand::SelectVertex(Some(12_408)).into(),
     ];
     let clicks = ["Explain", "Unfold the matrices of Bone 10"];
     shows("wide-dark-vertex", then, &clicks);
@@ -444,7 +444,7 @@ fn a_vertex_explained_with_the_matrices_of_a_bone() {
 
 #[test]
 fn a_vertex_explained_in_the_sheet_of_a_phone() {
-    let then = vec![JointCommand::SelectVertex(Some(4_962)).into()];
+    let then = vec![JointCommand::SelectVertex(Some(12_408)).into()];
     let clicks = ["Show Vertex", "Explain", "Unfold the matrices of Bone 15"];
     // Higher than a phone, so that all of it is seen without scrolling.
     let size = Vec2::new(PHONE.x, 1_800.0);
