@@ -1,8 +1,10 @@
 // Bones and skin by mouse: a bone is selected where it is drawn, its weights are coloured as the legend says.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { SAMPLE, atRest, keep, settled, state, test, until } from "./harness.js";
+import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { SAMPLE, atRest, dropAndWait, keep, settled, state, test, until } from "./harness.js";
 import { decoded, difference, picture } from "./picture.js";
 import { BONES, GROUND, bounds, click } from "./widgets.js";
 
@@ -55,9 +57,18 @@ test("in the model's page a click selects no bone", {}, async (page) => {
   assert.equal((await state(page)).skeleton.selected, null, "the click is about a subset");
 });
 
-/** The sample's vertices in the world, 72 units high. */
-function vertices() {
+/** The sample with weights that go evenly from none at the feet to all above the chest, in place of its stiff shells. */
+function evenlyWeighted(bone) {
   const text = readFileSync(SAMPLE, "latin1");
+  const weights = /(Position: \S+ (\S+) [^]*?)BlendWeights: .*\nBlendIndices: .*\n/g;
+  return text.replace(weights, (_, before, height) => {
+    const weight = Math.min(Math.max(height / 50 - 0.1, 0), 1).toFixed(3);
+    return `${before}BlendWeights: ${weight} ${(1 - weight).toFixed(3)} 0 0\nBlendIndices: ${bone} 0 0 0\n`;
+  });
+}
+
+/** The vertices of such a file in the world, 72 units high. */
+function vertices(text) {
   const numbers = (words) => words.trim().split(/\s+/).map(Number);
   const vertex = /Position: (.*)\nTangent: .*\nNormal: (.*)\nTex-Coords: .*\nBlendWeights: (.*)\nBlendIndices: (.*)\n/g;
   return Array.from(text.matchAll(vertex), ([, position, normal, weights, bones]) => {
@@ -95,8 +106,8 @@ function projected({ camera }, { width, height }, { position, normal }) {
  * Vertices that are plainly seen in a picture: they face the eye, nothing is in front of them, and around them the same side
  * has nearly the same weight.
  */
-function plainlySeen(now, drawn, bone) {
-  const all = vertices().map((vertex) => ({ weight: vertex.weightOf(bone), ...projected(now, drawn, vertex) }));
+function plainlySeen(now, drawn, text, bone) {
+  const all = vertices(text).map((vertex) => ({ weight: vertex.weightOf(bone), ...projected(now, drawn, vertex) }));
   return all.filter((vertex) => {
     if (vertex.facing < 0.85) return false;
     const around = all.filter(({ x, y }) => Math.hypot(x - vertex.x, y - vertex.y) < 2.5);
@@ -112,9 +123,14 @@ const channels = ({ pixels, width }, x, y) => {
 };
 
 test("vertices have the colours that the legend has for their weights", { draws: true, fine: true }, async (page) => {
-  const bone = 19;
+  const bone = 1;
+  const even = evenlyWeighted(bone);
+  const path = join(mkdtempSync(join(tmpdir(), "bindpose-")), "even.m3d");
+  writeFileSync(path, even, "latin1");
+  await dropAndWait(page, [path]);
   await showBones(page);
-  await selectBone(page, bone);
+  await click(page, `bone-${bone}`);
+  await until(page, ({ skeleton }) => skeleton.selected === bone);
   for (const key of ["w", "k", "b"]) await page.keyboard.press(key);
   const shown = ({ skeleton }) => skeleton.skinView === "weight" && skeleton.bindShare === 1 && !skeleton.bonesVisible;
   await until(page, shown);
@@ -125,7 +141,7 @@ test("vertices have the colours that the legend has for their weights", { draws:
   const { x, y, width } = await bounds(page, "legend-colours");
   const legend = await decoded(page, await page.screenshot({ clip: { x, y: y + 7, width, height: 3 } }));
   const drawn = await picture(page, { width: 480, height: 300, overlays: [] });
-  const seen = plainlySeen(now, drawn, bone);
+  const seen = plainlySeen(now, drawn, even, bone);
 
   // From none to all, and a few between them; what is between changes from pixel to pixel.
   for (const [weight, tolerance] of [[0, 4], [1, 4], [0.25, 60], [0.5, 60], [0.75, 60]]) {
@@ -150,7 +166,7 @@ test("with the skin in colours a click selects the vertex that is there", {}, as
   await page.mouse.move(...GROUND);
   await atRest(page);
   await keep(page, "vertex-selected");
-  const { x, y, facing } = projected(now, page.viewportSize(), vertices()[now.skeleton.vertex]);
+  const { x, y, facing } = projected(now, page.viewportSize(), vertices(readFileSync(SAMPLE, "latin1"))[now.skeleton.vertex]);
   assert.ok(Math.hypot(x - place[0], y - place[1]) < 12, `vertex ${now.skeleton.vertex} is at ${x}, ${y}`);
   assert.ok(facing > 0, "on the side that is seen");
   await page.keyboard.press("Escape");
