@@ -12,8 +12,8 @@ use super::banner::banner;
 use super::{bare, triangle};
 use crate::gltf_files::Gltf;
 
-/// A PNG of one pixel.
-const PIXEL: &[u8] = include_bytes!("../../../web/sample/figure_norm.png");
+/// A PNG. What it shows does not matter here.
+const PICTURE: &[u8] = include_bytes!("../../../web/sample/figure_norm.png");
 
 fn textured(image: &serde_json::Value) -> Gltf {
     let material = json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } });
@@ -35,7 +35,7 @@ fn a_drop_of_text_data_and_picture_opens_as_one_model() {
     let file = textured(&json!({ "uri": "maps/skin.png" }));
     let session = opened(vec![
         File::new("fox/data.bin", file.bin.clone()),
-        File::new("fox/maps/skin.png", PIXEL),
+        File::new("fox/maps/skin.png", PICTURE),
         File::new("fox/fox.gltf", file.text_beside("data.bin")),
     ]);
     let open = session.open_model().expect("it is open");
@@ -76,7 +76,7 @@ fn a_missing_file_is_told_with_its_name_and_place() {
 #[test]
 fn pictures_inside_a_file_are_maps_and_a_dropped_one_of_that_name_takes_over() {
     let mut file = textured(&json!({}));
-    let view = file.view(PIXEL, None);
+    let view = file.view(PICTURE, None);
     file.json["images"] = json!([{ "name": "skin", "bufferView": view, "mimeType": "image/png" }]);
     let mut session = opened(vec![File::new("fox.glb", file.glb())]);
     assert_eq!(
@@ -84,7 +84,7 @@ fn pictures_inside_a_file_are_maps_and_a_dropped_one_of_that_name_takes_over() {
         Some("skin.png")
     );
     assert!(session.maps().image(0, MapSlot::Diffuse).is_some());
-    session.apply(FileCommand::Add(vec![File::new("new/skin.png", PIXEL)]));
+    session.apply(FileCommand::Add(vec![File::new("new/skin.png", PICTURE)]));
     assert_eq!(
         session.maps().file(0, MapSlot::Diffuse).map(|file| file.path.as_str()),
         Some("new/skin.png")

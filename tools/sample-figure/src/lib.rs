@@ -7,10 +7,9 @@
 //! parts' marks -> atlas -> maps (grooves, rivets, letters) -> texels
 //! ```
 //!
-//! The same document on every machine: the topology depends on + − × ÷ √ alone, which IEEE 754 fixes; sines and arc tangents
-//! appear in texture coordinates and clips only, in f64, and all numbers are rounded to few decimals before they are stored.
-//! A sine that differs in its last bit between systems could still flip the last decimal of a rare number. Maps need no sine:
-//! their bytes are the same everywhere.
+//! The same document on every machine: mesh and maps depend on + − × ÷ √ alone, which IEEE 754 fixes; sines appear in clips only, in
+//! f64, and all numbers are rounded to few decimals before they are stored. A sine that differs in its last bit between systems could still flip
+//! the last decimal of a rare key.
 
 mod atlas;
 mod demo;

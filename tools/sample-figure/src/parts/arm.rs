@@ -50,9 +50,7 @@ pub(crate) fn add(kit: &mut Kit<'_>) {
     kit.pair(Trim, &plate(&pauldron, &badge, 0.006).grid(), &upper, BADGE);
 
     let sleeve = Loft::new(frame, vec![r(0.098, 0.057), r(0.13, 0.06), r(0.18, 0.057)]);
-    let mut closed = sleeve.clone();
-    closed.rings = shell(&sleeve.rings, 0.005, 0.02);
-    kit.pair(Shell, &closed.grid(FINE), &upper, &[]);
+    kit.pair(Shell, &sleeve.shelled(0.005, 0.02).grid(FINE), &upper, &[]);
     let band = bevelled(&[
         r(0.158, 0.055),
         r(0.158, 0.0625).bevel(0.0025),
@@ -103,9 +101,7 @@ fn forearm(kit: &mut Kit<'_>, frame: Frame, lower: &Binding) {
         1,
     );
     let gauntlet = Loft::new(frame, wall);
-    let mut closed = gauntlet.clone();
-    closed.rings = shell(&gauntlet.rings, 0.005, 0.02);
-    kit.pair(Shell, &closed.grid(FINE), lower, &[]);
+    kit.pair(Shell, &gauntlet.shelled(0.005, 0.02).grid(FINE), lower, &[]);
     let cuff = bevelled(&[
         r(0.422, 0.04),
         r(0.424, 0.058).bevel(0.004),

@@ -25,7 +25,7 @@ pub(crate) fn add(kit: &mut Kit<'_>) {
     kit.one(Metal, &Loft::new(frame, rim()).grid(FINE / 2.0), &head, &[]);
     kit.one(Visor, &Loft::new(frame, visor()).grid(FINE / 2.0), &head, &[]);
 
-    // A crest over the crown, and its plates.
+    // A crest over the crown.
     let crest = [[0.475, 0.12], [0.525, 0.12], [0.525, 0.86], [0.475, 0.86]];
     kit.one(Trim, &plate(&helmet, &crest, 0.008).grid(), &head, PLATE);
 

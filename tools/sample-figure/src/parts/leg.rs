@@ -5,10 +5,11 @@ use glam::DVec3;
 use super::{Kit, PLATE, bolt, plate, ribs};
 use crate::materials::Material::{Metal, Rubber, Shell, Trim};
 use crate::rig::{HIPS, Limb, Side, joint};
-use crate::shape::{Binding, COARSE, FINE, Frame, Loft, Ring, bevelled, block, rectangle, ring, shell, smooth, tile};
+use crate::shape::{Binding, COARSE, FINE, Frame, Loft, Ring, bevelled, block, rectangle, ring, smooth, tile};
 
-/// Middle of the leg.
+/// Middle of the leg, and of the boot, metres to the left.
 const X: f64 = 0.106;
+const BOOT_X: f64 = 0.109;
 
 pub(crate) fn add(kit: &mut Kit<'_>) {
     let of = |limb| joint(Side::Left, limb);
@@ -70,9 +71,7 @@ fn thigh(kit: &mut Kit<'_>, frame: Frame) {
             1,
         ),
     );
-    let mut closed = wall.clone();
-    closed.rings = shell(&wall.rings, 0.006, 0.02);
-    kit.pair(Shell, &closed.grid(FINE), &bone, &[]);
+    kit.pair(Shell, &wall.shelled(0.006, 0.02).grid(FINE), &bone, &[]);
     let side = [[0.15, 0.14], [0.35, 0.14], [0.33, 0.78], [0.17, 0.78]];
     kit.pair(Trim, &plate(&wall, &side, 0.007).grid(), &bone, PLATE);
     let front = [[0.40, 0.16], [0.60, 0.16], [0.58, 0.84], [0.42, 0.84]];
@@ -101,9 +100,7 @@ fn shin(kit: &mut Kit<'_>, frame: Frame) {
             1,
         ),
     );
-    let mut closed = wall.clone();
-    closed.rings = shell(&wall.rings, 0.006, 0.024);
-    kit.pair(Shell, &closed.grid(FINE), &bone, &[]);
+    kit.pair(Shell, &wall.shelled(0.006, 0.024).grid(FINE), &bone, &[]);
     let greave = [[0.41, 0.07], [0.59, 0.07], [0.565, 0.92], [0.435, 0.92]];
     kit.pair(Shell, &plate(&wall, &greave, 0.009).grid(), &bone, PLATE);
     let band = bevelled(&[
@@ -161,7 +158,7 @@ fn boot(kit: &mut Kit<'_>) {
     let [foot, toe] = [Limb::Foot, Limb::Toe].map(|limb| joint(Side::Left, limb));
     // From heel to toe, its front up.
     let frame = Frame {
-        origin: DVec3::new(0.109, 0.0, 0.0),
+        origin: DVec3::new(BOOT_X, 0.0, 0.0),
         right: DVec3::X,
         front: DVec3::Y,
         along: DVec3::NEG_Z,
@@ -238,7 +235,7 @@ fn boot(kit: &mut Kit<'_>) {
 
 fn sole(kit: &mut Kit<'_>, soft: &Binding) {
     let up = Frame {
-        origin: DVec3::new(0.109, 0.012, 0.0),
+        origin: DVec3::new(BOOT_X, 0.012, 0.0),
         right: DVec3::X,
         front: DVec3::NEG_Z,
         along: DVec3::Y,
@@ -271,7 +268,7 @@ fn sole(kit: &mut Kit<'_>, soft: &Binding) {
         (0.2, 0.08, Limb::Toe),
     ] {
         let down = Frame {
-            origin: DVec3::new(0.109, 0.014, -at),
+            origin: DVec3::new(BOOT_X, 0.014, -at),
             right: DVec3::X,
             front: DVec3::Z,
             along: DVec3::NEG_Y,

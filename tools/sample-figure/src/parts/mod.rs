@@ -86,7 +86,7 @@ impl Kit<'_> {
         self.pieces.push(Piece { solid, chart });
     }
 
-    /// The same with other marks on the right.
+    /// A piece of the left side and its mirror image, each with marks of its own.
     fn sides(&mut self, material: Material, grid: &Grid, binding: &Binding, [left, right]: [&'static [Mark]; 2]) {
         let solid = Solid::new(material, grid, binding);
         let charts = [left, right].map(|marks| self.chart(&solid, marks));
@@ -96,7 +96,7 @@ impl Kit<'_> {
         }
     }
 
-    /// A piece of the left side, and its mirror image.
+    /// A piece of the left side and its mirror image, both with the same marks.
     fn pair(&mut self, material: Material, grid: &Grid, binding: &Binding, marks: &'static [Mark]) {
         let solid = Solid::new(material, grid, binding);
         let chart = self.chart(&solid, marks);

@@ -62,10 +62,10 @@ fn chest(kit: &mut Kit<'_>) {
     let mut breast = plate(&core, BREAST, 0.014);
     breast.bevel = 0.005;
     kit.sides(Shell, &breast.grid(), &chest, [NUMBER, NAME]);
-    for (outline, lift, marks) in [(SIDE, 0.010, PLATE), (FLANK, 0.009, PLATE), (BACK, 0.009, PLATE)] {
+    for (outline, lift) in [(SIDE, 0.010), (FLANK, 0.009), (BACK, 0.009)] {
         let mut plate = plate(&core, outline, lift);
         plate.bevel = 0.005;
-        kit.pair(Shell, &plate.grid(), &chest, marks);
+        kit.pair(Shell, &plate.grid(), &chest, PLATE);
     }
     let mut belly = plate(&core, BELLY, 0.011);
     belly.bevel = 0.005;
@@ -224,9 +224,7 @@ fn hips(kit: &mut Kit<'_>) {
     let hips = Binding::Rigid(HIPS);
     let frame = Frame::upright(DVec3::ZERO);
     let pelvis = Loft::new(frame, pelvis());
-    let mut closed = pelvis.clone();
-    closed.rings = shell(&closed.rings, 0.008, 0.03);
-    kit.one(Shell, &closed.grid(FINE), &hips, &[]);
+    kit.one(Shell, &pelvis.shelled(0.008, 0.03).grid(FINE), &hips, &[]);
     let belt = bevelled(&[
         ring(0.945, 0.14, 0.108).square(0.35),
         ring(0.948, 0.155, 0.123).square(0.35).bevel(0.004),

@@ -198,6 +198,11 @@ impl Loft {
         Loft { frame, rings }
     }
 
+    /// A hard shell with this skin as its wall, as [`shell`] has it.
+    pub(crate) fn shelled(&self, edge: f64, thickness: f64) -> Loft {
+        Loft::new(self.frame, shell(&self.rings, edge, thickness))
+    }
+
     /// A place on the skin: `turn` goes round from the back by the right, 0…1, and `ring` counts rings.
     fn at(&self, turn: f64, place: f64) -> DVec3 {
         let place = place.clamp(0.0, (self.rings.len() - 1) as f64);
