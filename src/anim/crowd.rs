@@ -67,7 +67,8 @@ impl CrowdPalettes {
         if self.is_used.len() < poses.len() {
             self.is_used.resize(poses.len(), false);
             self.palettes.resize(poses.len() * self.joint_count, Affine3A::IDENTITY);
-            self.slot_of.reserve(poses.len());
+            // Twice as many: places of removed poses are then cleared where they are. A fuller table would be copied to a larger one.
+            self.slot_of.reserve(2 * poses.len());
         }
         self.is_used.fill(false);
         for pose in poses {
