@@ -78,7 +78,7 @@ check("the page starts, opens the sample and plays it", async () => {
   const fetched = await page.evaluate(() => performance.getEntriesByType("resource").map(({ name }) => new URL(name).pathname).filter((path) => path.endsWith(".wasm")));
   assert.deepEqual(fetched, ["/pkg/bindpose_bg.wasm"], "the program that has WebGL2");
   assert.equal(model.name, "figure.m3d");
-  assert.deepEqual(textures, { named: 8, missing: [], unreadable: [] });
+  assert.deepEqual(textures, { named: 2, missing: [], unreadable: [] });
   const { timeSecs } = await until(({ playing }) => playing);
   await until((now) => now.timeSecs !== timeSecs);
   await call("pause");
