@@ -52,9 +52,10 @@ fn light_left(point: vec3<f32>, pixel: vec2<f32>) -> f32 {
     return left;
 }
 
-// The sky in a direction. Under the studio light it is exposed and toned as the model is; the books show texels as they are.
-fn sky_color(direction: vec3<f32>) -> vec3<f32> {
-    let texel = textureSampleLevel(sky_map, environment_sampler, environment_from_world(direction), 0.0).rgb;
+// The sky along a ray. Under the studio light it is exposed and toned as the model is; the books show texels as they are.
+fn sky_color(ray: vec3<f32>) -> vec3<f32> {
+    let pixel_radians = 2.0 * length(camera.forward_per_y) / camera.viewport_pixels.y / length(ray);
+    let texel = sky_light(ray, pixel_radians);
     if light.is_book == 1u {
         return clamp(texel, vec3<f32>(0.0), vec3<f32>(1.0));
     }
@@ -68,7 +69,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     let eye = camera.eye + ndc.x * camera.eye_per_x + ndc.y * camera.eye_per_y;
     let ray = camera.forward + ndc.x * camera.forward_per_x + ndc.y * camera.forward_per_y;
     if ground.background == 1u {
-        color = sky_color(normalize(ray));
+        color = sky_color(ray);
     }
     let behind = color;
     var left = 1.0;

@@ -14,3 +14,10 @@
 // The shadow map once more: WebGL2 reads depths of a texture that it compares with nothing, and only with a sampler that blends none.
 @group(2) @binding(9) var shadow_depth_map: texture_2d<f32>;
 @group(2) @binding(10) var shadow_depth_sampler: sampler;
+
+// The sky in a direction of any length, of the level whose texels are as large as the angle that a pixel covers there.
+fn sky_light(direction: vec3<f32>, pixel_radians: f32) -> vec3<f32> {
+    // In the middle of a face a texel covers 2 / side.
+    let level = log2(max(0.5 * pixel_radians * f32(textureDimensions(sky_map).x), 1.0));
+    return textureSampleLevel(sky_map, environment_sampler, environment_from_world(direction), level).rgb;
+}

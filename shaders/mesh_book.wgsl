@@ -1,10 +1,11 @@
 // The model under the light of the books' demos.
 
-fn sky_srgb(direction: vec3<f32>) -> vec3<f32> {
+// Where normals turn within the pixel, a mirrored ray turns twice as far. Of `widening`: see `bend_of`.
+fn sky_srgb(direction: vec3<f32>, widening: f32) -> vec3<f32> {
     if light.reflections < 0.5 {
         return vec3<f32>(0.0);
     }
-    let texel = textureSampleLevel(sky_map, environment_sampler, environment_from_world(direction), 0.0).rgb;
+    let texel = sky_light(direction, 2.0 * sqrt(widening / 0.6));
     return srgb_from_linear(clamp(texel, vec3<f32>(0.0), vec3<f32>(1.0)));
 }
 
@@ -28,7 +29,7 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
             point.to_eye,
         );
         color = book_light(surface, to_lights, key_visible, point.occlusion)
-            + book_reflectance(surface, mirrored) * sky_srgb(mirrored);
+            + book_reflectance(surface, mirrored) * sky_srgb(mirrored, point.widening);
     } else {
         let surface = PhongSurface(
             srgb_from_linear(point.substance.diffuse_texel.rgb),
@@ -40,7 +41,7 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
             point.to_eye,
         );
         color = phong_light(surface, to_lights, key_visible, point.occlusion)
-            + material.reflectivity * sky_srgb(mirrored);
+            + material.reflectivity * sky_srgb(mirrored, point.widening);
     }
     color += srgb_from_linear(clamp(point.substance.emissive, vec3<f32>(0.0), vec3<f32>(1.0)));
     return clamp(color, vec3<f32>(0.0), vec3<f32>(1.0));

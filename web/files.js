@@ -4,9 +4,9 @@
 const KINDS = {
   model: ["m3d", "glb", "gltf"],
   archive: ["zip"],
-  picture: ["dds", "png", "jpg", "jpeg", "webp", "tga", "bmp"],
+  picture: ["dds", "png", "jpg", "jpeg", "webp", "tga", "bmp", "hdr"],
   buffer: ["bin"],
-  unread: ["hdr", "exr"],
+  unread: ["exr"],
 };
 
 const isOf = (name, kinds) => kinds.some((kind) => KINDS[kind].includes(/\.([^./\\]*)$/.exec(name)?.[1].toLowerCase()));

@@ -15,7 +15,7 @@ use super::series::SeriesArguments;
 use super::text::{Plain, counted};
 use super::textures::{Folders, Textures, write_missing};
 use crate::contact_sheet::ContactSheet;
-use crate::image::{self, ImageKind, encode_png};
+use crate::image::{self, encode_png};
 use crate::render::device::{self, Gpu};
 use crate::render::{PictureTarget, Renderer, watched};
 use crate::scene::{Background, FrameOptions, Shot, Theme, ViewPreset};
@@ -79,7 +79,7 @@ pub(super) struct Arguments {
     /// picture is drawn without them. A cube map is named in a note.
     #[arg(long, value_name = "DIR")]
     textures: Vec<PathBuf>,
-    /// A cube map (.dds) for the sky: it is behind the model, and lights it in the studio.
+    /// A cube map (.dds) or a panorama (.hdr) for the sky: it is behind the model, and lights it in the studio.
     #[arg(long, value_name = "FILE")]
     sky: Option<PathBuf>,
     /// What to refuse.
@@ -281,19 +281,23 @@ fn add_textures(arguments: &Arguments, session: &mut Session, err: &mut dyn Writ
     )?)
 }
 
-/// Makes a cube map the sky. Its first bytes tell what it is, whatever its name.
+/// Makes a cube map or a panorama the sky. Its first bytes tell what it is, whatever its name.
 fn add_sky(path: &Path, session: &mut Session) -> Result<(), Failure> {
     let bytes = paths::read(path)?;
-    match image::decode(&bytes, &path.to_string_lossy()).map(|image| image.kind()) {
-        Ok(ImageKind::Cube) => {
-            session.apply(FileCommand::Add(vec![File::new("sky.dds", bytes)]));
-            Ok(())
-        }
-        Ok(_) => Err(Failure::WrongUse(format!(
-            "{} is a flat picture; --sky takes a cube map",
-            path.display()
-        ))),
-        Err(error) => Err(Failure::WrongUse(error.to_string())),
+    let name = path.to_string_lossy();
+    let refused = |message: String| Err(Failure::WrongUse(message));
+    if let Err(fault) = image::check(&bytes, &name) {
+        return refused(fault.to_string());
+    }
+    if image::cube_side(&bytes).is_none() {
+        return refused(format!(
+            "{name} is a flat picture; --sky takes a cube map or a panorama"
+        ));
+    }
+    session.apply(FileCommand::Add(vec![File::new("sky.dds", bytes)]));
+    match (session.sky(), session.diagnostics().last()) {
+        (None, Some(fault)) => refused(fault.message.replace("sky.dds", &name)),
+        _ => Ok(()),
     }
 }
 

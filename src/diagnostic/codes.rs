@@ -814,7 +814,7 @@ table! {
             "The material is drawn without the map.",
             "Save the picture again.";
         IMAGE_UNRECOGNIZED = "image-unrecognized", Warning,
-            "The file is none of DDS, PNG, JPEG, WebP, TGA and BMP.",
+            "The file is none of DDS, PNG, JPEG, WebP, TGA, BMP and Radiance.",
             "Neither its first bytes nor its name say what it is.",
             "The material is drawn without the map.",
             "Save the picture as DDS, PNG, JPEG, TGA or BMP.";
@@ -849,8 +849,8 @@ table! {
             "The material is drawn without the map.",
             "Save one slice of it as a flat picture.";
         IMAGE_CUBE = "image-cube", Warning,
-            "A cube map lacks faces, or its faces are not square.",
-            "A sky needs six square faces.",
+            "A cube map lacks faces, its faces are not square, or a panorama is not twice as wide as high.",
+            "A sky needs six square faces, or a panorama of all of it.",
             "The material is drawn without the map.",
             "Save all six faces, square and of one size.";
         IMAGE_NO_SLICES = "image-no-slices", Warning,

@@ -1,8 +1,8 @@
 //! Texels of every format as RGBA.
 
 use super::format::ImageFormat;
-use super::half;
 use super::srgb::srgb_from_linear;
+use super::{half, radiance};
 
 /// Texels of a block.
 const BLOCK_TEXELS: usize = 16;
@@ -31,6 +31,10 @@ pub(super) fn to_rgba32f(format: ImageFormat, width: u32, height: u32, data: &[u
             .iter()
             .map(|&half| half::to_f32(u16::from_le_bytes(half)))
             .collect();
+    }
+    if format == ImageFormat::Rgbe {
+        let rgba = |&texel| radiance::light_of(texel).extend(1.0).to_array();
+        return data.as_chunks().0.iter().flat_map(rgba).collect();
     }
     let signed = format == ImageFormat::Bc6hSigned;
     unpack(format, width, height, data, |block| {
@@ -61,7 +65,11 @@ fn rgba8_block(format: ImageFormat, block: &[u8]) -> [[u8; 4]; BLOCK_TEXELS] {
             bcdec_rs::bc5(block, &mut pairs, 4 * 2, signed);
             return spread(&pairs, |[r, g]| [unit(r, signed), unit(g, signed), 0, 255]);
         }
-        ImageFormat::Rgba8 | ImageFormat::Rgba16Float | ImageFormat::Bc6h | ImageFormat::Bc6hSigned => {
+        ImageFormat::Rgba8
+        | ImageFormat::Rgba16Float
+        | ImageFormat::Rgbe
+        | ImageFormat::Bc6h
+        | ImageFormat::Bc6hSigned => {
             unreachable!("{format:?} has no blocks of 8-bit values")
         }
     }

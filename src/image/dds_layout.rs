@@ -149,6 +149,7 @@ impl Layout {
         let (label, channels) = match format {
             ImageFormat::Rgba8 => ("R8G8B8A8", Channels::Rgba),
             ImageFormat::Rgba16Float => ("RGBA16F", Channels::Rgba),
+            ImageFormat::Rgbe => ("RGBE", Channels::Rgb),
             ImageFormat::Bc1 => ("BC1", Channels::Rgba),
             ImageFormat::Bc2 => ("BC2", Channels::Rgba),
             ImageFormat::Bc3 => ("BC3", Channels::Rgba),

@@ -11,16 +11,19 @@ pub(super) enum FileKind {
     WebP,
     Tga,
     Bmp,
+    Radiance,
 }
 
 impl FileKind {
     /// What the first bytes say, and where they say nothing, the extension of the name.
     pub(super) fn of(bytes: &[u8], name: &str) -> Option<Self> {
-        const SIGNATURES: [(&[u8], FileKind); 4] = [
+        const SIGNATURES: [(&[u8], FileKind); 6] = [
             (b"DDS ", FileKind::Dds),
             (b"\x89PNG\r\n\x1a\n", FileKind::Png),
             (b"\xff\xd8\xff", FileKind::Jpeg),
             (b"BM", FileKind::Bmp),
+            (b"#?RADIANCE", FileKind::Radiance),
+            (b"#?RGBE", FileKind::Radiance),
         ];
         let signed = SIGNATURES.iter().find(|(signature, _)| bytes.starts_with(signature));
         if let Some((_, kind)) = signed {
@@ -50,6 +53,7 @@ impl fmt::Display for FileKind {
             Self::WebP => "WebP",
             Self::Tga => "TGA",
             Self::Bmp => "BMP",
+            Self::Radiance => "Radiance",
         })
     }
 }

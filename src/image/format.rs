@@ -10,6 +10,8 @@ pub enum ImageFormat {
     Rgba8,
     /// Red, green, blue and alpha as half floats, little-endian, linear.
     Rgba16Float,
+    /// Red, green and blue as mantissas, and their exponent, 8 bits each; linear.
+    Rgbe,
     /// Colour with one bit of alpha; 8 bytes a block.
     Bc1,
     /// Colour with 4 bits of alpha.
@@ -41,7 +43,7 @@ impl ImageFormat {
     /// Bytes of a block.
     pub fn block_len(self) -> usize {
         match self {
-            Self::Rgba8 => 4,
+            Self::Rgba8 | Self::Rgbe => 4,
             Self::Rgba16Float | Self::Bc1 | Self::Bc4 | Self::Bc4Signed => 8,
             Self::Bc2 | Self::Bc3 | Self::Bc5 | Self::Bc5Signed | Self::Bc6h | Self::Bc6hSigned | Self::Bc7 => 16,
         }
@@ -55,12 +57,12 @@ impl ImageFormat {
 
     /// Whether texels come in blocks of 4 × 4.
     pub fn is_compressed(self) -> bool {
-        !matches!(self, Self::Rgba8 | Self::Rgba16Float)
+        !matches!(self, Self::Rgba8 | Self::Rgba16Float | Self::Rgbe)
     }
 
     /// Whether values are linear light and may exceed 1.
     pub fn is_float(self) -> bool {
-        matches!(self, Self::Rgba16Float | Self::Bc6h | Self::Bc6hSigned)
+        matches!(self, Self::Rgba16Float | Self::Rgbe | Self::Bc6h | Self::Bc6hSigned)
     }
 
     /// Whether a GPU that samples the blocks gives −1 … 1 where the unsigned formats give 0 … 1.

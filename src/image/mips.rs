@@ -1,11 +1,11 @@
 //! Makes smaller levels where a file has none.
 
-use glam::Vec4;
+use glam::{Vec3A, Vec4};
 
 use super::format::{Channels, ImageFormat};
-use super::half;
 use super::picture::{Image, full_level_count, level_size};
 use super::srgb::{Srgb, WHOLE};
+use super::{half, radiance};
 use crate::slices::{Slices, at_once};
 
 /// The kind of values in a map, which decides how they are averaged.
@@ -38,7 +38,7 @@ const CLEAR_WEIGHT: f32 = 1.0 / 1024.0;
 impl Image {
     /// The picture with all levels down to 1 × 1. A picture that has more than one level stays as it is.
     ///
-    /// Compressed pictures become [`ImageFormat::Rgba8`], or [`ImageFormat::Rgba16Float`] where they hold floats, which
+    /// Compressed pictures become [`ImageFormat::Rgba8`], or [`ImageFormat::Rgba16Float`] where they hold floats. Floats
     /// are taken as linear colours whatever `map_kind` says. Each texel is the mean of the area that it covers, also
     /// where a side is odd.
     #[must_use]
@@ -48,11 +48,12 @@ impl Image {
 
     /// [`with_mips`](Self::with_mips) of a borrowed picture; `None` where nothing would change.
     pub(crate) fn mipped(&self, map_kind: MapKind) -> Option<Self> {
-        at_once(self.mipped_in(map_kind, &Slices::ENDLESS))
+        at_once(self.mipped_in(map_kind, None, &Slices::ENDLESS))
     }
 
-    /// [`mipped`](Self::mipped) in slices.
-    pub(crate) async fn mipped_in(&self, map_kind: MapKind, slices: &Slices) -> Option<Self> {
+    /// [`mipped`](Self::mipped) in slices. Of colours that are cut where their alpha is below `cutoff`, 0…1, as large a part is left of each
+    /// level as of the largest.
+    pub(crate) async fn mipped_in(&self, map_kind: MapKind, cutoff: Option<f32>, slices: &Slices) -> Option<Self> {
         let level_count = full_level_count(self.width, self.height);
         if self.level_count > 1 || level_count == 1 {
             return None;
@@ -64,8 +65,11 @@ impl Image {
         };
         let face_len: usize = (0..level_count).map(level_len).sum();
         let mut data = Vec::with_capacity(face_len * self.face_count() as usize);
+        let cutoff = cutoff.filter(|_| map_kind == MapKind::Diffuse && self.has_alpha());
         for face in 0..self.face_count() {
-            coding.append_chain(&mut data, self, face, level_count, slices).await;
+            coding
+                .append_chain(&mut data, self, (face, cutoff), level_count, slices)
+                .await;
         }
         Some(self.remade(coding, [self.width, self.height], level_count, data))
     }
@@ -96,7 +100,7 @@ impl Image {
                 let (width, height) = size_after(halved);
                 texels = at_once(halve(width, height, &texels, |&texel| texel, &Slices::ENDLESS));
             }
-            coding.append(&mut data, &texels);
+            coding.append(&mut data, &texels, 1.0);
         }
         Some(self.remade(coding, size_after(halvings).into(), 1, data))
     }
@@ -128,11 +132,14 @@ enum Coding {
     Linear,
     /// Linear half floats.
     Half,
+    /// Linear light with a common exponent.
+    Rgbe,
 }
 
 impl Coding {
     fn of(image: &Image, map_kind: MapKind) -> Self {
         match map_kind {
+            _ if image.format == ImageFormat::Rgbe => Self::Rgbe,
             _ if image.format.is_float() => Self::Half,
             MapKind::Diffuse => Self::Srgb,
             MapKind::Normal => Self::Direction {
@@ -147,16 +154,27 @@ impl Coding {
         match self {
             Self::Srgb | Self::Direction { .. } | Self::Linear => ImageFormat::Rgba8,
             Self::Half => ImageFormat::Rgba16Float,
+            Self::Rgbe => ImageFormat::Rgbe,
         }
     }
 
     /// Writes a face of at least two levels: the largest as it is, then all smaller ones.
-    async fn append_chain(self, data: &mut Vec<u8>, image: &Image, face: u32, level_count: u32, slices: &Slices) {
+    async fn append_chain(
+        self,
+        data: &mut Vec<u8>,
+        image: &Image,
+        (face, cutoff): (u32, Option<f32>),
+        level_count: u32,
+        slices: &Slices,
+    ) {
+        let start = data.len();
         let mut texels = self.append_level(data, image, face, 0, slices).await;
+        let coverage = cutoff.map(|cutoff| Coverage::of(&data[start..], cutoff));
         for level in 1..level_count {
+            let alpha_scale = coverage.map_or(1.0, |coverage| coverage.alpha_scale(&texels));
             for texels in texels.chunks(TEXELS_A_PIECE) {
                 slices.pause().await;
-                self.append(data, texels);
+                self.append(data, texels, alpha_scale);
             }
             // From the values before rounding, so that errors do not add up.
             let (width, height) = image.level_size(level);
@@ -174,9 +192,12 @@ impl Coding {
         slices: &Slices,
     ) -> Vec<Texel> {
         let (width, height) = image.level_size(level);
-        if let Self::Half = self {
+        if let Self::Half | Self::Rgbe = self {
             let values = image.to_rgba32f(face, level).unwrap_or_default();
-            data.extend(values.iter().flat_map(|&value| half::from_f32(value).to_le_bytes()));
+            match self {
+                Self::Rgbe => data.extend_from_slice(image.level(face, level).unwrap_or_default()),
+                _ => data.extend(values.iter().flat_map(|&value| half::from_f32(value).to_le_bytes())),
+            }
             return halve(
                 width,
                 height,
@@ -217,13 +238,14 @@ impl Coding {
         }
     }
 
-    fn append(self, data: &mut Vec<u8>, texels: &[Texel]) {
+    /// Writes texels of a smaller level; alpha of colours times `alpha_scale`.
+    fn append(self, data: &mut Vec<u8>, texels: &[Texel], alpha_scale: f32) {
         match self {
             Self::Srgb => {
                 let srgb = Srgb::tables();
                 append_bytes(data, texels, |texel| {
                     let [r, g, b] = srgb.bytes(texel / texel.w);
-                    let alpha = nearest((texel - CLEAR_WEIGHT) / (1.0 - CLEAR_WEIGHT)).w;
+                    let alpha = nearest(Vec4::splat(alpha_of(texel) * alpha_scale)).w;
                     [r, g, b, alpha.to_bits() as u8]
                 });
             }
@@ -239,8 +261,64 @@ impl Coding {
                 let values = texels.iter().flat_map(|texel| texel.to_array());
                 data.extend(values.flat_map(|value| half::from_f32(value).to_le_bytes()));
             }
+            Self::Rgbe => data.extend(
+                texels
+                    .iter()
+                    .flat_map(|texel| radiance::texel_of(Vec3A::from_vec4(*texel))),
+            ),
         }
     }
+}
+
+/// How large a part of a map is left where alpha cuts it.
+#[derive(Clone, Copy, Debug)]
+struct Coverage {
+    /// 0…1.
+    cutoff: f32,
+    /// 0…1, of the largest level.
+    part: f32,
+}
+
+impl Coverage {
+    /// Of a level of RGBA with 8 bits a channel.
+    fn of(level: &[u8], cutoff: f32) -> Self {
+        let texels = level.as_chunks::<4>().0;
+        let is_left = |texel: &&[u8; 4]| f32::from(texel[3]) >= cutoff * 255.0;
+        Self {
+            cutoff,
+            part: texels.iter().filter(is_left).count() as f32 / texels.len() as f32,
+        }
+    }
+
+    /// What alpha of a smaller level is multiplied by, so that as large a part of it is left (Castaño 2010, "Computing Alpha Mipmaps"). A mean
+    /// would lose what is thin: leaves seen from afar would have holes.
+    fn alpha_scale(self, texels: &[Texel]) -> f32 {
+        let gone = ((1.0 - self.part) * texels.len() as f32).round() as usize;
+        if gone == 0 || gone >= texels.len() {
+            return 1.0;
+        }
+        let mut alphas: Vec<f32> = texels.iter().map(|&texel| alpha_of(texel)).collect();
+        let (_, &mut least_left, _) = alphas.select_nth_unstable_by(gone, f32::total_cmp);
+        // Many may have the same alpha: all of them are left, or none.
+        let part = |is_left: &dyn Fn(f32) -> bool| {
+            let left = alphas.iter().filter(|&&alpha| is_left(alpha)).count() as f32;
+            (left / alphas.len() as f32 - self.part).abs()
+        };
+        let are_gone = part(&|alpha| alpha >= least_left) > part(&|alpha| alpha > least_left);
+        let above = alphas
+            .iter()
+            .copied()
+            .filter(|&alpha| alpha > least_left)
+            .fold(f32::INFINITY, f32::min);
+        let least_left = if are_gone { above } else { least_left };
+        // A scale beyond these would make something of nothing.
+        (self.cutoff / least_left.max(1e-3)).clamp(0.25, 4.0)
+    }
+}
+
+/// The alpha of a colour that its weight stands for.
+fn alpha_of(texel: Texel) -> f32 {
+    (texel.w - CLEAR_WEIGHT) / (1.0 - CLEAR_WEIGHT)
 }
 
 /// The weight of a colour with each alpha.

@@ -4,7 +4,7 @@
 //! bytes -> Image -> with_mips -> data (for the GPU)
 //!     decode              \----> to_rgba8, to_rgba32f (where the GPU lacks the format)
 //! ```
-//! DDS files are read here, header and all; their compressed blocks by `bcdec_rs`; PNG, JPEG, WebP, TGA and BMP by `image`.
+//! DDS and Radiance files are read here, header and all; compressed blocks by `bcdec_rs`; PNG, JPEG, WebP, TGA and BMP by `image`.
 //! No allocation trusts a header: sizes are compared with the length of the file first.
 
 mod blocks;
@@ -18,10 +18,12 @@ pub mod half;
 mod masks;
 mod mips;
 mod picture;
+mod radiance;
 mod raster;
 pub(crate) mod srgb;
 
 use file_kind::FileKind;
+use glam::Vec3A;
 
 use crate::diagnostic::{Diagnostic, Fault, codes};
 use crate::slices::{Slices, at_once};
@@ -46,7 +48,7 @@ pub use picture::{Image, ImageKind};
 /// assert_eq!(red.to_rgba8(0, 0).as_deref(), Some([255, 0, 0, 255].as_slice()));
 ///
 /// let error = image::decode(b"hello", "textures/notes.png").unwrap_err();
-/// assert_eq!(error.to_string(), "textures/notes.png: this is none of DDS, PNG, JPEG, WebP, TGA and BMP");
+/// assert_eq!(error.to_string(), "textures/notes.png: this is none of DDS, PNG, JPEG, WebP, TGA, BMP and Radiance");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn decode(bytes: &[u8], name: &str) -> Result<Image, Fault> {
@@ -60,6 +62,7 @@ pub fn decode(bytes: &[u8], name: &str) -> Result<Image, Fault> {
 pub async fn decode_in(bytes: &[u8], name: &str, slices: &Slices) -> Result<Image, Fault> {
     let decoded = match kind_of(bytes, name) {
         Ok(FileKind::Dds) => dds::decode(bytes),
+        Ok(FileKind::Radiance) => radiance::decode(bytes, slices).await,
         Ok(kind) => raster::decode(bytes, kind, slices).await,
         Err(fault) => Err(fault),
     };
@@ -74,23 +77,23 @@ pub async fn decode_in(bytes: &[u8], name: &str, slices: &Slices) -> Result<Imag
 pub fn check(bytes: &[u8], name: &str) -> Result<(), Fault> {
     let checked = kind_of(bytes, name).and_then(|kind| match kind {
         FileKind::Dds => dds::check(bytes),
+        FileKind::Radiance => radiance::check(bytes),
         kind => raster::check(bytes, kind),
     });
     checked.map_err(|fault| naming(*fault, name))
 }
 
 fn kind_of(bytes: &[u8], name: &str) -> Result<FileKind, Fault> {
-    let is_high_range = bytes.starts_with(b"#?") || bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]);
     FileKind::of(bytes, name).ok_or_else(|| {
         let (code, message) = match bytes {
             [] => (&codes::IMAGE_EMPTY, "the file is empty"),
-            _ if is_high_range => (
+            [0x76, 0x2f, 0x31, 0x01, ..] => (
                 &codes::IMAGE_UNRECOGNIZED,
-                "Radiance (.hdr) and OpenEXR (.exr) cannot be read yet; a cube map as .dds can",
+                "OpenEXR (.exr) cannot be read; a panorama as Radiance (.hdr) or a cube map as .dds can",
             ),
             _ => (
                 &codes::IMAGE_UNRECOGNIZED,
-                "this is none of DDS, PNG, JPEG, WebP, TGA and BMP",
+                "this is none of DDS, PNG, JPEG, WebP, TGA, BMP and Radiance",
             ),
         };
         code.says(message).into()
@@ -108,8 +111,21 @@ fn naming(fault: Diagnostic, name: &str) -> Fault {
 /// Bytes from the beginning of a file that [`cube_side`] reads at most.
 pub const CUBE_HEADER_LEN: usize = dds_header::HEADER_LEN + dds_header::DX10_LEN;
 
-/// Texels a side of each face when a file begins like a cube map; `None` otherwise. Reads the header alone, so the
-/// texels may be damaged.
+/// Texels a side of each face when a file begins like a cube map or a panorama, which becomes one; `None` otherwise. Reads the header alone, so
+/// the texels may be damaged.
 pub fn cube_side(bytes: &[u8]) -> Option<u32> {
-    dds::cube_side(bytes)
+    dds::cube_side(bytes).or_else(|| radiance::cube_side(bytes))
+}
+
+/// Towards the point `across` and `down` a face of a cube map, −1 … 1 from its left and its upper edge; not of unit length. Faces are +x, −x,
+/// +y, −y, +z, −z, as D3D and WebGPU have them.
+pub(crate) fn cube_direction(face: usize, across: f32, down: f32) -> Vec3A {
+    match face {
+        0 => Vec3A::new(1.0, -down, -across),
+        1 => Vec3A::new(-1.0, -down, across),
+        2 => Vec3A::new(across, 1.0, down),
+        3 => Vec3A::new(across, -1.0, -down),
+        4 => Vec3A::new(across, -down, 1.0),
+        _ => Vec3A::new(-across, -down, -1.0),
+    }
 }

@@ -142,5 +142,6 @@ fn format_of(kind: FileKind) -> image::ImageFormat {
         FileKind::WebP => image::ImageFormat::WebP,
         FileKind::Tga => image::ImageFormat::Tga,
         FileKind::Bmp => image::ImageFormat::Bmp,
+        FileKind::Radiance => image::ImageFormat::Hdr,
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::{FloatExt as _, Vec3, Vec3A};
 
-use crate::image::half;
+use crate::image::{cube_direction, half};
 use crate::slices::{Slices, at_once};
 
 /// So many rows are filled between two places at which that can stop: a millisecond or less.
@@ -156,7 +156,7 @@ impl Cube {
     fn beyond(&self, face: usize, column: usize, row: usize) -> Vec3A {
         let side = self.side as f32;
         let place = |index: usize| (2.0 * index as f32 - 1.0) / side - 1.0;
-        let (face, across, down) = face_at(direction_at(face, place(column), place(row)));
+        let (face, across, down) = face_at(cube_direction(face, place(column), place(row)));
         let texel = |place: f32| (((place * 0.5 + 0.5) * side) as usize).min(self.side - 1);
         self.texel(face, texel(across), texel(down))
     }
@@ -165,22 +165,10 @@ impl Cube {
 /// Towards the middle of a texel; not of unit length.
 pub(super) fn texel_direction(side: usize, face: usize, x: usize, y: usize) -> Vec3A {
     let place = |index: usize| (2.0 * index as f32 + 1.0) / side as f32 - 1.0;
-    direction_at(face, place(x), place(y))
+    cube_direction(face, place(x), place(y))
 }
 
-/// Towards the point `across` and `down` a face, −1 … 1 from its left and its upper edge; not of unit length.
-fn direction_at(face: usize, across: f32, down: f32) -> Vec3A {
-    match face {
-        0 => Vec3A::new(1.0, -down, -across),
-        1 => Vec3A::new(-1.0, -down, across),
-        2 => Vec3A::new(across, 1.0, down),
-        3 => Vec3A::new(across, -1.0, -down),
-        4 => Vec3A::new(across, -down, 1.0),
-        _ => Vec3A::new(-across, -down, -1.0),
-    }
-}
-
-/// The face that a direction meets, and where: the inverse of [`direction_at`].
+/// The face that a direction meets, and where: the inverse of [`cube_direction`].
 fn face_at(direction: Vec3A) -> (usize, f32, f32) {
     let [x, y, z] = direction.to_array();
     let size = direction.abs();

@@ -77,7 +77,15 @@ impl Material {
 
     /// Whether alpha cuts it.
     pub fn is_cut(&self) -> bool {
-        matches!(self.alpha, AlphaMode::Mask { .. })
+        self.cutoff().is_some()
+    }
+
+    /// The alpha below which it is cut, 0…1; `None` where it is not.
+    pub fn cutoff(&self) -> Option<f32> {
+        match self.alpha {
+            AlphaMode::Mask { cutoff } => Some(cutoff),
+            AlphaMode::Opaque | AlphaMode::Blend => None,
+        }
     }
 
     /// What has less alpha than this is not there: it is not drawn, and looked through. 0 where alpha does nothing.

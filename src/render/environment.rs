@@ -327,7 +327,7 @@ struct Cube {
 }
 
 impl Cube {
-    /// The image's largest level that fits, decoded. When all are too large, the smallest is averaged down.
+    /// The image's largest level that fits and all smaller ones, decoded. When all are too large, the smallest is averaged down.
     fn of(device: &wgpu::Device, image: &Image) -> Option<Self> {
         if image.kind() != ImageKind::Cube {
             return None;
@@ -345,24 +345,20 @@ impl Cube {
         if side != height {
             return None;
         }
-        let faces = 0..6;
-        let (format, texels) = if image.format().is_float() {
-            let halves = |face| image.to_rgba32f(face, level).map(|texels| half_floats(&texels));
-            (
-                wgpu::TextureFormat::Rgba16Float,
-                faces.map(halves).collect::<Option<Vec<_>>>()?,
-            )
-        } else {
-            let bytes = |face| image.to_rgba8(face, level);
-            (
-                wgpu::TextureFormat::Rgba8UnormSrgb,
-                faces.map(bytes).collect::<Option<Vec<_>>>()?,
-            )
+        let is_float = image.format().is_float();
+        let texels = |face, level| match is_float {
+            true => image.to_rgba32f(face, level).map(|texels| half_floats(&texels)),
+            false => image.to_rgba8(face, level),
         };
+        let faces = |level| (0..6).map(|face| texels(face, level)).collect::<Option<Vec<_>>>();
+        let levels = (level..image.level_count()).map(|level| Some(faces(level)?.concat()));
         Some(Self {
             side,
-            format,
-            levels: vec![texels.concat()],
+            format: match is_float {
+                true => wgpu::TextureFormat::Rgba16Float,
+                false => wgpu::TextureFormat::Rgba8UnormSrgb,
+            },
+            levels: levels.collect::<Option<_>>()?,
         })
     }
 

@@ -367,24 +367,40 @@ fn a_cube_map_is_the_sky_by_its_own_option_and_only_noted_among_textures() {
     let drawn = image::open(&output).expect("is a picture").into_rgba8();
     assert!(share_that_differs(&plain, &drawn, 2) < 0.001, "it is not the sky");
 
+    // The same light as a panorama.
+    let panorama = folder.join("dusk.hdr");
+    let texels = [145, 5, 1, 128].repeat(16 * 8);
+    std::fs::write(&panorama, [b"#?RADIANCE\n\n-Y 8 +X 16\n", &texels[..]].concat()).expect("writes");
+    let panorama = panorama.to_str().expect("UTF-8");
+    let of_panorama = draw("panorama.png", FIGURE, &[&size[..], &["--sky", panorama]].concat()).0;
+    assert!(share_that_differs(&with_sky, &of_panorama, 4) < 0.01);
+
     save_texel(folder.join("flat.png"));
     let flat = folder.join("flat.png");
-    let radiance = folder.join("studio.hdr");
-    std::fs::write(&radiance, "#?RADIANCE\n").expect("writes");
-    let unread = "Radiance (.hdr) and OpenEXR (.exr) cannot be read yet; a cube map as .dds can";
+    let unread = folder.join("studio.exr");
+    std::fs::write(&unread, b"\x76\x2f\x31\x01").expect("writes");
+    let damaged = folder.join("damaged.hdr");
+    std::fs::write(&damaged, "#?RADIANCE\n\n-Y 8 +X 16\n").expect("writes");
     let checked = run(["check", FIGURE, "--textures", folder.to_str().expect("UTF-8")]);
     let line = format!(
-        "{}: warning[image-unrecognized]: studio.hdr cannot be read yet; a cube map as .dds can.\n",
-        radiance.display()
+        "{}: warning[image-unrecognized]: studio.exr cannot be read; a panorama as Radiance (.hdr) or a cube map as .dds can.\n",
+        unread.display()
     );
     assert!(checked.err.contains(&line), "{checked:?}");
     for (wrong, words) in [
-        (radiance.to_str().expect("UTF-8"), unread),
+        (
+            unread.to_str().expect("UTF-8"),
+            "studio.exr: OpenEXR (.exr) cannot be read; a panorama as Radiance (.hdr)",
+        ),
+        (
+            damaged.to_str().expect("UTF-8"),
+            "damaged.hdr: the Radiance file ends or is damaged in its row 0 of 8",
+        ),
         (
             flat.to_str().expect("UTF-8"),
-            "flat.png is a flat picture; --sky takes a cube map",
+            "flat.png is a flat picture; --sky takes a cube map or a panorama",
         ),
-        (FIGURE, "this is none of DDS, PNG, JPEG, WebP, TGA and BMP"),
+        (FIGURE, "this is none of DDS, PNG, JPEG, WebP, TGA, BMP and Radiance"),
         ("/no/such.dds", "/no/such.dds cannot be read"),
     ] {
         let refused = run(["render", FIGURE, "-o", "nothing.png", "--sky", wrong]);

@@ -10,6 +10,7 @@ mod finding;
 mod half;
 mod layouts;
 mod mips;
+mod radiance;
 mod raster;
 mod real_files;
 mod shapes;

@@ -18,6 +18,8 @@ mod light;
 mod model;
 mod order;
 mod properties;
+#[path = "../common/radiance.rs"]
+mod radiance;
 mod rigs;
 mod scene;
 mod script;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::diagnostic::{Diagnostic, codes};
+use crate::diagnostic::{Diagnostic, Fault, codes};
 use crate::image::{self, Image};
 use crate::scene::Background;
 use crate::session::open::files::{File, FileSet};
@@ -72,12 +72,14 @@ impl Sky {
         cubes
     }
 
-    /// Makes a cube map the sky, and the background of the view. Whether it was another and could be read.
-    pub(in crate::session) fn choose(&mut self, file: &File, background: &mut Background) -> bool {
-        if self.file() == Some(file) {
-            return false;
-        }
-        let image = match image::decode(&file.bytes, file.base_name()) {
+    /// Makes a cube map the sky, and the background of the view. Whether it could be read.
+    pub(in crate::session) fn choose(
+        &mut self,
+        file: File,
+        read: Result<Image, Fault>,
+        background: &mut Background,
+    ) -> bool {
+        let image = match read {
             Ok(image) => Arc::new(image),
             Err(fault) => {
                 self.diagnostics.push(*fault);
@@ -86,7 +88,7 @@ impl Sky {
         };
         let before = self.taken.as_ref().map(|taken| taken.background_before);
         self.taken = Some(Arc::new(Taken {
-            file: file.clone(),
+            file,
             image,
             background_before: before.unwrap_or(*background),
         }));

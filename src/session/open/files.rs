@@ -77,10 +77,13 @@ impl File {
 
     /// Why a file of [`FileKind::Unread`] is not shown.
     pub(crate) fn unread_words(&self) -> String {
-        format!("{} cannot be read yet; a cube map as .dds can.", self.base_name())
+        format!(
+            "{} cannot be read; a panorama as Radiance (.hdr) or a cube map as .dds can.",
+            self.base_name()
+        )
     }
 
-    /// Whether it is a cube map, by its name and its first bytes.
+    /// Whether it is a cube map or a panorama, by its name and its first bytes.
     pub fn is_cube(&self) -> bool {
         self.is_image() && image::cube_side(&self.bytes).is_some()
     }
@@ -106,7 +109,7 @@ pub enum FileKind {
     Picture,
     /// Data that a model names.
     Buffer,
-    /// A picture of an environment, in a format that is not read yet.
+    /// A picture of an environment, in a format that is not read.
     Unread,
 }
 
@@ -114,9 +117,12 @@ pub enum FileKind {
 pub const FILE_KINDS: [(FileKind, &[&str]); 5] = [
     (FileKind::Model, &["m3d", "glb", "gltf"]),
     (FileKind::Archive, &["zip"]),
-    (FileKind::Picture, &["dds", "png", "jpg", "jpeg", "webp", "tga", "bmp"]),
+    (
+        FileKind::Picture,
+        &["dds", "png", "jpg", "jpeg", "webp", "tga", "bmp", "hdr"],
+    ),
     (FileKind::Buffer, &["bin"]),
-    (FileKind::Unread, &["hdr", "exr"]),
+    (FileKind::Unread, &["exr"]),
 ];
 
 impl FileSet {
@@ -217,12 +223,12 @@ impl FileSet {
         self.files.iter().filter(|file| file.is_image() && !file.is_cube())
     }
 
-    /// Cube maps: one of them is the sky.
+    /// Cube maps and panoramas: one of them is the sky.
     pub fn cubes(&self) -> impl Iterator<Item = &File> {
         self.files.iter().filter(|file| file.is_cube())
     }
 
-    /// Pictures of environments that cannot be read yet.
+    /// Pictures of environments that cannot be read.
     pub fn unread(&self) -> impl Iterator<Item = &File> {
         self.files.iter().filter(|file| file.kind() == Some(FileKind::Unread))
     }

@@ -71,7 +71,7 @@ impl Maps {
     ) {
         self.keep(pictures, false);
         self.find(materials);
-        self.decode(slices).await;
+        self.decode(materials, slices).await;
         self.conclude(materials);
     }
 
@@ -96,7 +96,7 @@ impl Maps {
     ) -> bool {
         let (dropped, replaced) = self.keep(pictures, true);
         let changed = self.find(materials) || replaced;
-        self.decode(slices).await;
+        self.decode(materials, slices).await;
         self.conclude(materials);
         if !dropped.iter().any(|&index| self.is_used(index)) {
             let is_sound = |&&index: &&usize| matches!(self.decoded[index], Decoded::Unused);
@@ -172,7 +172,7 @@ impl Maps {
     }
 
     /// Decodes the pictures that materials name and makes their mips, and looks whether those could be decoded that nobody names.
-    async fn decode(&mut self, slices: &Slices) {
+    async fn decode(&mut self, materials: &[Material], slices: &Slices) {
         while let Some(index) = self.waiting.pop() {
             let all = self.pictures.len();
             slices
@@ -182,7 +182,7 @@ impl Maps {
             let name = picture.base_name();
             let looked_at = if self.is_used(index) {
                 match image::decode_in(&picture.bytes, name, slices).await {
-                    Ok(image) => Ok(Decoded::Images(self.for_slots(index, image, slices).await)),
+                    Ok(image) => Ok(Decoded::Images(self.for_slots(index, image, materials, slices).await)),
                     Err(fault) => Err(fault),
                 }
             } else {
@@ -193,7 +193,7 @@ impl Maps {
     }
 
     /// A picture that was just decoded, for its slots. What is there of it stays.
-    async fn for_slots(&self, index: usize, image: Image, slices: &Slices) -> ForSlots {
+    async fn for_slots(&self, index: usize, image: Image, materials: &[Material], slices: &Slices) -> ForSlots {
         let before = match &self.decoded[index] {
             Decoded::Images(images) => images.clone(),
             _ => ForSlots::default(),
@@ -206,6 +206,11 @@ impl Maps {
                 of_kinds[map_kind(slot) as usize] = Some(Arc::clone(image));
             }
         }
+        let users = self.users.get(&index).map_or(&[][..], Vec::as_slice);
+        let of_users = users.iter().filter(|(_, slot)| *slot == MapSlot::Diffuse);
+        let cutoff = of_users
+            .filter_map(|&(material, _)| materials[material].cutoff())
+            .next();
         for kind in MapKind::ALL {
             let is_wanted = |&slot: &MapSlot| map_kind(slot) == kind && self.is_used_as(index, slot);
             let of_kind = &mut of_kinds[kind as usize];
@@ -214,7 +219,7 @@ impl Maps {
                 let mipped = if self.without_mips {
                     None
                 } else {
-                    image.mipped_in(kind, slices).await
+                    image.mipped_in(kind, cutoff, slices).await
                 };
                 *of_kind = Some(mipped.map_or_else(|| Arc::clone(&image), Arc::new));
             }

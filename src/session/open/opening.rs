@@ -64,7 +64,9 @@ impl Session {
             FileCommand::CancelOpening => self.cancel_opening(),
             FileCommand::UseSky(path) => {
                 let found = self.skies().iter().find(|file| file.path == path).cloned();
-                self.use_as_sky(found);
+                if let Some(file) = found.filter(|file| self.sky_file() != Some(file)) {
+                    self.ask(Wish::Sky(file), None);
+                }
             }
             FileCommand::ClearSky => self.clear_sky(),
             FileCommand::DismissError => self.content.error = None,
@@ -132,8 +134,9 @@ impl Session {
             session.forget_opening();
             session.begin(Wish::Files(files), Some(reduced_motion), None);
         });
-        if self.opening.slices.are_endless() {
-            return self.advance_opening();
+        let mut changes = changes;
+        while self.opening.slices.are_endless() && self.is_opening() {
+            changes |= self.advance_opening();
         }
         changes
     }
@@ -151,6 +154,14 @@ impl Session {
             && let Some((ready, ended)) = self.next_ready()
         {
             self.show_ready(ready, ended);
+            self.begin_next();
+        }
+    }
+
+    /// Begins with what waits, where there is something.
+    fn begin_next(&mut self) {
+        if let Some(next) = self.opening.waiting.pop_front() {
+            self.begin(next, None, None);
         }
     }
 
@@ -198,13 +209,15 @@ impl Session {
             return Changes::default();
         };
         let to_go_back_to = self.to_go_back_to();
+        let before = self.undoable();
         let changes = self.track(|session| session.show_ready(ready, ended));
+        if !changes.model {
+            self.record_step(&before);
+        }
         if changes.need_upload() && to_go_back_to.is_some() {
             self.before = to_go_back_to;
         }
-        if let Some(next) = self.opening.waiting.pop_front() {
-            self.begin(next, None, None);
-        }
+        self.begin_next();
         changes
     }
 

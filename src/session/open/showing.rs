@@ -7,7 +7,9 @@ use super::content::Content;
 use super::files::{File, FileSet};
 use super::load::{LoadError, Loaded};
 use super::open_model::OpenModel;
-use super::wish::{PicturesJoined, Ready};
+use super::wish::{PicturesJoined, Ready, Wish};
+use crate::diagnostic::Fault;
+use crate::image::Image;
 use crate::session::changes::Changes;
 use crate::session::look::materials::Materials;
 use crate::session::play::actor::Actor;
@@ -38,6 +40,7 @@ impl Session {
             }
             Ready::Others(files, joined) => self.add_others(&files, joined),
             Ready::Clips(files, read) => self.add_clips(&files, read),
+            Ready::Sky(file, read) => self.use_as_sky(file, read),
         }
     }
 
@@ -66,7 +69,7 @@ impl Session {
             self.offer_skies(files);
         } else {
             let cubes = self.content.sky.note(files);
-            self.use_as_sky(cubes.into_iter().next());
+            self.ask_for_sky(cubes.into_iter().next());
         }
     }
 
@@ -239,25 +242,33 @@ impl Session {
         }
     }
 
-    pub(in crate::session) fn use_as_sky(&mut self, cube: Option<File>) {
+    /// Has a cube map read that is to be the sky, unless it is.
+    fn ask_for_sky(&mut self, cube: Option<File>) {
+        let cube = cube.filter(|cube| self.sky_file() != Some(cube));
+        self.opening.waiting.extend(cube.map(Wish::Sky));
+    }
+
+    fn use_as_sky(&mut self, cube: File, read: Result<Image, Fault>) {
         let Content { sky, changes, .. } = &mut self.content;
-        if let Some(cube) = cube.filter(|cube| sky.choose(cube, &mut self.view.look.background)) {
+        // Read again, it changes what is shown and is no news.
+        let is_again = sky.file().is_some_and(|file| file.path == cube.path);
+        let name = cube.base_name().to_owned();
+        if sky.choose(cube, read, &mut self.view.look.background) {
             changes.sky = true;
-            self.news.push(News::SkyUsed(cube.base_name().to_owned()));
+            self.news.extend((!is_again).then_some(News::SkyUsed(name)));
         }
     }
 
     /// Notes the cube maps that came among other files. Where the sky came again and is another now, it is shown.
     fn offer_skies(&mut self, files: &FileSet) {
-        let Content { sky, changes, .. } = &mut self.content;
+        let sky = &mut self.content.sky;
         let known = sky.found.len();
         let cubes = sky.note(files);
         let is_sky = |cube: &&File| sky.file().is_some_and(|file| file.path == cube.path);
-        if let Some(again) = cubes.iter().find(is_sky) {
-            changes.sky |= sky.choose(again, &mut self.view.look.background);
-        }
+        let again = cubes.iter().find(is_sky).cloned();
         let new = sky.found.get(known);
         self.news.extend(new.map(|cube| News::SkyFound(cube.path.clone())));
+        self.ask_for_sky(again);
     }
 
     pub(in crate::session) fn clear_sky(&mut self) {

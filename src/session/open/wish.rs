@@ -7,6 +7,8 @@ use super::files::{File, FileKind, FileSet};
 use super::load::{LoadError, Loaded, load_among, load_whole};
 use super::maps::Maps;
 use super::open_model::OpenModel;
+use crate::diagnostic::Fault;
+use crate::image::{self, Image, MapKind};
 use crate::slices::{Slices, Stage};
 
 /// What is to be opened.
@@ -18,6 +20,8 @@ pub(in crate::session) enum Wish {
     Listed(Arc<FileSet>, File, Box<Maps>),
     /// Clips for the open model.
     Clips(Vec<File>),
+    /// The sky, of one of the cube maps that came.
+    Sky(File),
 }
 
 /// What can be shown.
@@ -28,6 +32,8 @@ pub(in crate::session) enum Ready {
     Others(Arc<FileSet>, Option<PicturesJoined>),
     /// What was read of each model of a drop, in its order. The largest does not come first here.
     Clips(FileSet, Vec<Result<OpenModel, Box<LoadError>>>),
+    /// The sky of a cube map, with all its levels.
+    Sky(File, Result<Image, Fault>),
 }
 
 /// Maps of the open model with pictures that came later.
@@ -45,14 +51,14 @@ impl Wish {
         match self {
             Self::Files(files) => !files.iter().all(is_other),
             Self::Listed(..) => true,
-            Self::Clips(_) => false,
+            Self::Clips(_) | Self::Sky(_) => false,
         }
     }
 
     /// Base name of the file that it is about, as far as names tell.
     pub(in crate::session) fn name(&self) -> String {
         let file = match self {
-            Self::Listed(_, file, _) => Some(file),
+            Self::Listed(_, file, _) | Self::Sky(file) => Some(file),
             Self::Files(files) | Self::Clips(files) => {
                 let is_model = |file: &&File| matches!(file.kind(), Some(FileKind::Model | FileKind::Archive));
                 let models = files.iter().filter(is_model);
@@ -96,6 +102,14 @@ impl Wish {
                     read.push(load_among(file, &files, slices).await);
                 }
                 Ready::Clips(files, read)
+            }
+            Self::Sky(file) => {
+                slices.pause_at(Stage::Decoding, 0, 1).await;
+                let read = match image::decode_in(&file.bytes, file.base_name(), slices).await {
+                    Ok(image) => Ok(image.mipped_in(MapKind::Diffuse, None, slices).await.unwrap_or(image)),
+                    Err(fault) => Err(fault),
+                };
+                Ready::Sky(file, read)
             }
         }
     }

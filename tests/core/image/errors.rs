@@ -18,16 +18,12 @@ fn files_that_are_no_pictures_are_named() {
     #[rustfmt::skip]
     let cases = [
         (b"".as_slice(), "a.dds", "image-empty: a.dds: the file is empty"),
-        (b"hello", "t/a.txt", "image-unrecognized: t/a.txt: this is none of DDS, PNG, JPEG, WebP, TGA and BMP"),
-        (
-            b"#?RADIANCE\n",
-            "studio.hdr",
-            "image-unrecognized: studio.hdr: Radiance (.hdr) and OpenEXR (.exr) cannot be read yet; a cube map as .dds can",
-        ),
+        (b"hello", "t/a.txt", "image-unrecognized: t/a.txt: this is none of DDS, PNG, JPEG, WebP, TGA, BMP and Radiance"),
+        (b"#?RADIANCE\n", "studio.hdr", "image-cut: studio.hdr: the Radiance file ends or is damaged in its header"),
         (
             b"\x76\x2f\x31\x01\x02",
             "studio.dat",
-            "image-unrecognized: studio.dat: Radiance (.hdr) and OpenEXR (.exr) cannot be read yet; a cube map as .dds can",
+            "image-unrecognized: studio.dat: OpenEXR (.exr) cannot be read; a panorama as Radiance (.hdr) or a cube map as .dds can",
         ),
         (b"ABCD\n", "a.dds", "dds-signature: a.dds: a DDS file begins with \"DDS \", and this one with \"ABCD\""),
         (b"DDS ", "a.dds", "dds-header-cut: a.dds: the DDS header takes 128 bytes, and the file has 4"),

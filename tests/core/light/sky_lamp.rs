@@ -2,11 +2,12 @@
 
 use std::f32::consts::PI;
 
-use bindpose::image::{decode, half};
+use bindpose::image::{MapKind, decode, half};
 use bindpose::light::{Environment, Prefiltered};
 use glam::Vec3;
 
 use crate::light::{all_directions, difference, direction};
+use crate::radiance::panorama;
 
 const SIDE: u32 = 512;
 
@@ -44,6 +45,12 @@ fn sky(light: impl Fn(Vec3) -> Vec3) -> Environment {
     Environment::from_image(&image).expect("it is a cube")
 }
 
+/// A panorama with this light in each direction.
+fn hdr_sky(light: &dyn Fn(Vec3) -> Vec3) -> Environment {
+    let image = decode(&panorama(4096, light), "sky.hdr").unwrap_or_else(|error| panic!("{error}"));
+    Environment::from_image(&image.with_mips(MapKind::Diffuse)).expect("it is a cube")
+}
+
 const BLUE: Vec3 = Vec3::new(0.2, 0.35, 0.7);
 
 #[test]
@@ -59,9 +66,21 @@ fn a_painted_sun_becomes_the_lamp_with_all_its_light() {
         let towards = direction(turn, height);
         let radius = f32::to_radians(degrees);
         let color = Vec3::new(1.0, 0.9, 0.7) * radiance;
-        let environment = sky(|d| if d.angle_between(towards) < radius { color } else { BLUE });
+        let light = |d: Vec3| if d.angle_between(towards) < radius { color } else { BLUE };
+        let of_panorama = hdr_sky(&light);
+        let found = of_panorama.lamp().expect("there is a sun");
+        let environment = sky(light);
         let lamp = environment.lamp().expect("there is a sun");
-        let words = format!("{turn}, {height}, {degrees}°: {lamp:?}");
+        let words = format!("{turn}, {height}, {degrees}°: {lamp:?}, of a panorama {found:?}");
+        assert!(
+            found.is_sun && found.direction.angle_between(towards).to_degrees() < 1.0,
+            "{words}"
+        );
+        let expected = color * radius.sin().powi(2);
+        assert!(
+            (found.color / expected - 1.0).abs().max_element() < 0.05,
+            "{words} for {expected}"
+        );
         assert!(lamp.is_sun, "{words}");
         assert!(lamp.direction.angle_between(towards).to_degrees() < 1.0, "{words}");
         // What a white surface shows that faces the disc.

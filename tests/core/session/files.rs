@@ -52,7 +52,8 @@ fn a_name_says_what_a_file_is() {
         ("fox.bin", Some(FileKind::Buffer)),
         ("Pack.ZIP", Some(FileKind::Archive)),
         ("skin.JPeg", Some(FileKind::Picture)),
-        ("studio.hdr", Some(FileKind::Unread)),
+        ("studio.hdr", Some(FileKind::Picture)),
+        ("studio.exr", Some(FileKind::Unread)),
         ("readme.txt", None),
         ("m3d", None),
     ] {

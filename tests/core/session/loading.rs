@@ -14,7 +14,7 @@ use super::models::{broken, moving, still};
 use super::{dropped, opened};
 
 /// Slices that end at every place where they can.
-fn shortest() -> Slices {
+pub(super) fn shortest() -> Slices {
     Slices::new(|| true)
 }
 

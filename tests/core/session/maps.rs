@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use bindpose::format::Document;
 use bindpose::image::encode_png;
-use bindpose::model::MapSlot;
-use bindpose::session::{File, FileCommand, Session};
+use bindpose::model::{AlphaMode, MapSlot, Material};
+use bindpose::session::{File, FileCommand, Maps, Session};
 
 use super::dropped;
 use super::models;
@@ -353,4 +353,43 @@ fn maps_come_with_the_mips_of_what_they_are_used_for() {
     assert_eq!(levels(&session, MapSlot::Normal), as_direction);
     let after = session.maps().image(0, MapSlot::Diffuse).expect("it is there");
     assert!(Arc::ptr_eq(&before, after));
+}
+
+/// Leaves on an eighth of the texels: their mean alpha is below half at nearly all of each smaller level.
+#[test]
+fn mips_of_what_alpha_cuts_leave_as_much_of_it() {
+    let leaf = |index: u32| {
+        index
+            .wrapping_mul(0x9e37_79b1)
+            .wrapping_add(index << 7)
+            .wrapping_mul(0x85eb_ca6b)
+            >> 29
+            == 0
+    };
+    let texels: Vec<u8> = (0..64 * 64)
+        .flat_map(|index| [20, 90, 30, if leaf(index) { 255 } else { 0 }])
+        .collect();
+    let png = encode_png(&texels, 64, 64).expect("it can be encoded");
+    let material = |alpha| Material {
+        name: "leaves".to_owned(),
+        alpha,
+        diffuse_map: Some("leaves.png".into()),
+        ..Material::default()
+    };
+    let left = |alpha, level| {
+        let mut maps = Maps::default();
+        maps.add(&[material(alpha)], [File::new("leaves.png", png.clone())]);
+        let image = maps.image(0, MapSlot::Diffuse).expect("it is decoded").clone();
+        let texels = image.to_rgba8(0, level).expect("the level is there");
+        let alphas = texels.iter().skip(3).step_by(4);
+        alphas.clone().filter(|&&alpha| alpha >= 128).count() as f32 / alphas.count() as f32
+    };
+    let cut = AlphaMode::Mask { cutoff: 0.5 };
+    let all = left(cut, 0);
+    // In the level before, four texels have one of five alphas.
+    for level in 2..5 {
+        let part = left(cut, level);
+        assert!((part - all).abs() < 0.06, "level {level}: {part} of {all}");
+    }
+    assert!(left(AlphaMode::Blend, 3) < 0.01, "blended, it fades");
 }

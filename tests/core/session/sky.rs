@@ -4,9 +4,11 @@ use bindpose::image::ImageKind;
 use bindpose::scene::Background;
 use bindpose::session::{File, FileCommand, HistoryCommand, LookCommand, News, Session};
 
+use super::loading::shortest;
 use super::models::{self, cube, still};
 use super::{dropped, opened};
 use crate::documents::shared_bytes;
+use crate::radiance::{header, panorama};
 
 fn cut(mut file: File) -> File {
     file.bytes = file.bytes.slice(..200);
@@ -173,16 +175,16 @@ fn a_cube_needs_no_model_and_flat_pictures_do() {
 }
 
 #[test]
-fn pictures_of_environments_that_cannot_be_read_yet_are_refused_in_words() {
-    let words = "studio.hdr cannot be read yet; a cube map as .dds can.";
-    let hdr = || File::new("in/studio.hdr", *b"#?RADIANCE\n");
+fn pictures_of_environments_that_cannot_be_read_are_refused_in_words() {
+    let words = "studio.exr cannot be read; a panorama as Radiance (.hdr) or a cube map as .dds can.";
+    let exr = || File::new("in/studio.exr", *b"\x76\x2f\x31\x01");
     for mut session in [Session::new(false), opened(still("a.m3d"))] {
-        session.apply(FileCommand::Add(vec![hdr()]));
+        session.apply(FileCommand::Add(vec![exr()]));
         let error = session.error().expect("it is refused");
         assert_eq!((error.diagnostic.code, &*error.diagnostic.message), ("no-model", words));
         assert!(session.maps().pictures().is_empty(), "it is no map");
     }
-    let session = dropped(vec![still("a.m3d"), hdr()]);
+    let session = dropped(vec![still("a.m3d"), exr()]);
     let noted: Vec<_> = session.diagnostics().map(|notice| &*notice.message).collect();
     assert_eq!(
         (session.error(), noted),
@@ -190,6 +192,35 @@ fn pictures_of_environments_that_cannot_be_read_yet_are_refused_in_words() {
         "beside a model it is a finding"
     );
     assert!(session.models().len() == 1 && session.skies().is_empty());
+}
+
+#[test]
+fn a_panorama_is_a_sky_that_is_read_in_slices_and_that_undo_takes_back() {
+    let hdr = || File::new("in/Studio.HDR", panorama(64, |towards| towards.abs()));
+    let mut session = opened(still("a.m3d"));
+    session.open_in(&shortest());
+    session.apply(FileCommand::Add(vec![hdr()]));
+    assert_eq!(sky_name(&session), None, "not yet");
+    let mut slices = 0;
+    while session.is_opening() {
+        session.advance_opening();
+        slices += 1;
+    }
+    assert!(slices > 64, "{slices}: a row of a face or of the panorama each");
+    assert_eq!((session.error(), sky_name(&session)), (None, Some("Studio.HDR")));
+    let levels = session.sky().map(|image| (image.width(), image.level_count()));
+    assert_eq!(levels, Some((16, 5)), "with what is seen of it from afar");
+    assert_eq!(session.history().undo_label(), Some("use Studio.HDR as the sky"));
+    assert!(session.apply(HistoryCommand::Undo).sky && session.sky().is_none());
+
+    // One that is damaged behind its header: what was there stays.
+    let mut session = opened(still("a.m3d"));
+    session.apply(FileCommand::Add(vec![hdr()]));
+    session.apply(FileCommand::Add(vec![File::new("cut.hdr", header(64, 32))]));
+    assert_eq!(
+        (sky_name(&session), codes(&session)),
+        (Some("Studio.HDR"), vec!["image-cut"])
+    );
 }
 
 #[test]
