@@ -14,6 +14,7 @@ struct MaterialMaps {
     places: array<MapPlace, 5>,
     // Linear light that the surface gives, times the emissive map.
     emissive: vec3<f32>,
+    // Times `solid`.
     opacity: f32,
     metallic: f32,
     normal_scale: f32,
@@ -28,6 +29,18 @@ struct MaterialMaps {
     is_metallic_roughness: u32,
     // 1 when it is shown in its own colour without light.
     is_unlit: u32,
+    // Of what is no metal: Fresnel0, and its scale at grazing angles.
+    dielectric_fresnel0: vec3<f32>,
+    specular: f32,
+    // What lies over the surface.
+    sheen: vec3<f32>,
+    sheen_roughness: f32,
+    coat: f32,
+    coat_roughness: f32,
+    // Fresnel0 that follows from the index of refraction alone.
+    boundary_fresnel0: f32,
+    // The fraction of what is scattered that is seen: less than 1 where light goes through.
+    solid: f32,
 }
 
 const DIFFUSE: u32 = 0u;

@@ -55,11 +55,15 @@ fn substance(mesh: MeshVertex) -> Substance {
     var albedo = base_color;
     var fresnel0 = material.fresnel0;
     var shininess = (1.0 - material.roughness) * gloss;
+    var plain_fresnel0 = fresnel0;
+    var specular = 1.0;
     var metallic = 0.0;
     if material_maps.is_metallic_roughness == 1u {
         metallic = material_maps.metallic * roughness_metallic.y;
         albedo = base_color * (1.0 - metallic);
-        fresnel0 = mix(vec3<f32>(DIELECTRIC_FRESNEL0), base_color, metallic);
+        fresnel0 = mix(material_maps.dielectric_fresnel0, base_color, metallic);
+        plain_fresnel0 = mix(vec3<f32>(material_maps.boundary_fresnel0), base_color, metallic);
+        specular = mix(material_maps.specular, 1.0, metallic);
         shininess = 1.0 - material.roughness * roughness_metallic.x;
     }
     return Substance(
@@ -69,6 +73,10 @@ fn substance(mesh: MeshVertex) -> Substance {
         base_color,
         albedo,
         fresnel0,
+        plain_fresnel0,
+        specular,
+        Layers(material_maps.sheen, material_maps.sheen_roughness, material_maps.coat, material_maps.coat_roughness),
+        material_maps.solid,
         shininess,
         metallic,
         emissive,
@@ -76,9 +84,6 @@ fn substance(mesh: MeshVertex) -> Substance {
         material_maps.is_unlit == 1u,
     );
 }
-
-// glTF: what is no metal reflects this much at normal incidence.
-const DIELECTRIC_FRESNEL0: f32 = 0.04;
 
 fn book_albedo(point: Substance) -> vec3<f32> {
     if material_maps.is_metallic_roughness == 1u {

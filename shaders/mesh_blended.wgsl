@@ -19,12 +19,12 @@ fn fragment_opaque_part(mesh: MeshVertex, @builtin(front_facing) clockwise: bool
 @fragment
 fn fragment_blended(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
     let point = surface_point(mesh, clockwise);
-    let color = stored(surface_color(point), mesh.clip.xy);
-    let alpha = clamp(point.substance.diffuse_texel.a, 0.0, 1.0);
-    if alpha >= OPAQUE_ALPHA {
+    let blended = blended_color(point);
+    let color = stored(blended.rgb, mesh.clip.xy);
+    if point.substance.diffuse_texel.a >= OPAQUE_ALPHA {
         discard;
     }
-    return vec4<f32>(color * alpha, alpha);
+    return vec4<f32>(color * blended.a, blended.a);
 }
 
 // In one of many pictures: a whole pixel or nothing, with its alpha as the chance, and with depth. Fronts and backs differ in the noise, as
@@ -32,9 +32,10 @@ fn fragment_blended(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) ->
 @fragment
 fn fragment_stochastic(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
     let point = surface_point(mesh, clockwise);
-    let color = stored(surface_color(point), mesh.clip.xy);
+    let blended = blended_color(point);
+    let color = stored(blended.rgb, mesh.clip.xy);
     let turn = fract(camera.sample * fract(material.threshold_step + select(0.0, 0.41421356, clockwise)));
-    if point.substance.diffuse_texel.a < OPAQUE_ALPHA * turned_noise(mesh.clip.xy, turn) {
+    if blended.a < OPAQUE_ALPHA * turned_noise(mesh.clip.xy, turn) {
         discard;
     }
     return vec4<f32>(color, 1.0);

@@ -46,3 +46,8 @@ fn surface_color(point: SurfacePoint) -> vec3<f32> {
     color += srgb_from_linear(clamp(point.substance.emissive, vec3<f32>(0.0), vec3<f32>(1.0)));
     return clamp(color, vec3<f32>(0.0), vec3<f32>(1.0));
 }
+
+// The colour of a point that is blended, and its alpha.
+fn blended_color(point: SurfacePoint) -> vec4<f32> {
+    return vec4<f32>(surface_color(point), clamp(point.substance.diffuse_texel.a, 0.0, 1.0));
+}

@@ -17,9 +17,10 @@ struct Reflectance {
     diffuse: vec3<f32>,
 }
 
-// Fdez-Agüera 2019. `scale_bias` are the entries of the table for the view and the roughness.
-fn reflectance(albedo: vec3<f32>, fresnel0: vec3<f32>, scale_bias: vec2<f32>) -> Reflectance {
-    let grazing = vec3<f32>(fresnel90(fresnel0));
+// Fdez-Agüera 2019. `at_grazing` is the fraction mirrored at grazing angles; `scale_bias` are the entries of the table for the view and
+// the roughness.
+fn reflectance(albedo: vec3<f32>, fresnel0: vec3<f32>, at_grazing: f32, scale_bias: vec2<f32>) -> Reflectance {
+    let grazing = vec3<f32>(at_grazing);
     let single = fresnel0 * scale_bias.x + grazing * scale_bias.y;
     // The mean of Schlick's curve over the hemisphere.
     let average = fresnel0 + (grazing - fresnel0) / 21.0;
@@ -30,6 +31,24 @@ fn reflectance(albedo: vec3<f32>, fresnel0: vec3<f32>, scale_bias: vec2<f32>) ->
     let multiple = single * (boost - 1.0);
     let diffuse = albedo * max(1.0 - single - multiple, vec3<f32>(0.0));
     return Reflectance(single, multiple, diffuse);
+}
+
+// Sheen: the distribution of fibres by Estevez and Kulla 2017, named Charlie, with alpha as the square of roughness, over the denominator
+// of Neubelt and Pettineo 2013, as glTF's KHR_materials_sheen allows. The fraction of light of one direction, per steradian. Roughness is
+// 0.2 or more; n·v is above 0.
+fn sheen_lobe(n_dot_l: f32, n_dot_v: f32, n_dot_h: f32, roughness: f32) -> f32 {
+    let inverse = 1.0 / (roughness * roughness);
+    let sine = sqrt(max(1.0 - n_dot_h * n_dot_h, 1e-6));
+    let distribution = (2.0 + inverse) * pow(sine, inverse) / 6.2831853;
+    return distribution / (4.0 * (n_dot_l + n_dot_v - n_dot_l * n_dot_v));
+}
+
+// What `sheen_lobe` gives back of light from all around, at most 1: a fit to its sum over all directions, off by 0.03 at most. Less
+// roughness than 0.2 it does not know.
+fn sheen_albedo(n_dot_v: f32, roughness: f32) -> f32 {
+    let level = -0.335 - 0.324 * roughness + 0.206 / roughness;
+    let slope = 0.455 * roughness - 1.343 / roughness;
+    return min(exp(level + slope * n_dot_v - 0.579 * roughness * sqrt(n_dot_v)), 1.0);
 }
 
 // Where the lobe of a rough surface is strongest: from the mirrored direction towards the normal (Lagarde and de Rousiers

@@ -1,5 +1,14 @@
 // What a pixel of the model is before any light: its maps, and its normals on the viewer's side.
 
+// What lies over a surface, as glTF's extensions have it.
+struct Layers {
+    sheen: vec3<f32>,
+    sheen_roughness: f32,
+    // The fraction that a clear coat covers.
+    coat: f32,
+    coat_roughness: f32,
+}
+
 // What it is made of there, by its material, its maps and its vertices: `substance` gives it. Colours are linear.
 struct Substance {
     // Of the diffuse map and the vertices; alpha is the surface's.
@@ -12,6 +21,12 @@ struct Substance {
     // What comes back of light that is not mirrored.
     albedo: vec3<f32>,
     fresnel0: vec3<f32>,
+    // The same before glTF's specular extension, whose factor is `specular`; grazing angles follow from these.
+    plain_fresnel0: vec3<f32>,
+    specular: f32,
+    layers: Layers,
+    // 1, or the fraction of what is scattered that is seen where light goes through.
+    solid: f32,
     // 1 - roughness. The DirectX 12 book's materials have its product with the gloss in the alpha of the normal map.
     shininess: f32,
     // 0..1 for metallic-roughness; the books' materials have none.
@@ -34,6 +49,8 @@ struct SurfacePoint {
     normal: vec3<f32>,
     // How much normals differ within the pixel: what that adds to the square of alpha.
     widening: f32,
+    // The same without the normal map.
+    smooth_widening: f32,
     // Interpolated from the vertices.
     tangent: vec4<f32>,
     tex_coord: vec2<f32>,
@@ -109,6 +126,7 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
         vertex_normal * side,
         normal,
         bend_of(normal) + spread_of(of_maps.normal_texel.rgb),
+        bend_of(vertex_normal),
         mesh.world_tangent,
         mesh.tex_coord,
         of_maps,

@@ -478,7 +478,7 @@ table! {
             "Export it without compression, and with textures in PNG or JPEG.";
         GLTF_EXTENSION_UNKNOWN = "gltf-extension-unknown", Note,
             "The file uses an extension that is not read; the model is shown without.",
-            "For example clear coat or transmission of a material. The file says itself that it can be shown so.",
+            "For example lights, or the iridescence of a material. The file says itself that it can be shown so.",
             "The extension is left out.",
             "Nothing needs to be mended.";
         GLTF_INDEX_OUT_OF_RANGE = "gltf-index-out-of-range", Error,
@@ -574,8 +574,13 @@ table! {
         GLTF_TRANSMISSION = "gltf-transmission", Note,
             "Light goes through a material, which is drawn blended.",
             "Glass bends and tints what is behind it; blending shows it as it is, through a little of the surface.",
-            "It is blended by how much light goes through. Where a map says where that is, it stays opaque.",
+            "It is blended by how much light goes through, and what it mirrors is seen whole.",
             "Give the material an alpha of its own and the mode BLEND, where it has to look so everywhere.";
+        GLTF_MAP_LEFT_OUT = "gltf-map-left-out", Note,
+            "A material has maps of clear coat, sheen, specular or transmission, which are not read.",
+            "The numbers beside such a map then hold for all of the surface.",
+            "The numbers are drawn and written without the maps. A sheen whose colour is in a map is left out, and what a map says to be transparent is opaque.",
+            "Nothing, where the look is good without them. Else put what they say into the maps of colour and roughness.";
         GLTF_CHANNEL_LEFT_OUT = "gltf-channel-left-out", Note,
             "A clip moves something that is not shown; left out.",
             "Cameras, lights and empties are not shown.",

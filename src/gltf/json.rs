@@ -228,6 +228,40 @@ objects! {
         emissive_strength: Option<EmissiveStrength>,
         #[serde(rename = "KHR_materials_transmission")]
         transmission: Option<Transmission>,
+        #[serde(rename = "KHR_materials_ior")]
+        ior: Option<Ior>,
+        #[serde(rename = "KHR_materials_specular")]
+        specular: Option<Specular>,
+        #[serde(rename = "KHR_materials_clearcoat")]
+        clearcoat: Option<Clearcoat>,
+        #[serde(rename = "KHR_materials_sheen")]
+        sheen: Option<Sheen>,
+    }
+
+    Ior {
+        ior: Option<f32>,
+    }
+
+    Specular {
+        specular_factor: Option<f32>,
+        specular_color_factor: Option<[f32; 3]>,
+        specular_texture: Option<IgnoredAny>,
+        specular_color_texture: Option<IgnoredAny>,
+    }
+
+    Clearcoat {
+        clearcoat_factor: Option<f32>,
+        clearcoat_roughness_factor: Option<f32>,
+        clearcoat_texture: Option<IgnoredAny>,
+        clearcoat_roughness_texture: Option<IgnoredAny>,
+        clearcoat_normal_texture: Option<IgnoredAny>,
+    }
+
+    Sheen {
+        sheen_color_factor: Option<[f32; 3]>,
+        sheen_roughness_factor: Option<f32>,
+        sheen_color_texture: Option<IgnoredAny>,
+        sheen_roughness_texture: Option<IgnoredAny>,
     }
 
     Transmission {

@@ -23,8 +23,9 @@ pub use component::Wanted;
 pub use container::{Container, begins_like_gltf, open};
 pub(crate) use fault::fault;
 pub use json::{
-    Accessor, Animation, Channel, Image, Index, Interpolation, Material, Mesh, Node, NormalTexture, OcclusionTexture,
-    Path, PbrMetallicRoughness, Primitive, Root, Sampler, Scene, Skin, Texture, TextureInfo, TextureTransform,
+    Accessor, Animation, Channel, Image, Index, Interpolation, Material, MaterialExtensions, Mesh, Node, NormalTexture,
+    OcclusionTexture, Path, PbrMetallicRoughness, Primitive, Root, Sampler, Scene, Skin, Texture, TextureInfo,
+    TextureTransform, Transmission,
 };
 pub use parse::{check_asset, parse};
 pub use places::position_of;

@@ -4,13 +4,17 @@ use super::places::{offset_of, pointer_at};
 use super::{Container, Fault, Root, fault};
 use crate::diagnostic::{Diagnostic, Position, codes};
 
-const KNOWN: [&str; 6] = [
+const KNOWN: [&str; 10] = [
     "EXT_texture_webp",
+    "KHR_materials_clearcoat",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
     "KHR_materials_transmission",
+    "KHR_materials_unlit",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
-    "KHR_materials_unlit",
-    "KHR_materials_emissive_strength",
 ];
 
 /// Reads the JSON of a file.

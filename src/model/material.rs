@@ -2,6 +2,7 @@
 
 use glam::{Affine2, Vec2};
 
+use super::Layers;
 use crate::modes::modes;
 
 /// A material.
@@ -16,6 +17,8 @@ pub struct Material {
     pub opacity: f32,
     /// How it reflects.
     pub reflectance: Reflectance,
+    /// What glTF's extensions say of how it reflects.
+    pub layers: Layers,
     /// What alpha does.
     pub alpha: AlphaMode,
     /// Drawn from both sides, as all of a `.m3d` file is, which may have holes and triangles that are turned: the normals then tell its
@@ -53,6 +56,7 @@ impl Default for Material {
                 fresnel0: [0.05; 3],
                 roughness: 0.6,
             },
+            layers: Layers::default(),
             alpha: AlphaMode::Opaque,
             double_sided: true,
             unlit: false,
@@ -248,7 +252,7 @@ pub enum Reflectance {
         /// Scale of the mirrored sky.
         reflectivity: [f32; 3],
     },
-    /// glTF: what is no metal reflects 4 % at normal incidence, a metal its diffuse colour.
+    /// glTF: what is no metal reflects 4 % at normal incidence unless [`Layers`] say otherwise, a metal its diffuse colour.
     MetallicRoughness {
         /// 0 none … 1 a metal.
         metallic: f32,

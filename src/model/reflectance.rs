@@ -7,9 +7,6 @@ use crate::image::srgb;
 /// dielectrics that they stand for.
 const PHONG_TO_FRESNEL: f32 = 0.05;
 
-/// What all that is no metal reflects at normal incidence: glTF 2.0, appendix B.
-pub const DIELECTRIC: f32 = 0.04;
-
 /// Above this at normal incidence a surface is taken for a metal: of all others diamonds reflect most, 0.17.
 const LEAST_OF_METAL: f32 = 0.2;
 
@@ -44,9 +41,9 @@ impl Material {
         }
     }
 
-    /// The surface in the words of the DirectX 12 book. A metal by glTF 2.0, appendix B: Fresnel0 is mix(0.04, diffuse, metallic), and
-    /// what it reflects so is not diffuse. Of a Phong lobe Fresnel0 is a twentieth of the specular colour, to which the mirrored sky
-    /// comes, and the roughness is [`roughness_from_power`].
+    /// The surface in the words of the DirectX 12 book. A metal by glTF 2.0, appendix B: Fresnel0 is mix(dielectric, diffuse, metallic),
+    /// where the dielectric's is 0.04 or what [`Layers`](super::Layers) say, and what a metal reflects is not diffuse. Of a Phong lobe
+    /// Fresnel0 is a twentieth of the specular colour, to which the mirrored sky comes, and the roughness is [`roughness_from_power`].
     pub fn fresnel_surface(&self) -> FresnelSurface {
         let diffuse = self.base_color();
         match self.reflectance {
@@ -57,7 +54,10 @@ impl Material {
             },
             Reflectance::MetallicRoughness { metallic, roughness } => FresnelSurface {
                 diffuse: diffuse.map(|channel| channel * (1.0 - metallic)),
-                fresnel0: diffuse.map(|channel| DIELECTRIC + (channel - DIELECTRIC) * metallic),
+                fresnel0: std::array::from_fn(|channel| {
+                    let dielectric = self.layers.fresnel0()[channel];
+                    dielectric + (diffuse[channel] - dielectric) * metallic
+                }),
                 roughness,
             },
             Reflectance::Phong {

@@ -11,7 +11,7 @@ use super::maps::{MapTextures, MaterialImages};
 use super::pipelines::Layouts;
 use super::recipe::{Alpha, Kind, Maps};
 use crate::image::Channels;
-use crate::model::{AlphaMode, MapSlot, Material, Reflectance, Sampling, Wrap};
+use crate::model::{AlphaMode, Layers, MapSlot, Material, Reflectance, Sampling, Wrap};
 use crate::shaders::MapPlace;
 use crate::{scene, shaders};
 
@@ -20,6 +20,10 @@ const ANISOTROPY: u16 = 8;
 
 /// What is blended with less alpha than this casts no shadow, and does not stand in the way of ambient light.
 const LEAST_SOLID_ALPHA: f32 = 0.5;
+
+/// How much less is seen of what a surface scatters that lets all light through. Something stays, since blending does not tint what is
+/// behind it.
+const LEAST_SEEN: f32 = 0.8;
 
 /// The materials in the model's order, each with a bind group for group 3.
 pub(super) struct GpuMaterials {
@@ -143,7 +147,7 @@ impl GpuMaterials {
             self.bound.push(BoundMaterial {
                 group: self.group(device, layouts, index, kind.maps),
                 kind,
-                is_thin: kind.alpha.is_blended() && material.opacity < LEAST_SOLID_ALPHA,
+                is_thin: kind.alpha.is_blended() && maps_uniform.opacity < LEAST_SOLID_ALPHA,
             });
         }
         queue.write_buffer(&self.uniforms, 0, &bytes);
@@ -278,6 +282,7 @@ fn maps_of(material: &Material, has_colors: bool) -> Maps {
         || material.unlit
         || material.emissive != [0.0; 3]
         || material.normal_scale != 1.0
+        || material.layers != Layers::default()
         || [MapSlot::MetallicRoughness, MapSlot::Occlusion, MapSlot::Emissive]
             .into_iter()
             .any(|slot| material.map(slot).is_some())
@@ -287,12 +292,21 @@ fn maps_of(material: &Material, has_colors: bool) -> Maps {
     if says_more { Maps::All } else { Maps::Two }
 }
 
+/// The fraction of what a material scatters that is seen: less than 1 where light goes through. What alpha cuts stays opaque.
+fn solid(material: &Material) -> f32 {
+    if material.unlit || material.is_cut() {
+        return 1.0;
+    }
+    1.0 - LEAST_SEEN * material.layers.transmission.clamp(0.0, 1.0)
+}
+
 /// What alpha does to a material whose uniform this is.
 fn alpha(material: &Material, uniform: &shaders::Material, maps: MapFacts, has_colors: bool) -> Alpha {
     match material.alpha {
         AlphaMode::Mask { .. } if uniform.alpha_clip > 0.0 => Alpha::Cut,
         AlphaMode::Blend if maps.has_alpha || has_colors => Alpha::BlendedByTexel,
         AlphaMode::Blend if material.opacity < 1.0 => Alpha::Blended,
+        AlphaMode::Blend | AlphaMode::Opaque if solid(material) < 1.0 => Alpha::Blended,
         AlphaMode::Opaque | AlphaMode::Mask { .. } | AlphaMode::Blend => Alpha::Whole,
     }
 }
@@ -357,13 +371,20 @@ fn maps_uniform(
     maps: MapFacts,
     alpha: Alpha,
 ) -> shaders::MaterialMaps {
+    let (layers, solid) = (&material.layers, solid(material));
+    // Nothing but glass is blended that is opaque by its mode.
+    let is_opaque = solid < 1.0 && material.alpha == AlphaMode::Opaque;
     shaders::MaterialMaps {
         places: MapSlot::ALL.map(|slot| {
             let sampling = material.map(slot).map(|map| map.sampling).unwrap_or_default();
             map_place(sampling.map_from_mesh, sampling.second_tex_coords)
         }),
         emissive: material.emissive.map(|channel| channel.max(0.0)),
-        opacity: material.opacity.clamp(0.0, 1.0),
+        opacity: if is_opaque {
+            solid
+        } else {
+            solid * material.opacity.clamp(0.0, 1.0)
+        },
         metallic: match material.reflectance {
             Reflectance::MetallicRoughness { metallic, .. } => metallic.clamp(0.0, 1.0),
             Reflectance::Fresnel { .. } | Reflectance::Phong { .. } => 0.0,
@@ -376,9 +397,17 @@ fn maps_uniform(
             uniform.alpha_clip
         },
         present: maps.present,
-        has_map_alpha: u32::from(maps.has_alpha),
+        has_map_alpha: u32::from(maps.has_alpha && !is_opaque),
         is_metallic_roughness: u32::from(matches!(material.reflectance, Reflectance::MetallicRoughness { .. })),
         is_unlit: u32::from(material.unlit),
+        dielectric_fresnel0: layers.fresnel0(),
+        specular: layers.specular.clamp(0.0, 1.0),
+        sheen: layers.sheen_color.map(|channel| channel.clamp(0.0, 1.0)),
+        sheen_roughness: layers.sheen_roughness.clamp(0.0, 1.0),
+        coat: layers.clearcoat.clamp(0.0, 1.0),
+        coat_roughness: layers.clearcoat_roughness.clamp(0.0, 1.0),
+        boundary_fresnel0: layers.boundary(),
+        solid,
     }
 }
 

@@ -124,6 +124,14 @@ pub struct MaterialMaps {
     pub has_map_alpha: u32,
     pub is_metallic_roughness: u32,
     pub is_unlit: u32,
+    pub dielectric_fresnel0: [f32; 3],
+    pub specular: f32,
+    pub sheen: [f32; 3],
+    pub sheen_roughness: f32,
+    pub coat: f32,
+    pub coat_roughness: f32,
+    pub boundary_fresnel0: f32,
+    pub solid: f32,
 }
 
 /// Twin of `Environment` in `environment.wgsl`.

@@ -193,6 +193,7 @@ on_both_backends! {
                 smooth_normal: normal,
                 to_eye: Vec3::NEG_Z,
                 ambient_occlusion: 1.0 + (byte(occlusion) - 1.0) * strength,
+                ..StudioSurface::default()
             };
             let radiance = environment.studio_light(&surface, &no_lights) + Vec3::from(emissive);
             let [red, green, blue] = tone_mapped(exposed(radiance, 0.0)).to_array().map(srgb8_from_linear);

@@ -8,13 +8,16 @@ use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered, Room
 use bindpose::render::device::Backend;
 use glam::{Vec2, Vec3};
 
-use crate::twins::pbr::{dominant_direction, horizon_fade, multi_bounce, reflectance, specular_occlusion, widened};
+use crate::twins::pbr::{
+    dominant_direction, fresnel90, horizon_fade, multi_bounce, reflectance, sheen_albedo, sheen_lobe,
+    specular_occlusion, widened,
+};
 use crate::twins::studio::{EnvironmentLight, StudioLights, StudioSurface, own_light};
 use crate::twins::tone_map::{exposed, tone_mapped};
 
 const ANGLES: u32 = 32;
 const ROUGHNESSES: u32 = 16;
-const QUANTITIES: u32 = 10;
+const QUANTITIES: u32 = 15;
 
 /// Formulas in f32 on both sides; devices may round roots and powers by a few digits, and narrow lobes enlarge that.
 const FORMULA: f32 = 1e-3;
@@ -56,7 +59,7 @@ impl Room<'_> {
             }
             1 => {
                 let scale_bias = Vec2::new(n_dot_v, roughness) * 0.5;
-                let given = reflectance(Vec3::new(0.8, 0.5, 0.2), Vec3::new(0.04, 0.2, 0.6), scale_bias);
+                let given = reflectance(Vec3::new(0.8, 0.5, 0.2), Vec3::new(0.04, 0.2, 0.6), 0.9, scale_bias);
                 given.single + given.multiple * 2.0 + given.diffuse * 3.0
             }
             2 => {
@@ -74,6 +77,14 @@ impl Room<'_> {
                 let scale_bias = self.brdf_table.lookup(n_dot_v, roughness);
                 scale_bias.extend(self.brdf_table.lamp_lookup(to_eye, to_light, roughness))
             }
+            7 => {
+                let sheen_roughness = 0.2 + 0.8 * roughness;
+                Vec3::new(
+                    sheen_albedo(n_dot_v, sheen_roughness),
+                    sheen_lobe(roughness, n_dot_v, 1.0 - n_dot_v * roughness, sheen_roughness),
+                    fresnel90(Vec3::splat(0.03 * n_dot_v)),
+                )
+            }
             _ => {
                 let lights = StudioLights {
                     to_key: to_light,
@@ -90,21 +101,44 @@ impl Room<'_> {
                     normal: Vec3::Y,
                     smooth_normal: Vec3::Y,
                     to_eye,
-                    ambient_occlusion: 1.0,
+                    ..StudioSurface::default()
+                };
+                let shaded = StudioSurface {
+                    albedo: Vec3::new(0.6, 0.4, 0.3),
+                    normal: Vec3::new(0.1, 1.0, -0.2).normalize(),
+                    ambient_occlusion: 0.6,
+                    ..plain
                 };
                 let surface = match quantity {
-                    7 => plain,
-                    8 => StudioSurface {
+                    8 => plain,
+                    9 => StudioSurface {
                         fresnel0: Vec3::ONE,
                         ..plain
                     },
-                    _ => StudioSurface {
-                        albedo: Vec3::new(0.6, 0.4, 0.3),
-                        normal: Vec3::new(0.1, 1.0, -0.2).normalize(),
-                        ambient_occlusion: 0.6,
+                    10 => StudioSurface {
+                        coat: 1.0,
+                        coat_roughness: 1.05 - roughness,
                         ..plain
                     },
+                    11 => StudioSurface {
+                        sheen: Vec3::ONE,
+                        sheen_roughness: roughness.max(0.2),
+                        ..plain
+                    },
+                    13 => StudioSurface {
+                        fresnel90: Some(0.5),
+                        sheen: Vec3::new(0.2, 0.5, 0.3),
+                        sheen_roughness: 0.6,
+                        coat: 0.75,
+                        coat_roughness: 0.2,
+                        ..shaded
+                    },
+                    _ => shaded,
                 };
+                let given = environment.studio_radiance(&surface, &lights);
+                if quantity == 14 {
+                    return given.scattered + given.kept_out;
+                }
                 environment.studio_light(&surface, &lights)
             }
         }
@@ -158,7 +192,7 @@ on_both_backends! {
             }
             let expected = room.on_cpu(quantity, n_dot_v, roughness);
             let tolerance = match quantity {
-                0..=3 => FORMULA,
+                0..=3 | 7 => FORMULA,
                 4 => POLYNOMIAL,
                 _ => TEXTURE,
             };
@@ -178,9 +212,9 @@ on_both_backends! {
             key_color: Vec3::ZERO,
             rim_color: Vec3::ZERO,
         };
-        let white = |&((quantity, ..), _): &((u32, f32, f32), Vec3)| quantity == 7 || quantity == 8;
+        let white = |&((quantity, ..), _): &((u32, f32, f32), Vec3)| (8..12).contains(&quantity);
         let found: Vec<_> = cases().zip(room.on_gpu(gpu)).filter(white).collect();
-        assert_eq!(found.len() as u32, 2 * ANGLES * ROUGHNESSES);
+        assert_eq!(found.len() as u32, 4 * ANGLES * ROUGHNESSES);
         for ((quantity, n_dot_v, roughness), found) in found {
             let error = (found - Vec3::ONE).abs().max_element();
             assert!(error < 0.02, "quantity {quantity}, n·v {n_dot_v}, roughness {roughness}: {found}");

@@ -40,6 +40,7 @@ mod golden;
 mod gpu;
 mod kept_maps;
 mod lamp;
+mod layers;
 mod light;
 mod lines;
 mod looks;

@@ -68,7 +68,7 @@ on_both_backends! {
                 normal,
                 smooth_normal: normal,
                 to_eye: Vec3::NEG_Z,
-                ambient_occlusion: 1.0,
+                ..StudioSurface::default()
             };
             let shown = tone_mapped(exposed(environment.studio_light(&surface, &no_lights), stops));
             let [red, green, blue] = shown.to_array().map(srgb8_from_linear);

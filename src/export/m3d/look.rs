@@ -10,7 +10,7 @@ use crate::export::MapImages;
 use crate::format::{self, Dialect};
 use crate::image::Image;
 use crate::image::srgb::{curve, linear_from_srgb, srgb_from_linear};
-use crate::model::{DIELECTRIC, FresnelSurface, MapSlot, Material, Mesh, Model, Reflectance, Sampling, Submesh, Wrap};
+use crate::model::{FresnelSurface, MapSlot, Material, Mesh, Model, Reflectance, Sampling, Submesh, Wrap};
 
 /// Points of the triangles of a material at which its maps are looked up, at most, and of one triangle.
 const MOST_POINTS: usize = 2048;
@@ -51,6 +51,8 @@ pub struct Look {
 pub struct Bake {
     factor: Vec3,
     metallic: f32,
+    /// Fresnel0 where it is no metal.
+    dielectric: Vec3,
     /// How much of Fresnel0 comes to the diffuse colour.
     fresnel0: Vec3,
     /// Texture coordinates of the new map -> those of metalness.
@@ -121,6 +123,7 @@ impl Look {
             return look;
         };
         let is_unknown = material.metallic_roughness_map.is_some() && metallic_roughness.is_none();
+        let dielectric = Vec3::from(material.layers.fresnel0());
         let numbers = [if is_unknown { 0.0 } else { metallic }, roughness];
         (look.texel, look.albedo, look.fresnel0, look.roughness) = (Vec3::ZERO, Vec3::ZERO, Vec3::ZERO, 0.0);
         let (mut all, mut least, mut most) = (0.0_f32, 1.0_f32, 0.0_f32);
@@ -138,7 +141,7 @@ impl Look {
             let color = Vec3::from(material.diffuse) * texel.map(curve);
             look.texel += texel * share;
             look.albedo += (color * (1.0 - metallic)).map(encoded) * share;
-            look.fresnel0 += Vec3::splat(DIELECTRIC).lerp(color, metallic) * share;
+            look.fresnel0 += dielectric.lerp(color, metallic) * share;
             look.roughness += roughness * share;
             look.metallic += metallic * share;
             (least, most) = (least.min(metallic), most.max(metallic));
@@ -257,6 +260,7 @@ impl Bake {
         (can_be_made && (is_same || metallic_from_map.is_finite())).then(|| Self {
             factor: material.diffuse.into(),
             metallic: number,
+            dielectric: material.layers.fresnel0().into(),
             fresnel0: Vec3::ZERO,
             metallic_from_map: if is_same { Affine2::IDENTITY } else { metallic_from_map },
             wrap: metallic.wrap,
@@ -285,7 +289,7 @@ impl Bake {
                     linear_from_srgb(texel[2]),
                 );
                 let color = self.factor * linear;
-                let added = self.fresnel0 * Vec3::splat(DIELECTRIC).lerp(color, metal);
+                let added = self.fresnel0 * self.dielectric.lerp(color, metal);
                 let diffuse = (color * (1.0 - metal)).to_array();
                 // Alpha stays; a float beyond what a byte holds is its end.
                 for ((byte, diffuse), added) in texel.iter_mut().zip(diffuse).zip(added.to_array()) {

@@ -9,14 +9,11 @@ use super::images::Images;
 use crate::diagnostic::collect::{Diagnostics, Place};
 use crate::diagnostic::{Subject, codes};
 use crate::gltf::{self, Fault, Index, Root, TextureInfo, out_of_range};
-use crate::model::{AlphaMode, MapSlot, Material, MaterialMap, Reflectance, Sampling, Wrap, unique_names};
+use crate::model::{AlphaMode, Layers, MapSlot, Material, MaterialMap, Reflectance, Sampling, Wrap, unique_names};
 
 const NEAREST: [u64; 3] = [9728, 9984, 9986];
 const CLAMP_TO_EDGE: u64 = 33071;
 const MIRRORED_REPEAT: u64 = 33648;
-
-/// How much less is seen of a surface that lets all light through. Something stays, or nobody would see the glass.
-const LEAST_SEEN: f32 = 0.8;
 
 /// One material for each of the document's, and behind them the one of primitives without any.
 ///
@@ -80,7 +77,6 @@ impl MaterialReader<'_> {
         let [red, green, blue, opacity] = surface.base_color_factor.unwrap_or([1.0; 4]);
         let [red, green, blue, opacity] =
             [red, green, blue, opacity].map(|factor| self.within(&at("baseColorFactor"), factor, [0.0, 1.0]));
-        let transmission = self.transmission(of_file, &name);
         let reflectance = Reflectance::MetallicRoughness {
             metallic: self.within(
                 &at("metallicFactor"),
@@ -100,19 +96,17 @@ impl MaterialReader<'_> {
         let strength = self.within("extensions/KHR_materials_emissive_strength", strength, [0.0, f32::MAX]);
         let emissive = of_file.emissive_factor.unwrap_or_default();
         let emissive = emissive.map(|factor| self.within("emissiveFactor", factor, [0.0, 1.0]) * strength);
+        let alpha = self.alpha(of_file);
         let normal = of_file.normal_texture.as_ref();
         let occlusion = of_file.occlusion_texture.as_ref();
         let normal_scale = normal.and_then(|normal| normal.scale).unwrap_or(1.0);
         let occlusion_strength = occlusion.and_then(|occlusion| occlusion.strength).unwrap_or(1.0);
         Ok(Material {
-            name,
             diffuse: [red, green, blue],
-            opacity: opacity * (1.0 - LEAST_SEEN * transmission),
+            opacity,
             reflectance,
-            alpha: match self.alpha(of_file) {
-                AlphaMode::Opaque if transmission > 0.0 => AlphaMode::Blend,
-                alpha => alpha,
-            },
+            layers: self.layers(&of_file.extensions, alpha, &name),
+            alpha,
             double_sided: of_file.double_sided,
             unlit: of_file.extensions.unlit.is_some(),
             emissive: emissive.map(|light| if light.is_finite() { light } else { 0.0 }),
@@ -126,6 +120,7 @@ impl MaterialReader<'_> {
             )?,
             occlusion_map: self.map(occlusion.map(|occlusion| &occlusion.info), "occlusionTexture")?,
             emissive_map: self.map(of_file.emissive_texture.as_ref(), "emissiveTexture")?,
+            name,
         })
     }
 
@@ -146,29 +141,84 @@ impl MaterialReader<'_> {
         }
     }
 
-    /// How much light goes through the surface, 0…1. It is blended, which shows what is behind it; where a map says where light goes
-    /// through, all of it stays opaque.
-    fn transmission(&mut self, of_file: &gltf::Material, name: &str) -> f32 {
-        let Some(transmission) = &of_file.extensions.transmission else {
-            return 0.0;
-        };
-        let key = "extensions/KHR_materials_transmission";
-        let factor = transmission.transmission_factor.unwrap_or_default();
-        let factor = self.within(&format!("{key}/transmissionFactor"), factor, [0.0, 1.0]);
-        if factor == 0.0 {
-            return 0.0;
+    /// What the extensions say of how it reflects. Their maps are not read: numbers hold everywhere, but where a map says which colour
+    /// a sheen has or where light goes through, since the number is white or 1 then.
+    fn layers(&mut self, extensions: &gltf::MaterialExtensions, alpha: AlphaMode, name: &str) -> Layers {
+        let mut layers = Layers::default();
+        let mut maps = Vec::new();
+        let at = |extension: &str, key: &str| format!("extensions/KHR_materials_{extension}/{key}");
+        let (unit, any) = ([0.0, 1.0], [0.0, f32::MAX]);
+        if let Some(ior) = extensions.ior.as_ref().and_then(|of_file| of_file.ior) {
+            layers.ior = if ior == 0.0 {
+                ior
+            } else {
+                self.within(&at("ior", "ior"), ior, [1.0, f32::MAX])
+            };
         }
-        let is_mapped = transmission.transmission_texture.is_some();
-        let drawn = if is_mapped {
-            "opaque, since a map says where"
-        } else {
-            "blended, which neither bends nor tints what is behind it"
-        };
-        let message = format!("Light goes through the material \"{name}\"; it is drawn {drawn}.");
-        let place = Place::pointer(format!("/materials/{}/{key}", self.index));
-        let place = place.about(Subject::Material(self.index as u32));
-        self.diagnostics.add(&codes::GLTF_TRANSMISSION, place, message);
-        if is_mapped { 0.0 } else { factor }
+        if let Some(specular) = &extensions.specular {
+            let at = |key: &str| at("specular", key);
+            let [factor, color] = [at("specularFactor"), at("specularColorFactor")];
+            layers.specular = self.within(&factor, specular.specular_factor.unwrap_or(1.0), unit);
+            let of_file = specular.specular_color_factor.unwrap_or([1.0; 3]);
+            layers.specular_color = of_file.map(|channel| self.within(&color, channel, any));
+            maps.extend(specular.specular_texture.map(|_| "specularTexture"));
+            maps.extend(specular.specular_color_texture.map(|_| "specularColorTexture"));
+        }
+        if let Some(coat) = &extensions.clearcoat {
+            let at = |key: &str| at("clearcoat", key);
+            let [factor, roughness] = [at("clearcoatFactor"), at("clearcoatRoughnessFactor")];
+            layers.clearcoat = self.within(&factor, coat.clearcoat_factor.unwrap_or_default(), unit);
+            let of_file = coat.clearcoat_roughness_factor.unwrap_or_default();
+            layers.clearcoat_roughness = self.within(&roughness, of_file, unit);
+            maps.extend(coat.clearcoat_texture.map(|_| "clearcoatTexture"));
+            maps.extend(coat.clearcoat_roughness_texture.map(|_| "clearcoatRoughnessTexture"));
+            maps.extend(coat.clearcoat_normal_texture.map(|_| "clearcoatNormalTexture"));
+        }
+        if let Some(sheen) = &extensions.sheen {
+            let at = |key: &str| at("sheen", key);
+            let [color, roughness] = [at("sheenColorFactor"), at("sheenRoughnessFactor")];
+            let of_file = sheen.sheen_color_factor.unwrap_or_default();
+            layers.sheen_color = of_file.map(|channel| self.within(&color, channel, unit));
+            let of_file = sheen.sheen_roughness_factor.unwrap_or_default();
+            layers.sheen_roughness = self.within(&roughness, of_file, unit);
+            if sheen.sheen_color_texture.is_some() {
+                layers.sheen_color = [0.0; 3];
+                maps.push("sheenColorTexture (and the sheen with it)");
+            }
+            maps.extend(sheen.sheen_roughness_texture.map(|_| "sheenRoughnessTexture"));
+        }
+        if let Some(transmission) = &extensions.transmission {
+            layers.transmission = self.transmission(transmission, alpha, name);
+            if transmission.transmission_texture.is_some() {
+                layers.transmission = 0.0;
+                maps.push("transmissionTexture (and the transmission with it)");
+            }
+        }
+        if !maps.is_empty() {
+            let message = format!("Maps of the material \"{name}\" are left out: {}.", maps.join(", "));
+            let place = Place::pointer(format!("/materials/{}/extensions", self.index));
+            let place = place.about(Subject::Material(self.index as u32)).counting(maps.len());
+            self.diagnostics.add(&codes::GLTF_MAP_LEFT_OUT, place, message);
+        }
+        layers
+    }
+
+    /// How much light goes through the surface, 0…1.
+    fn transmission(&mut self, of_file: &gltf::Transmission, alpha: AlphaMode, name: &str) -> f32 {
+        let key = "extensions/KHR_materials_transmission";
+        let factor = of_file.transmission_factor.unwrap_or_default();
+        let factor = self.within(&format!("{key}/transmissionFactor"), factor, [0.0, 1.0]);
+        if factor > 0.0 && of_file.transmission_texture.is_none() {
+            let drawn = match alpha {
+                AlphaMode::Mask { .. } => "opaque, since alpha cuts it",
+                AlphaMode::Opaque | AlphaMode::Blend => "blended, which neither bends nor tints what is behind it",
+            };
+            let message = format!("Light goes through the material \"{name}\"; it is drawn {drawn}.");
+            let place = Place::pointer(format!("/materials/{}/{key}", self.index));
+            let place = place.about(Subject::Material(self.index as u32));
+            self.diagnostics.add(&codes::GLTF_TRANSMISSION, place, message);
+        }
+        factor
     }
 
     /// A number brought between its bounds.

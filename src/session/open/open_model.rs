@@ -333,7 +333,7 @@ fn is_loss(finding: &Diagnostic) -> bool {
         &codes::GLTF_SCENE_LEFT_OUT,
         &codes::GLTF_EXTRAS_LEFT_OUT,
         &codes::GLTF_ATTRIBUTE_LEFT_OUT,
-        &codes::GLTF_TRANSMISSION,
+        &codes::GLTF_MAP_LEFT_OUT,
         &codes::GLTF_CHANNEL_LEFT_OUT,
         &codes::GLTF_IMAGE_NOT_READ,
         &codes::WEIGHTS_CUT,

@@ -1,7 +1,7 @@
 //! How a surface gives light back: the twin of `pbr.wgsl`, which says what each function means; and the lobe itself, which shaders know
 //! from tables alone.
 
-use std::f32::consts::PI;
+use std::f32::consts::{PI, TAU};
 
 use glam::{Vec2, Vec3};
 
@@ -60,9 +60,10 @@ pub(crate) struct Reflectance {
     pub(crate) diffuse: Vec3,
 }
 
-/// The weights for one view and roughness, of which `scale_bias` comes from the [table](bindpose::light::BrdfTable).
-pub(crate) fn reflectance(albedo: Vec3, fresnel0: Vec3, scale_bias: Vec2) -> Reflectance {
-    let grazing = Vec3::splat(fresnel90(fresnel0));
+/// The weights for one view and roughness, of which `scale_bias` comes from the [table](bindpose::light::BrdfTable). `at_grazing` is what
+/// is mirrored at grazing angles.
+pub(crate) fn reflectance(albedo: Vec3, fresnel0: Vec3, at_grazing: f32, scale_bias: Vec2) -> Reflectance {
+    let grazing = Vec3::splat(at_grazing);
     let single = fresnel0 * scale_bias.x + grazing * scale_bias.y;
     let average = fresnel0 + (grazing - fresnel0) / 21.0;
     let trapped = 1.0 - (scale_bias.x + scale_bias.y).min(1.0);
@@ -74,6 +75,23 @@ pub(crate) fn reflectance(albedo: Vec3, fresnel0: Vec3, scale_bias: Vec2) -> Ref
         multiple,
         diffuse,
     }
+}
+
+/// The fraction of one direction's light that a sheen gives back, per steradian. `n_dot_v` is above 0.
+pub(crate) fn sheen_lobe(n_dot_l: f32, n_dot_v: f32, n_dot_h: f32, roughness: f32) -> f32 {
+    let inverse = 1.0 / (roughness * roughness);
+    let sine = (1.0 - n_dot_h * n_dot_h).max(1e-6).sqrt();
+    let distribution = (2.0 + inverse) * sine.powf(inverse) / TAU;
+    distribution / (4.0 * (n_dot_l + n_dot_v - n_dot_l * n_dot_v))
+}
+
+/// What [`sheen_lobe`] gives back of light from all around, at most 1.
+pub(crate) fn sheen_albedo(n_dot_v: f32, roughness: f32) -> f32 {
+    let level = -0.335 - 0.324 * roughness + 0.206 / roughness;
+    let slope = 0.455 * roughness - 1.343 / roughness;
+    (level + slope * n_dot_v - 0.579 * roughness * n_dot_v.sqrt())
+        .exp()
+        .min(1.0)
 }
 
 /// Where the lobe of a rough surface is strongest; not of unit length.

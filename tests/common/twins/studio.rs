@@ -1,12 +1,20 @@
 //! A surface in the studio: the twins of `studio.wgsl` and of the lookups in `environment.wgsl`, which say why.
 
+use std::f32::consts::PI;
+
 use bindpose::light::{BrdfTable, Prefiltered};
 use glam::{FloatExt as _, Vec3};
 
-use super::pbr::{Reflectance, dominant_direction, horizon_fade, multi_bounce, reflectance, specular_occlusion};
+use super::pbr::{
+    dominant_direction, fresnel90, horizon_fade, multi_bounce, reflectance, sheen_albedo, sheen_lobe,
+    specular_occlusion,
+};
 
 /// Twin of `LAMP_RADIANCE`: the lamp's, where a white surface that faces it shows 1.
 pub(crate) const LAMP_RADIANCE: f32 = 40.863_458;
+
+/// Twin of `COAT_FRESNEL0`: what the clear coat mirrors face on.
+pub(crate) const COAT_FRESNEL0: f32 = 0.04;
 
 /// A point of a surface as the light meets it. Directions are of unit length, in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +23,8 @@ pub(crate) struct StudioSurface {
     pub(crate) albedo: Vec3,
     /// Mirrored fraction, face on.
     pub(crate) fresnel0: Vec3,
+    /// The same at grazing angles; `None` where it follows from `fresnel0`.
+    pub(crate) fresnel90: Option<f32>,
     /// 0 smooth, 1 rough; with the gloss of the normal map, if it has any: 1 − [`shininess`](super::book::shininess).
     pub(crate) roughness: f32,
     /// On the side of the viewer, with the normal map's bumps.
@@ -25,6 +35,57 @@ pub(crate) struct StudioSurface {
     pub(crate) to_eye: Vec3,
     /// Fraction of the environment that the point sees, 0 … 1.
     pub(crate) ambient_occlusion: f32,
+    /// The colour of fibres that lie over the surface; black without any.
+    pub(crate) sheen: Vec3,
+    /// 0.2 or more.
+    pub(crate) sheen_roughness: f32,
+    /// How much of it a clear coat covers, 0 … 1.
+    pub(crate) coat: f32,
+    /// Of the coat.
+    pub(crate) coat_roughness: f32,
+}
+
+/// White, without what is mirrored or lies over it, seen face on.
+impl Default for StudioSurface {
+    fn default() -> Self {
+        Self {
+            albedo: Vec3::ONE,
+            fresnel0: Vec3::ZERO,
+            fresnel90: None,
+            roughness: 1.0,
+            normal: Vec3::Y,
+            smooth_normal: Vec3::Y,
+            to_eye: Vec3::Y,
+            ambient_occlusion: 1.0,
+            sheen: Vec3::ZERO,
+            sheen_roughness: 1.0,
+            coat: 0.0,
+            coat_roughness: 0.05,
+        }
+    }
+}
+
+/// Radiance towards the eye; linear, may exceed 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct StudioRadiance {
+    /// Of light that entered the surface and came back.
+    pub(crate) scattered: Vec3,
+    /// Of light that did not enter it.
+    pub(crate) mirrored: Vec3,
+    /// The fraction of light that does not enter, of what comes from all around.
+    pub(crate) kept_out: f32,
+}
+
+impl StudioRadiance {
+    /// What a layer leaves of it that gives back `share` of light from all around, here `light`.
+    fn beneath(self, share: f32, light: Vec3) -> Self {
+        let left = 1.0 - share;
+        Self {
+            scattered: self.scattered * left,
+            mirrored: self.mirrored * left + light,
+            kept_out: 1.0 - (1.0 - self.kept_out) * left,
+        }
+    }
 }
 
 /// The direct lights at a point. Colours are what a white surface that faces the light shows.
@@ -60,27 +121,66 @@ pub(crate) struct EnvironmentLight<'a> {
 impl EnvironmentLight<'_> {
     /// Radiance towards the eye; linear, may exceed 1.
     pub(crate) fn studio_light(&self, surface: &StudioSurface, lights: &StudioLights) -> Vec3 {
+        let given = self.studio_radiance(surface, lights);
+        given.scattered + given.mirrored
+    }
+
+    /// The same, by what became of the light.
+    pub(crate) fn studio_radiance(&self, surface: &StudioSurface, lights: &StudioLights) -> StudioRadiance {
         let n_dot_v = surface.normal.dot(surface.to_eye).clamp(1e-3, 1.0);
-        let scale_bias = self.brdf_table.lookup(n_dot_v, surface.roughness);
-        let weights = reflectance(surface.albedo, surface.fresnel0, scale_bias);
-        let alpha = surface.roughness * surface.roughness;
-        let mirrored = (-surface.to_eye).reflect(surface.normal);
-        let towards = dominant_direction(surface.normal, mirrored, alpha).normalize();
-        let above = horizon_fade(mirrored, surface.smooth_normal);
+        let entry = self.brdf_table.lookup(n_dot_v, surface.roughness);
+        let grazing = surface.fresnel90.unwrap_or_else(|| fresnel90(surface.fresnel0));
+        let weights = reflectance(surface.albedo, surface.fresnel0, grazing, entry);
 
-        let seen = specular_occlusion(n_dot_v, surface.ambient_occlusion, alpha) * above;
-        let mirror_light = self.environment_specular_light(towards, surface.roughness) * seen;
-        let diffuse_light =
-            self.environment_diffuse(surface.normal) * multi_bounce(surface.ambient_occlusion, surface.albedo);
-        let from_environment = weights.single * mirror_light + (weights.multiple + weights.diffuse) * diffuse_light;
-
+        let key = lights.key_color * lights.key_visible;
         let n_dot_l = surface.normal.dot(lights.to_key).max(0.0);
-        let lamp_share = self.brdf_table.lamp_lookup(towards, lights.to_key, surface.roughness);
-        let from_key = lights.key_color
-            * lights.key_visible
-            * ((weights.diffuse + weights.multiple) * n_dot_l
-                + weights.single * (lamp_share * LAMP_RADIANCE * above * lights.key_mirrored));
-        from_environment + from_key + studio_rim(surface, &weights, n_dot_v, lights)
+        let around = self.environment_diffuse(surface.normal) * multi_bounce(surface.ambient_occlusion, surface.albedo)
+            + studio_rim(surface, n_dot_v, lights);
+        let even = around + key * n_dot_l;
+        let mirror = self.mirrored_light(surface, surface.normal, n_dot_v, surface.roughness, lights);
+        let mut given = StudioRadiance {
+            scattered: weights.diffuse * even,
+            mirrored: weights.single * mirror + weights.multiple * even,
+            kept_out: (weights.single + weights.multiple).max_element(),
+        };
+        if surface.sheen.max_element() > 0.0 {
+            let share = sheen_albedo(n_dot_v, surface.sheen_roughness);
+            let sum = surface.to_eye + lights.to_key;
+            let n_dot_h = (surface.normal.dot(sum) / sum.dot(sum).max(1e-8).sqrt()).clamp(0.0, 1.0);
+            let lobe = PI * sheen_lobe(n_dot_l, n_dot_v, n_dot_h, surface.sheen_roughness);
+            let light = surface.sheen * (around * share + key * (n_dot_l * lobe));
+            given = given.beneath(surface.sheen.max_element() * share, light);
+        }
+        if surface.coat > 0.0 {
+            let coat_dot_v = surface.smooth_normal.dot(surface.to_eye).clamp(1e-3, 1.0);
+            let entry = self.brdf_table.lookup(coat_dot_v, surface.coat_roughness);
+            let share = surface.coat * (COAT_FRESNEL0 * entry.x + entry.y);
+            let normal = surface.smooth_normal;
+            let mirror = self.mirrored_light(surface, normal, coat_dot_v, surface.coat_roughness, lights);
+            given = given.beneath(share, share * mirror);
+        }
+        given
+    }
+
+    /// What a mirror of this normal and roughness shows.
+    fn mirrored_light(
+        &self,
+        surface: &StudioSurface,
+        normal: Vec3,
+        n_dot_v: f32,
+        roughness: f32,
+        lights: &StudioLights,
+    ) -> Vec3 {
+        let alpha = roughness * roughness;
+        let mirrored = (-surface.to_eye).reflect(normal);
+        let towards = dominant_direction(normal, mirrored, alpha).normalize();
+        let above = horizon_fade(mirrored, surface.smooth_normal);
+        let seen = specular_occlusion(n_dot_v, surface.ambient_occlusion, alpha) * above;
+        let lamp_share = self.brdf_table.lamp_lookup(towards, lights.to_key, roughness);
+        let lamp_seen = lamp_share * LAMP_RADIANCE * above * lights.key_mirrored;
+        self.environment_specular_light(towards, roughness) * seen
+            + lights.key_color * (lights.key_visible * lamp_seen)
+            + studio_rim(surface, n_dot_v, lights)
     }
 
     /// What a white surface with this normal shows.
@@ -115,9 +215,9 @@ pub(crate) fn own_light(flat_normal: Vec3, smooth_normal: Vec3, to_key: Vec3) ->
     smoothstep(0.4 * coarse, 0.0, smooth_normal.dot(to_key)) * smoothstep(0.0, -0.1, flat_normal.dot(to_key))
 }
 
-fn studio_rim(surface: &StudioSurface, weights: &Reflectance, n_dot_v: f32, lights: &StudioLights) -> Vec3 {
+/// What a white surface shows of the rim.
+fn studio_rim(surface: &StudioSurface, n_dot_v: f32, lights: &StudioLights) -> Vec3 {
     let edge = 1.0 - n_dot_v;
     let facing = surface.normal.dot(lights.to_rim).max(0.0) * (0.2 + 0.8 * edge * edge);
-    let given_back = weights.diffuse + weights.single + weights.multiple;
-    lights.rim_color * (facing * surface.ambient_occlusion) * given_back
+    lights.rim_color * (facing * surface.ambient_occlusion)
 }

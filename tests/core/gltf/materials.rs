@@ -2,11 +2,12 @@
 
 use std::f32::consts::FRAC_PI_2;
 
-use bindpose::model::{AlphaMode, MapSlot, Reflectance, Wrap};
+use bindpose::model::{AlphaMode, Layers, MapSlot, Material, Reflectance, Wrap};
 use glam::Vec2;
 use serde_json::json;
 
 use super::{bare, codes_of, read, told, triangle};
+use crate::gltf_files::Gltf;
 
 const PNG: &[u8] = b"\x89PNG\r\n\x1a\n and more";
 
@@ -91,6 +92,124 @@ fn every_value_of_a_material_arrives() {
         ("default", [1.0; 3], false)
     );
     assert_eq!(codes_of(&imported), Vec::<&str>::new());
+}
+
+/// A file with a material for each set of extensions.
+fn with_extensions(extensions: &[serde_json::Value]) -> Gltf {
+    let materials: Vec<_> = extensions
+        .iter()
+        .map(|values| json!({ "extensions": values }))
+        .collect();
+    let primitives: Vec<_> = (0..materials.len()).map(|index| json!({ "material": index })).collect();
+    let used = ["clearcoat", "ior", "sheen", "specular", "transmission"].map(|name| format!("KHR_materials_{name}"));
+    bare(&json!({ "materials": materials, "meshes": [{ "primitives": primitives }], "extensionsUsed": used }))
+}
+
+#[test]
+fn what_lies_over_a_surface_arrives() {
+    let all = json!({
+        "KHR_materials_ior": { "ior": 2.0 },
+        "KHR_materials_specular": { "specularFactor": 0.5, "specularColorFactor": [0.25, 1.0, 3.0] },
+        "KHR_materials_clearcoat": { "clearcoatFactor": 0.75, "clearcoatRoughnessFactor": 0.125 },
+        "KHR_materials_sheen": { "sheenColorFactor": [0.5, 0.25, 0.0], "sheenRoughnessFactor": 0.625 },
+    });
+    let empty = json!({
+        "KHR_materials_ior": {}, "KHR_materials_specular": {}, "KHR_materials_clearcoat": {}, "KHR_materials_sheen": {},
+    });
+    let imported = read(&with_extensions(&[
+        all,
+        empty,
+        json!({ "KHR_materials_ior": { "ior": 0 } }),
+    ]));
+    let [all, empty, mirror] = &imported.model.materials[..3] else {
+        panic!("three materials")
+    };
+    let expected = Layers {
+        ior: 2.0,
+        specular: 0.5,
+        specular_color: [0.25, 1.0, 3.0],
+        clearcoat: 0.75,
+        clearcoat_roughness: 0.125,
+        sheen_color: [0.5, 0.25, 0.0],
+        sheen_roughness: 0.625,
+        transmission: 0.0,
+    };
+    assert_eq!((all.layers, empty.layers), (expected, Layers::default()));
+    // ((2 - 1) / (2 + 1))² is a ninth.
+    let ninth = 1.0 / 9.0_f32;
+    for (found, expected) in all
+        .layers
+        .fresnel0()
+        .into_iter()
+        .zip([0.25 * ninth, ninth, 3.0 * ninth])
+    {
+        assert!((found - 0.5 * expected).abs() < 1e-6, "{found}");
+    }
+    assert_eq!(
+        empty.layers.fresnel0(),
+        [0.04; 3],
+        "to the bit: nothing changes where nothing is said"
+    );
+    assert_eq!(mirror.layers.fresnel0(), [1.0; 3]);
+    let dielectric = Material {
+        reflectance: Reflectance::MetallicRoughness {
+            metallic: 0.0,
+            roughness: 1.0,
+        },
+        ..mirror.clone()
+    };
+    assert_eq!(dielectric.fresnel_surface().fresnel0, [1.0; 3]);
+    assert_eq!(
+        codes_of(&imported),
+        ["gltf-normals-absent"],
+        "of the layers nothing is told"
+    );
+}
+
+#[test]
+fn layers_out_of_range_are_brought_into_it_and_told() {
+    let odd = json!({
+        "KHR_materials_ior": { "ior": 0.5 },
+        "KHR_materials_specular": { "specularFactor": -1, "specularColorFactor": [-1, 1, 1] },
+        "KHR_materials_clearcoat": { "clearcoatFactor": 2, "clearcoatRoughnessFactor": 3 },
+        "KHR_materials_sheen": { "sheenColorFactor": [2, 0, 0], "sheenRoughnessFactor": 7 },
+    });
+    let imported = read(&with_extensions(&[odd]));
+    let expected = Layers {
+        ior: 1.0,
+        specular: 0.0,
+        specular_color: [0.0, 1.0, 1.0],
+        clearcoat: 1.0,
+        clearcoat_roughness: 1.0,
+        sheen_color: [1.0, 0.0, 0.0],
+        sheen_roughness: 1.0,
+        transmission: 0.0,
+    };
+    assert_eq!(imported.model.materials[0].layers, expected);
+    assert_eq!(told(&imported, "gltf-rule-broken").count, 7);
+}
+
+#[test]
+fn maps_of_layers_are_told_and_their_numbers_hold() {
+    let map = json!({ "index": 0 });
+    let mapped = json!({
+        "KHR_materials_specular": { "specularFactor": 0.5, "specularTexture": map, "specularColorTexture": map },
+        "KHR_materials_clearcoat": { "clearcoatFactor": 0.5, "clearcoatTexture": map },
+        "KHR_materials_sheen": { "sheenColorFactor": [1, 1, 1], "sheenColorTexture": map },
+    });
+    let imported = read(&with_extensions(&[mapped]));
+    let layers = imported.model.materials[0].layers;
+    assert_eq!(
+        (layers.specular, layers.clearcoat, layers.sheen_color),
+        (0.5, 0.5, [0.0; 3])
+    );
+    let finding = told(&imported, "gltf-map-left-out");
+    assert_eq!(finding.count, 4);
+    assert_eq!(
+        finding.message,
+        "Maps of the material \"material 0\" are left out: specularTexture, specularColorTexture, clearcoatTexture, \
+         sheenColorTexture (and the sheen with it)."
+    );
 }
 
 #[test]

@@ -131,17 +131,17 @@ fn glass_is_blended_and_told() {
         .model
         .materials
         .iter()
-        .map(|material| (material.alpha, material.opacity))
+        .map(|material| (material.alpha, material.layers.transmission))
         .collect();
     let cut = AlphaMode::Mask { cutoff: 0.5 };
     assert_eq!(
         drawn,
         [
-            (AlphaMode::Blend, 0.6),
+            (AlphaMode::Opaque, 0.5),
+            (AlphaMode::Opaque, 0.0),
+            (AlphaMode::Opaque, 0.0),
             (AlphaMode::Opaque, 1.0),
-            (AlphaMode::Opaque, 1.0),
-            (AlphaMode::Blend, 1.0 - 0.8_f32),
-            (cut, 0.6)
+            (cut, 0.5)
         ]
     );
     let findings = told_all(&imported, "gltf-transmission");
@@ -149,7 +149,15 @@ fn glass_is_blended_and_told() {
         .map(|finding| finding.pointer.clone().unwrap_or_default())
         .collect();
     let pointer = |index: usize| format!("/materials/{index}/extensions/KHR_materials_transmission");
-    assert_eq!(pointers, [0, 2, 3, 4].map(pointer));
+    assert_eq!(pointers, [0, 3, 4].map(pointer));
+    let left_out = told(&imported, "gltf-map-left-out");
+    assert!(
+        left_out
+            .message
+            .ends_with(": transmissionTexture (and the transmission with it)."),
+        "{}",
+        left_out.message
+    );
     assert!(is_silent(&imported, "gltf-extension-unknown"));
 }
 

@@ -6,7 +6,7 @@ use bindpose::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, LAMP_RADIUS_RADIA
 use glam::{Vec2, Vec3};
 
 use crate::light::all_directions;
-use crate::twins::pbr::{ggx_distribution, reflectance, specular_lobe};
+use crate::twins::pbr::{ggx_distribution, reflectance, sheen_albedo, sheen_lobe, specular_lobe};
 use crate::twins::studio::{EnvironmentLight, StudioLights, StudioSurface};
 
 const ANGLES: [f32; 9] = [0.01, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1.0];
@@ -48,7 +48,7 @@ fn a_white_surface_vanishes_in_a_white_room() {
                     normal: Vec3::Z,
                     smooth_normal: Vec3::Z,
                     to_eye: to_eye(n_dot_v),
-                    ambient_occlusion: 1.0,
+                    ..StudioSurface::default()
                 };
                 let found = room.studio_light(&surface, &dark());
                 let error = (found - Vec3::ONE).abs().max_element();
@@ -59,6 +59,97 @@ fn a_white_surface_vanishes_in_a_white_room() {
             }
         }
     }
+}
+
+/// What a coat or a sheen gives back is missing beneath it.
+#[test]
+fn a_white_surface_under_layers_vanishes_too() {
+    let prefiltered = Prefiltered::of(&Environment::from_fn(16, |_| Vec3::ONE));
+    let brdf_table = BrdfTable::new(BRDF_TABLE_SIDE);
+    let room = EnvironmentLight {
+        prefiltered: &prefiltered,
+        brdf_table: &brdf_table,
+        turn: (0.6, 0.8),
+        intensity: 1.0,
+    };
+    for n_dot_v in ANGLES {
+        for roughness in ROUGHNESSES {
+            for (sheen, coat) in [(0.0, 0.5), (0.0, 1.0), (0.5, 0.0), (1.0, 0.0), (1.0, 1.0)] {
+                let surface = StudioSurface {
+                    fresnel0: Vec3::splat(0.04),
+                    roughness: 1.05 - roughness,
+                    normal: Vec3::Z,
+                    smooth_normal: Vec3::Z,
+                    to_eye: to_eye(n_dot_v),
+                    sheen: Vec3::splat(sheen),
+                    sheen_roughness: roughness.max(0.2),
+                    coat,
+                    coat_roughness: roughness,
+                    ..StudioSurface::default()
+                };
+                let case = format!("n·v {n_dot_v}, roughness {roughness}, sheen {sheen}, coat {coat}");
+                let found = room.studio_light(&surface, &dark());
+                assert!((found - Vec3::ONE).abs().max_element() < 0.02, "{case}: {found}");
+                // A coloured sheen takes away as much in all channels as it gives in its brightest.
+                let red = StudioSurface {
+                    sheen: Vec3::new(sheen, 0.0, 0.0),
+                    ..surface
+                };
+                let found = room.studio_light(&red, &dark());
+                assert!(found.max_element() < 1.02 && found.y <= found.x, "{case}: {found}");
+                // Black, it gives back what it keeps out.
+                let black = StudioSurface {
+                    albedo: Vec3::ZERO,
+                    ..surface
+                };
+                let given = room.studio_radiance(&black, &dark());
+                assert!((given.mirrored.x - given.kept_out).abs() < 0.02, "{case}: {given:?}");
+            }
+        }
+    }
+}
+
+/// Brute force: the lobe times n·l over all directions, crowded where the light grazes.
+#[test]
+fn the_fit_is_what_a_sheen_gives_back() {
+    const RINGS: usize = 200;
+    const SPOKES: usize = 200;
+    for n_dot_v in ANGLES {
+        for roughness in [0.2f32, 0.3, 0.45, 0.6, 0.8, 1.0] {
+            let mut sum = 0.0;
+            for ring in 0..RINGS {
+                let t = (ring as f32 + 0.5) / RINGS as f32;
+                let (n_dot_l, per_ring) = (t * t, 2.0 * t / RINGS as f32);
+                for spoke in 0..SPOKES {
+                    let turn = TAU * (spoke as f32 + 0.5) / SPOKES as f32;
+                    let sine = (1.0 - n_dot_l * n_dot_l).sqrt();
+                    let to_light = Vec3::new(sine * turn.cos(), sine * turn.sin(), n_dot_l);
+                    let n_dot_h = (to_light + to_eye(n_dot_v)).normalize().z;
+                    sum += sheen_lobe(n_dot_l, n_dot_v, n_dot_h, roughness) * n_dot_l * per_ring * TAU / SPOKES as f32;
+                }
+            }
+            let found = sheen_albedo(n_dot_v, roughness);
+            assert!(
+                (found - sum.min(1.0)).abs() < 0.035,
+                "n·v {n_dot_v}, roughness {roughness}: {found} for {sum}"
+            );
+        }
+    }
+}
+
+/// With `specular` 0 nothing is mirrored, whatever the index of refraction; an index of 1 has no boundary.
+#[test]
+fn specular_and_index_scale_what_is_mirrored() {
+    let table = BrdfTable::new(BRDF_TABLE_SIDE);
+    let entry = table.lookup(0.1, 0.3);
+    let shares = |fresnel0: f32, grazing| reflectance(Vec3::ONE, Vec3::splat(fresnel0), grazing, entry);
+    let none = shares(0.0, 0.0);
+    assert_eq!(
+        (none.single, none.multiple, none.diffuse),
+        (Vec3::ZERO, Vec3::ZERO, Vec3::ONE)
+    );
+    let [half, whole] = [shares(0.02, 0.5), shares(0.04, 1.0)];
+    assert!((half.single * 2.0 - whole.single).abs().max_element() < 1e-6);
 }
 
 /// Sum over all light directions of the lobe times n·l, by half vectors, which are as dense as the lobe is narrow.
@@ -171,7 +262,7 @@ fn a_mirror_shows_the_lamps_edge() {
 #[test]
 fn what_is_mirrored_is_not_also_scattered() {
     let table = BrdfTable::new(BRDF_TABLE_SIDE);
-    let shares = |fresnel0: f32| reflectance(Vec3::splat(0.5), Vec3::splat(fresnel0), table.lookup(0.8, 0.5));
+    let shares = |fresnel0: f32| reflectance(Vec3::splat(0.5), Vec3::splat(fresnel0), 1.0, table.lookup(0.8, 0.5));
     assert!(shares(0.04).diffuse.x > 0.45);
     assert!(shares(0.5).diffuse.x < 0.27);
     assert!(shares(1.0).diffuse.x.abs() < 1e-4);

@@ -65,7 +65,7 @@ fn surface(normal: Vec3) -> StudioSurface {
         normal,
         smooth_normal: normal,
         to_eye: Vec3::NEG_Z,
-        ambient_occlusion: 1.0,
+        ..StudioSurface::default()
     }
 }
 

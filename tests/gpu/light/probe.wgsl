@@ -23,7 +23,7 @@ fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
         let tilted = normalize(vec3<f32>(n_dot_v - 0.5, 1.0, 0.2 * roughness));
         value = vec3<f32>(widened(roughness, n_dot_v * 0.2), own_light(up, tilted, to_light), own_light(tilted, up, to_eye));
     } else if quantity == 1u {
-        let given = reflectance(vec3<f32>(0.8, 0.5, 0.2), vec3<f32>(0.04, 0.2, 0.6), vec2<f32>(n_dot_v, roughness) * 0.5);
+        let given = reflectance(vec3<f32>(0.8, 0.5, 0.2), vec3<f32>(0.04, 0.2, 0.6), 0.9, vec2<f32>(n_dot_v, roughness) * 0.5);
         value = given.single + given.multiple * 2.0 + given.diffuse * 3.0;
     } else if quantity == 2u {
         let tilted = normalize(vec3<f32>(0.6, 0.5, 0.2));
@@ -40,17 +40,42 @@ fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
         value = environment_specular_light(to_eye + vec3<f32>(0.0, 0.0, roughness - 0.5), roughness);
     } else if quantity == 6u {
         value = vec3<f32>(brdf_lookup(n_dot_v, roughness), lamp_lookup(to_eye, to_light, roughness));
+    } else if quantity == 7u {
+        let sheen_roughness = 0.2 + 0.8 * roughness;
+        value = vec3<f32>(
+            sheen_albedo(n_dot_v, sheen_roughness),
+            sheen_lobe(roughness, n_dot_v, 1.0 - n_dot_v * roughness, sheen_roughness),
+            fresnel90(vec3<f32>(0.03 * n_dot_v)),
+        );
     } else {
         let lights = StudioLights(to_light, KEY_COLOR, 0.75, 0.9, vec3<f32>(0.0, 0.6, -0.8), RIM_COLOR);
-        var surface = StudioSurface(vec3<f32>(1.0), vec3<f32>(0.04), roughness, up, up, to_eye, 1.0);
-        if quantity == 8u {
+        var surface = StudioSurface(
+            vec3<f32>(1.0), vec3<f32>(0.04), 1.0, roughness, up, up, to_eye, 1.0, vec3<f32>(0.0), 1.0, 0.0, 0.05);
+        if quantity == 9u {
             surface.fresnel0 = vec3<f32>(1.0);
-        } else if quantity == 9u {
+        } else if quantity == 10u {
+            surface.coat = 1.0;
+            surface.coat_roughness = 1.05 - roughness;
+        } else if quantity == 11u {
+            surface.sheen = vec3<f32>(1.0);
+            surface.sheen_roughness = max(roughness, 0.2);
+        } else if quantity >= 12u {
             surface.albedo = vec3<f32>(0.6, 0.4, 0.3);
             surface.normal = normalize(vec3<f32>(0.1, 1.0, -0.2));
             surface.ambient_occlusion = 0.6;
         }
+        if quantity == 13u {
+            surface.fresnel90 = 0.5;
+            surface.sheen = vec3<f32>(0.2, 0.5, 0.3);
+            surface.sheen_roughness = 0.6;
+            surface.coat = 0.75;
+            surface.coat_roughness = 0.2;
+        }
+        let given = studio_radiance(surface, lights);
         value = studio_light(surface, lights);
+        if quantity == 14u {
+            value = given.scattered + given.kept_out;
+        }
     }
     return bitcast<vec4<u32>>(vec4<f32>(value, 1.0));
 }
