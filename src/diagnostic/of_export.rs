@@ -300,6 +300,11 @@ pub const ALL: &[ExportCode] = &[
         "Use a brighter diffuse colour.",
     ),
     loss(
+        "layers",
+        "The format has no clear coat, sheen or transmission of a material. An index of refraction and a specular colour become Fresnel R0.",
+        "Nothing where the look is good without. A coat may become a smaller roughness, a sheen a brighter diffuse colour.",
+    ),
+    loss(
         "normal-scale",
         "The format has no strength of a normal map.",
         "Scale red and green of the picture.",

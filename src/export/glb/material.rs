@@ -8,7 +8,9 @@ use super::binary::Binary;
 use super::number::{number, numbers};
 use super::pictures::{Pictures, Use};
 use crate::export::{ExportError, MapImages};
-use crate::model::{AlphaMode, MapSlot, Material, MaterialMap, MetallicSurface, Model, Reflectance, Sampling, Wrap};
+use crate::model::{
+    AlphaMode, Layers, MapSlot, Material, MaterialMap, MetallicSurface, Model, Reflectance, Sampling, Wrap,
+};
 use crate::slices::{Slices, Stage};
 
 const UNLIT: &str = "KHR_materials_unlit";
@@ -135,6 +137,7 @@ impl Writer<'_> {
             written["emissiveTexture"] = info;
         }
         self.light(material, &mut written);
+        self.layers(material, &mut written);
         match material.alpha {
             AlphaMode::Opaque => {}
             AlphaMode::Mask { cutoff } => {
@@ -167,6 +170,52 @@ impl Writer<'_> {
         if material.unlit {
             self.written.extensions.insert(UNLIT);
             written["extensions"][UNLIT] = json!({});
+        }
+    }
+
+    /// The extensions of which a number is another than where there is none. What is unlit goes with no other.
+    fn layers(&mut self, material: &Material, written: &mut Value) {
+        let (layers, none) = (&material.layers, Layers::default());
+        let is_metallic = matches!(material.reflectance, Reflectance::MetallicRoughness { .. });
+        let extensions = [
+            (
+                "KHR_materials_ior",
+                is_metallic && layers.ior != none.ior,
+                json!({ "ior": number(layers.ior) }),
+            ),
+            (
+                "KHR_materials_specular",
+                is_metallic && (layers.specular, layers.specular_color) != (none.specular, none.specular_color),
+                json!({
+                    "specularFactor": number(layers.specular),
+                    "specularColorFactor": numbers(layers.specular_color),
+                }),
+            ),
+            (
+                "KHR_materials_clearcoat",
+                layers.clearcoat != none.clearcoat,
+                json!({
+                    "clearcoatFactor": number(layers.clearcoat),
+                    "clearcoatRoughnessFactor": number(layers.clearcoat_roughness),
+                }),
+            ),
+            (
+                "KHR_materials_sheen",
+                layers.sheen_color != none.sheen_color,
+                json!({
+                    "sheenColorFactor": numbers(layers.sheen_color),
+                    "sheenRoughnessFactor": number(layers.sheen_roughness),
+                }),
+            ),
+            (
+                "KHR_materials_transmission",
+                layers.transmission != none.transmission,
+                json!({ "transmissionFactor": number(layers.transmission) }),
+            ),
+        ];
+        for (name, _, values) in extensions.into_iter().filter(|(_, says, _)| *says && !material.unlit) {
+            self.written.extensions.insert(name);
+            written["extensions"][name] = values;
         }
     }
 

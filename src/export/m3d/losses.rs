@@ -333,6 +333,15 @@ fn surfaces(materials: &[&Material], dialect: Dialect, losses: &mut Losses) {
         "light of its own (emission), which the format has not",
     );
     losses.add(
+        "layers",
+        &|material| {
+            let layers = &material.layers;
+            layers.clearcoat > 0.0 || layers.sheen_color != [0.0; 3] || layers.transmission > 0.0
+        },
+        HAS,
+        "a clear coat, a sheen or transmission, which the format has not",
+    );
+    losses.add(
         "normal-scale",
         &|material| material.normal_map.is_some() && material.normal_scale != 1.0,
         HAS,

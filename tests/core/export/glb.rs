@@ -3,10 +3,11 @@
 use bindpose::export::{MapImages, glb, glb_losses};
 use bindpose::format::{Document, LineMap};
 use bindpose::image::{self, Image};
+use bindpose::import::import;
 use bindpose::import::m3d::from_document;
 use bindpose::model::{
-    AlphaMode, Channel, Front, Handedness, JointNames, LocalJoint, MapSlot, Material, Model, Reflectance, Track,
-    UpAxis, Wrap,
+    AlphaMode, Channel, Front, Handedness, JointNames, Layers, LocalJoint, MapSlot, Material, Model, Reflectance,
+    Track, UpAxis, Wrap,
 };
 use glam::{Affine2, Mat2, Quat, Vec2, Vec3, Vec4};
 use serde_json::{Value, json};
@@ -70,6 +71,17 @@ fn curved() -> Model {
     model
 }
 
+const LAYERS: Layers = Layers {
+    ior: 1.25,
+    specular: 0.75,
+    specular_color: [2.0, 0.5, 1.0],
+    clearcoat: 0.5,
+    clearcoat_roughness: 0.125,
+    sheen_color: [0.25, 0.5, 0.75],
+    sheen_roughness: 0.375,
+    transmission: 0.625,
+};
+
 /// The arm with all that a material and a vertex can have.
 fn rich() -> Model {
     let mut model = model(&arm());
@@ -85,6 +97,7 @@ fn rich() -> Model {
             metallic: 0.75,
             roughness: 0.25,
         },
+        layers: LAYERS,
         alpha: AlphaMode::Blend,
         double_sided: true,
         unlit: false,
@@ -233,7 +246,15 @@ fn the_words_of_gltf_come_out_as_they_went_in() {
     ] {
         assert_eq!(material.pointer(pointer), Some(&expected), "{pointer}");
     }
-    let extensions = ["KHR_materials_emissive_strength", "KHR_texture_transform"];
+    let extensions = [
+        "KHR_materials_clearcoat",
+        "KHR_materials_emissive_strength",
+        "KHR_materials_ior",
+        "KHR_materials_sheen",
+        "KHR_materials_specular",
+        "KHR_materials_transmission",
+        "KHR_texture_transform",
+    ];
     assert_eq!(root["extensionsUsed"], json!(extensions));
     let (root, _) = written(&unlit(), &maps);
     let extensions = ["KHR_materials_unlit", "KHR_texture_transform"];
@@ -241,6 +262,56 @@ fn the_words_of_gltf_come_out_as_they_went_in() {
     // One picture for all, sampled in two ways.
     let counts = ["images", "samplers", "textures"].map(|list| root[list].as_array().map_or(0, Vec::len));
     assert_eq!(counts, [1, 2, 2]);
+}
+
+#[test]
+fn layers_are_read_as_they_were_written_and_only_those_that_differ_are() {
+    let written = |layers| {
+        let mut model = rich();
+        model.materials[0].layers = layers;
+        let bytes = glb(&model, &JointNames::default(), &MapImages::default())
+            .expect("it can be written")
+            .bytes;
+        let (root, _) = chunks(&bytes);
+        let keys = root["materials"][0]["extensions"].as_object().expect("extensions");
+        let names: Vec<String> = keys.keys().cloned().collect();
+        let read = import(&bytes).expect("what was written is read").model.materials[0].clone();
+        assert_eq!((read.layers, read.alpha, read.opacity), (layers, AlphaMode::Blend, 0.5));
+        names.join(" ").replace("KHR_materials_", "")
+    };
+    let none = Layers::default();
+    assert_eq!(
+        written(LAYERS),
+        "clearcoat emissive_strength ior sheen specular transmission"
+    );
+    assert_eq!(written(none), "emissive_strength");
+    for (layers, expected) in [
+        (Layers { ior: 0.0, ..none }, "emissive_strength ior"),
+        (
+            Layers {
+                specular_color: [1.0, 1.0, 0.5],
+                ..none
+            },
+            "emissive_strength specular",
+        ),
+        (Layers { clearcoat: 1.0, ..none }, "clearcoat emissive_strength"),
+        (
+            Layers {
+                sheen_color: [0.5, 0.0, 0.0],
+                ..none
+            },
+            "emissive_strength sheen",
+        ),
+        (
+            Layers {
+                transmission: 1.0,
+                ..none
+            },
+            "emissive_strength transmission",
+        ),
+    ] {
+        assert_eq!(written(layers), expected);
+    }
 }
 
 #[test]

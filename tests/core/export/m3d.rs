@@ -8,7 +8,8 @@ use bindpose::export::{Loss, m3d, m3d_losses, one_word};
 use bindpose::format::{Dialect, Document, LineMap, parse};
 use bindpose::import::m3d::from_document;
 use bindpose::model::{
-    AlphaMode, Channel, Front, Handedness, JointNames, LocalJoint, Material, Model, Reflectance, Track, UpAxis, Wrap,
+    AlphaMode, Channel, Front, Handedness, JointNames, Layers, LocalJoint, Material, Model, Reflectance, Track, UpAxis,
+    Wrap,
 };
 use glam::{Quat, Vec2, Vec3, Vec4};
 use proptest::prelude::*;
@@ -169,6 +170,10 @@ fn rich() -> Model {
             metallic: 0.5,
             roughness: 0.25,
         },
+        layers: Layers {
+            clearcoat: 0.5,
+            ..Layers::default()
+        },
         alpha: AlphaMode::Blend,
         double_sided: true,
         unlit: true,
@@ -227,7 +232,7 @@ fn a_material_of_gltf_that_is_no_metal_loses_no_metalness() {
 fn what_the_format_does_not_hold_is_said_before() {
     let losses = m3d_losses(&rich(), &JointNames::default(), Dialect::D3d12);
     let expected = "up-axis front vertex-colors second-tex-coords joint-names rest-pose step-keys cubic-keys \
-        metallic-roughness alpha-blend opacity double-sided unlit emissive normal-scale metallic-roughness-map \
+        metallic-roughness alpha-blend opacity double-sided unlit emissive layers normal-scale metallic-roughness-map \
         occlusion-map emissive-map map-sampling";
     assert_eq!(codes(&losses).join(" "), expected);
     for loss in &losses {
