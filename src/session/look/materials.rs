@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::model::{AlphaMode, Material, Reflectance};
+use crate::model::{AlphaMode, Layers, Material, Reflectance};
 
 /// The greatest specular exponent that can be asked for: a highlight a few pixels wide.
 pub const MAX_SPEC_POWER: f32 = 1024.0;
@@ -141,6 +141,7 @@ fn with_values(material: &Material, wanted: &Material) -> Material {
             },
             (of_one_book, _of_the_other) => of_one_book,
         },
+        layers: layers(&material.layers, &wanted.layers),
         alpha: match wanted.alpha {
             AlphaMode::Mask { cutoff } if !cutoff.is_finite() => material.alpha,
             alpha => alpha,
@@ -156,6 +157,21 @@ fn with_values(material: &Material, wanted: &Material) -> Material {
         double_sided: wanted.double_sided,
         unlit: wanted.unlit,
         ..material.clone()
+    }
+}
+
+fn layers(current: &Layers, wanted: &Layers) -> Layers {
+    let part = |of: fn(&Layers) -> f32| number(of(current), of(wanted), 1.0);
+    let is_ior = wanted.ior == 0.0 || (1.0..f32::INFINITY).contains(&wanted.ior);
+    Layers {
+        ior: if is_ior { wanted.ior } else { current.ior },
+        specular: part(|layers| layers.specular),
+        specular_color: color(current.specular_color, wanted.specular_color),
+        clearcoat: part(|layers| layers.clearcoat),
+        clearcoat_roughness: part(|layers| layers.clearcoat_roughness),
+        sheen_color: color(current.sheen_color, wanted.sheen_color),
+        sheen_roughness: part(|layers| layers.sheen_roughness),
+        transmission: part(|layers| layers.transmission),
     }
 }
 

@@ -7,7 +7,7 @@ use egui::{Role, Ui, Vec2, vec2};
 use super::model_panel::shown_color;
 use super::textures::{holds, picture_row};
 use crate::actions::Control;
-use crate::model::{AlphaMode, MapSlot, Material, Mesh, Reflectance, Submesh};
+use crate::model::{AlphaMode, Layers, MapSlot, Material, Mesh, Reflectance, Submesh};
 use crate::scene::{linear_from_srgb8, srgb8_from_linear};
 use crate::session::{MAX_SPEC_POWER, MaterialCommand, OpenModel, Session, SubmeshCommand};
 use crate::ui::cx::Cx;
@@ -54,7 +54,9 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     if section_with_action(ui, ("Material", Control::new("reset-material")), action) {
         cx.push(MaterialCommand::Reset(material));
     }
-    if let Some(edited) = material_fields(ui, values) {
+    let of_file = open.model.materials.get(material);
+    let of_file = of_file.map(|of_file| of_file.layers).unwrap_or_default();
+    if let Some(edited) = material_fields(ui, values, &of_file) {
         cx.push(MaterialCommand::Edit {
             index: material,
             material: Box::new(edited),
@@ -109,7 +111,7 @@ fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState
 }
 
 /// The values of a material. Returns the edited material if a value changed.
-fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
+fn material_fields(ui: &mut Ui, material: &Material, of_file: &Layers) -> Option<Material> {
     let mut edited = material.clone();
     match &mut edited.reflectance {
         Reflectance::Fresnel { fresnel0, roughness } => {
@@ -121,7 +123,7 @@ fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
             color_row(ui, "Diffuse", &mut edited.diffuse, LINEAR);
             part_row(ui, "Metallic", metallic);
             part_row(ui, ROUGHNESS, roughness);
-            return of_gltf(ui, material, edited);
+            return of_gltf(ui, material, of_file, edited);
         }
         Reflectance::Phong {
             ambient,
@@ -144,7 +146,7 @@ fn material_fields(ui: &mut Ui, material: &Material) -> Option<Material> {
 }
 
 /// The values that a glTF file has and the books have not, as far as they do something here, for a material that is being edited.
-fn of_gltf(ui: &mut Ui, material: &Material, mut edited: Material) -> Option<Material> {
+fn of_gltf(ui: &mut Ui, material: &Material, of_file: &Layers, mut edited: Material) -> Option<Material> {
     color_row(ui, "Emissive", &mut edited.emissive, LINEAR);
     if material.normal_map.is_some() {
         number_row(ui, "Normal scale", &mut edited.normal_scale, -8.0..=8.0, (0.01, 2));
@@ -152,6 +154,7 @@ fn of_gltf(ui: &mut Ui, material: &Material, mut edited: Material) -> Option<Mat
     if material.occlusion_map.is_some() {
         part_row(ui, "Occlusion", &mut edited.occlusion_strength);
     }
+    layer_rows(ui, of_file, &mut edited.layers);
     let mask = match material.alpha {
         AlphaMode::Mask { .. } => material.alpha,
         // glTF's own cutoff.
@@ -178,6 +181,29 @@ fn of_gltf(ui: &mut Ui, material: &Material, mut edited: Material) -> Option<Mat
         edited.unlit = !material.unlit;
     }
     (edited != *material).then_some(edited)
+}
+
+/// The values of those extensions of glTF that the file has.
+fn layer_rows(ui: &mut Ui, of_file: &Layers, edited: &mut Layers) {
+    let none = Layers::default();
+    if of_file.ior != none.ior {
+        number_row(ui, "IOR", &mut edited.ior, 1.0..=4.0, (0.01, 2));
+    }
+    if (of_file.specular, of_file.specular_color) != (none.specular, none.specular_color) {
+        part_row(ui, "Specular", &mut edited.specular);
+        color_row(ui, "Specular tint", &mut edited.specular_color, LINEAR);
+    }
+    if of_file.clearcoat > 0.0 {
+        part_row(ui, "Clear coat", &mut edited.clearcoat);
+        part_row(ui, "Coat roughness", &mut edited.clearcoat_roughness);
+    }
+    if of_file.sheen_color != none.sheen_color {
+        color_row(ui, "Sheen", &mut edited.sheen_color, LINEAR);
+        part_row(ui, "Sheen roughness", &mut edited.sheen_roughness);
+    }
+    if of_file.transmission > 0.0 {
+        part_row(ui, "Transmission", &mut edited.transmission);
+    }
 }
 
 /// A number 0…1.

@@ -1,6 +1,6 @@
 //! glTF in a session: drops of several files, pictures, names, and a model without a clip.
 
-use bindpose::model::{AlphaMode, JointIndex, MapSlot, Material, Reflectance};
+use bindpose::model::{AlphaMode, JointIndex, Layers, MapSlot, Material, Reflectance};
 use bindpose::scene::ViewPreset;
 use bindpose::session::{
     CameraCommand, File, FileCommand, FileFormat, FileSet, HistoryCommand, MaterialCommand, Session,
@@ -280,6 +280,28 @@ fn an_edit_brings_over_what_gltf_has_and_light_above_one_stays() {
         ..wanted.clone()
     };
     assert_eq!(edited(wanted), expected);
+    let layered = |layers| Material {
+        layers,
+        ..of_file.clone()
+    };
+    let odd = Layers {
+        ior: 0.5,
+        specular: 2.0,
+        specular_color: [f32::NAN, 0.5, 1.0],
+        clearcoat: -1.0,
+        transmission: f32::INFINITY,
+        sheen_color: [0.5; 3],
+        ..Layers::default()
+    };
+    let mended = Layers {
+        ior: 1.5,
+        specular: 1.0,
+        specular_color: [1.0, 0.5, 1.0],
+        clearcoat: 0.0,
+        transmission: 0.0,
+        ..odd
+    };
+    assert_eq!(edited(layered(odd)), layered(mended));
     let endless = Material {
         alpha: AlphaMode::Mask { cutoff: f32::NAN },
         ..of_file.clone()
