@@ -5,6 +5,7 @@ use bindpose::model::{AlphaMode, Reflectance};
 use bindpose::session::File;
 use egui::accesskit::{Action, ActionData};
 use egui::{Event, Key, Modifiers, PointerButton, Vec2, pos2};
+use serde_json::{Value, json};
 
 use crate::models;
 use crate::page::{PHONE, WIDE, Window, button_event, touch_window, window};
@@ -304,6 +305,25 @@ fn a_material_of_gltf_has_the_values_that_do_something() {
     assert!(window.shows("Opacity") && !window.shows("Cutoff"));
     window.click("Both sides");
     assert!(material(&window, 1).double_sided);
+}
+
+#[test]
+fn what_lies_over_a_surface_is_shown_where_the_file_says_it() {
+    let mut document: Value = serde_json::from_slice(&leaf_and_glass().bytes).expect("is JSON");
+    document["materials"][1]["extensions"] = json!({
+        "KHR_materials_ior": { "ior": 2.0 },
+        "KHR_materials_clearcoat": { "clearcoatFactor": 0.5 },
+    });
+    let mut window = window(WIDE, vec![File::new("layers.gltf", document.to_string().into_bytes())]);
+    let layers = |window: &Window| window.session().materials()[1].layers;
+    window.click("Glass, 1 triangle");
+    assert!(window.shows("Clear coat") && window.shows("Coat roughness"));
+    assert!(!window.shows("Sheen") && !window.shows("Transmission") && !window.shows("Specular"));
+    type_number(&mut window, "IOR: number", "1.5");
+    assert_eq!((layers(&window).ior, layers(&window).clearcoat), (1.5, 0.5));
+    assert!(window.shows("IOR"), "what was edited away can be edited back");
+    window.click("Reset");
+    assert_eq!(layers(&window).ior, 2.0);
 }
 
 #[test]
