@@ -111,7 +111,7 @@ impl<'a> Header<'a> {
             let end = memchr::memchr(b'\n', rest);
             let line;
             (line, rest) = rest.split_at(end.map_or(rest.len(), |end| end + 1));
-            end.map(|_| line.trim_ascii()).ok_or_else(|| cut("header".to_owned()))
+            end.map(|_| line.trim_ascii()).ok_or_else(|| cut("header"))
         };
         let mut exposure = 1.0;
         loop {
@@ -123,7 +123,7 @@ impl<'a> Header<'a> {
             let value = String::from_utf8_lossy(value.get(1..).unwrap_or_default());
             match key {
                 b"FORMAT" if value.trim() != "32-bit_rle_rgbe" => {
-                    return Err(unreadable(format!("holds pixels of the format {}", value.trim())));
+                    return Err(unreadable(&format!("holds pixels of the format {}", value.trim())));
                 }
                 b"EXPOSURE" => exposure *= value.trim().parse::<f32>().unwrap_or(1.0),
                 _ => {}
@@ -132,12 +132,12 @@ impl<'a> Header<'a> {
         let size = String::from_utf8_lossy(line()?).into_owned();
         let words: Vec<&str> = size.split_ascii_whitespace().collect();
         let [down @ ("-Y" | "+Y"), height, right @ ("-X" | "+X"), width] = words[..] else {
-            return Err(unreadable(format!(
+            return Err(unreadable(&format!(
                 "gives its size as \"{size:.40}\", not as \"-Y 1024 +X 2048\""
             )));
         };
         let (Ok(height), Ok(width)) = (height.parse::<u32>(), width.parse::<u32>()) else {
-            return Err(unreadable(format!(
+            return Err(unreadable(&format!(
                 "gives its size as \"{size:.40}\", which are no two numbers"
             )));
         };
@@ -190,7 +190,7 @@ impl<'a> Header<'a> {
         let mut texels: Vec<[u8; 4]> = Vec::new();
         for index in 0..self.height as usize {
             slices.pause().await;
-            read_row(&mut rest, &mut row).ok_or_else(|| cut(format!("row {index} of {}", self.height)))?;
+            read_row(&mut rest, &mut row).ok_or_else(|| cut(&format!("row {index} of {}", self.height)))?;
             if reduction == 1 {
                 texels.extend_from_slice(&row);
                 continue;
@@ -295,12 +295,12 @@ fn read_plain_row(rest: &mut &[u8], row: &mut [[u8; 4]]) -> Option<()> {
     Some(())
 }
 
-fn cut(place: String) -> Fault {
+fn cut(place: &str) -> Fault {
     let message = format!("the Radiance file ends or is damaged in its {place}");
     codes::IMAGE_CUT.says(message).into()
 }
 
-fn unreadable(what: String) -> Fault {
+fn unreadable(what: &str) -> Fault {
     codes::IMAGE_UNDECODABLE
         .says(format!("the Radiance file {what}, which is not read"))
         .into()

@@ -362,7 +362,7 @@ fn mips_of_what_alpha_cuts_leave_as_much_of_it() {
     let leaf = |index: u32| {
         let hash = (index ^ (index >> 16)).wrapping_mul(0x7feb_352d);
         let hash = (hash ^ (hash >> 15)).wrapping_mul(0x846c_a68b);
-        (hash ^ (hash >> 16)) % 8 == 0
+        (hash ^ (hash >> 16)).is_multiple_of(8)
     };
     let texels: Vec<u8> = (0..64 * 64)
         .flat_map(|index| [20, 90, 30, if leaf(index) { 255 } else { 0 }])
