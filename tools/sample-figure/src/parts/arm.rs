@@ -19,16 +19,9 @@ pub(crate) fn add(kit: &mut Kit<'_>) {
     let r = |at: f64, radius: f64| ring(at, radius, radius);
 
     // The undersuit, from inside of the chest to the wrist.
-    let mut sleeve = vec![
-        r(-0.075, 0.03),
-        r(-0.06, 0.05),
-        r(-0.02, 0.066),
-        r(0.04, 0.06),
-        r(0.09, 0.05),
-    ];
-    sleeve.extend(ribs(r(0.178, 0.044), r(0.316, 0.042), 6, 0.0085));
-    sleeve.extend([r(0.34, 0.042), r(0.43, 0.036)]);
-    sleeve.extend(ribs(r(0.44, 0.034), r(0.495, 0.032), 3, 0.006));
+    let mut sleeve = vec![r(-0.07, 0.04), r(-0.02, 0.066), r(0.09, 0.05)];
+    sleeve.extend(ribs(r(0.178, 0.044), r(0.316, 0.042), 4, 0.0085));
+    sleeve.extend(ribs(r(0.44, 0.034), r(0.495, 0.032), 2, 0.006));
     let joints = vec![
         (-0.06, of(Limb::Clavicle)),
         (0.05, of(Limb::UpperArm)),
@@ -45,18 +38,13 @@ pub(crate) fn add(kit: &mut Kit<'_>) {
     kit.pair(Rubber, &Loft::new(frame, sleeve).grid(COARSE), &along, &[]);
 
     let pauldron = Loft::new(frame, pauldron());
-    kit.pair(Shell, &pauldron.grid(FINE), &upper, PAULDRON);
+    kit.pair(Shell, &pauldron.grid(FINE * 0.7), &upper, PAULDRON);
     let badge = [[0.16, 0.42], [0.34, 0.42], [0.36, 0.74], [0.14, 0.74]];
     kit.pair(Trim, &plate(&pauldron, &badge, 0.006).grid(), &upper, BADGE);
 
     let sleeve = Loft::new(frame, vec![r(0.098, 0.057), r(0.13, 0.06), r(0.18, 0.057)]);
     kit.pair(Shell, &sleeve.shelled(0.005, 0.02).grid(FINE), &upper, &[]);
-    let band = bevelled(&[
-        r(0.158, 0.055),
-        r(0.158, 0.0625).bevel(0.0025),
-        r(0.174, 0.0625).bevel(0.0025),
-        r(0.174, 0.055),
-    ]);
+    let band = vec![r(0.155, 0.055), r(0.159, 0.0625), r(0.173, 0.0625), r(0.177, 0.055)];
     kit.pair(Trim, &Loft::new(frame, band).grid(FINE), &upper, &[]);
 
     // A cap over the point of the elbow.
@@ -64,7 +52,7 @@ pub(crate) fn add(kit: &mut Kit<'_>) {
     let cap = bevelled(&[
         ring(0.0, 0.03, 0.036),
         ring(0.022, 0.029, 0.035).bevel(0.007),
-        ring(0.03, 0.016, 0.02).bevel(0.004),
+        ring(0.03, 0.016, 0.02),
         ring(0.031, 0.0, 0.0),
     ]);
     kit.pair(Shell, &Loft::new(elbow, cap).grid(FINE), &lower, &[]);
@@ -107,8 +95,7 @@ fn forearm(kit: &mut Kit<'_>, frame: Frame, lower: &Binding) {
         r(0.424, 0.058).bevel(0.004),
         r(0.44, 0.061).bevel(0.003),
         r(0.462, 0.058).bevel(0.005),
-        r(0.464, 0.044).bevel(0.002),
-        r(0.45, 0.04),
+        r(0.464, 0.04),
     ]);
     kit.pair(Trim, &Loft::new(frame, cuff).grid(FINE), lower, &[]);
     let guard = [[0.12, 0.08], [0.40, 0.08], [0.38, 0.84], [0.14, 0.84]];

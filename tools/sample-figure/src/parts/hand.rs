@@ -45,7 +45,7 @@ pub(crate) fn add(kit: &mut Kit<'_>) {
         ..back
     };
     let inlay = outline.map(|[x, y]| [x * 0.6, y * 0.55]);
-    kit.pair(Trim, &block(&knuckles, &inlay, 0.006, 0.005, 0.002), &hand, &[]);
+    kit.pair(Trim, &block(&knuckles, &inlay, 0.0, 0.005, 0.002), &hand, &[]);
     fingers(kit);
 }
 
@@ -135,8 +135,7 @@ fn finger(length: f64, radius: f64, knuckle: f64) -> Vec<Ring> {
     let r = |at: f64, part: f64| ring(at, radius * part, radius * part);
     vec![
         r(-0.012, 0.9),
-        r(0.012, 1.0),
-        r(knuckle - 0.008, 0.94),
+        r(knuckle - 0.008, 0.97),
         r(knuckle, 1.05),
         r(knuckle + 0.008, 0.93),
         r(length - 0.014, 0.9),

@@ -6,7 +6,10 @@ use super::{Kit, PLATE, plate, ribs};
 use crate::maps::Mark;
 use crate::materials::Material::{Metal, Rubber, Shell, Trim, Visor};
 use crate::rig::{CHEST, HEAD, NECK};
-use crate::shape::{Binding, COARSE, FINE, Frame, Loft, Ring, bevelled, block, rectangle, ring, smooth, tile, tube};
+use crate::shape::{Binding, COARSE, FINE, Frame, Loft, Ring, bevelled, block, rectangle, ring, tile, tube};
+
+/// How near to round the helmet and what is on it are, metres.
+const ROUND: f64 = 0.0007;
 
 /// Middle of the helmet.
 const MIDDLE: DVec3 = DVec3::new(0.0, 1.608, 0.0);
@@ -21,9 +24,9 @@ pub(crate) fn add(kit: &mut Kit<'_>) {
         along: DVec3::NEG_Z,
     };
     let helmet = Loft::new(frame, helmet());
-    kit.one(Shell, &helmet.grid(FINE / 2.0), &head, HELMET);
-    kit.one(Metal, &Loft::new(frame, rim()).grid(FINE / 2.0), &head, &[]);
-    kit.one(Visor, &Loft::new(frame, visor()).grid(FINE / 2.0), &head, &[]);
+    kit.one(Shell, &helmet.grid(ROUND), &head, HELMET);
+    kit.one(Metal, &Loft::new(frame, rim()).grid(ROUND), &head, &[]);
+    kit.one(Visor, &Loft::new(frame, visor()).grid(ROUND), &head, &[]);
 
     // A crest over the crown.
     let crest = [[0.475, 0.12], [0.525, 0.12], [0.525, 0.86], [0.475, 0.86]];
@@ -53,10 +56,7 @@ fn helmet() -> Vec<Ring> {
         ring(0.116, 0.156, 0.142).square(0.3),
     ];
     let mut rings = Vec::from(wall);
-    rings.extend([
-        ring(0.118, 0.14, 0.126).square(0.35),
-        ring(0.1, 0.13, 0.116).square(0.35),
-    ]);
+    rings.push(ring(0.118, 0.14, 0.126).square(0.35));
     rings
 }
 
@@ -64,26 +64,25 @@ fn helmet() -> Vec<Ring> {
 fn rim() -> Vec<Ring> {
     bevelled(&[
         ring(0.1, 0.15, 0.136).square(0.35),
-        ring(0.1, 0.163, 0.149).square(0.35).bevel(0.003),
+        ring(0.1, 0.163, 0.149).square(0.35),
         ring(0.128, 0.159, 0.145).square(0.38).bevel(0.006),
         ring(0.134, 0.143, 0.129).square(0.4).bevel(0.004),
-        ring(0.118, 0.139, 0.125).square(0.4),
-        ring(0.112, 0.12, 0.11).square(0.4),
+        ring(0.118, 0.133, 0.119).square(0.4),
     ])
 }
 
 fn visor() -> Vec<Ring> {
-    smooth(
-        &[
-            ring(0.108, 0.141, 0.127).square(0.4),
-            ring(0.124, 0.137, 0.123).square(0.4),
-            ring(0.150, 0.118, 0.105).square(0.34),
-            ring(0.172, 0.088, 0.077).square(0.25),
-            ring(0.186, 0.05, 0.043).square(0.1),
-            ring(0.190, 0.0, 0.0),
-        ],
-        2,
-    )
+    vec![
+        ring(0.110, 0.140, 0.126).square(0.4),
+        ring(0.126, 0.136, 0.122).square(0.4),
+        ring(0.138, 0.128, 0.115).square(0.37),
+        ring(0.151, 0.116, 0.103).square(0.33),
+        ring(0.163, 0.101, 0.089).square(0.28),
+        ring(0.174, 0.083, 0.073).square(0.22),
+        ring(0.183, 0.06, 0.052).square(0.14),
+        ring(0.188, 0.033, 0.029).square(0.06),
+        ring(0.190, 0.0, 0.0),
+    ]
 }
 
 fn ear_cup(kit: &mut Kit<'_>, head: &Binding) {
@@ -91,17 +90,17 @@ fn ear_cup(kit: &mut Kit<'_>, head: &Binding) {
     let frame = Frame::along(origin, DVec3::X, DVec3::NEG_Z);
     let r = |at: f64, radius: f64| ring(at, radius, radius);
     let base = bevelled(&[r(-0.02, 0.07), r(0.016, 0.068).bevel(0.005), r(0.018, 0.03)]);
-    kit.pair(Metal, &Loft::new(frame, base).grid(FINE / 2.0), head, &[]);
+    kit.pair(Metal, &Loft::new(frame, base).grid(0.001), head, &[]);
     let cup = bevelled(&[
         r(0.0, 0.058),
         r(0.034, 0.056).bevel(0.007),
         r(0.036, 0.036).bevel(0.003),
-        r(0.026, 0.033).bevel(0.002),
+        r(0.026, 0.033),
         r(0.026, 0.0),
     ]);
-    kit.pair(Trim, &Loft::new(frame, cup).grid(FINE / 2.0), head, &[]);
+    kit.pair(Trim, &Loft::new(frame, cup).grid(0.001), head, &[]);
     let hub = bevelled(&[r(0.02, 0.022), r(0.038, 0.02).bevel(0.004), r(0.039, 0.0)]);
-    kit.pair(Metal, &Loft::new(frame, hub).grid(FINE), head, &[]);
+    kit.pair(Metal, &Loft::new(frame, hub).grid(0.001), head, &[]);
     // A lamp above each cup, and an aerial on the left.
     let lamp = Frame::along(MIDDLE + DVec3::new(0.152, 0.095, -0.03), DVec3::NEG_Z, DVec3::Y);
     kit.pair(
@@ -138,14 +137,13 @@ fn neck(kit: &mut Kit<'_>, head: &Binding) {
     let frame = Frame::upright(DVec3::ZERO);
     let r = |at: f64, radius: f64| ring(at, radius, radius);
     let collar = bevelled(&[
-        r(1.462, 0.07),
-        r(1.448, 0.09),
+        r(1.448, 0.085),
         r(1.442, 0.112).bevel(0.004),
         r(1.468, 0.124).bevel(0.005),
         r(1.485, 0.11),
     ]);
     kit.one(Metal, &Loft::new(frame, collar).grid(FINE), head, &[]);
-    let bellows = ribs(r(1.385, 0.092), r(1.465, 0.092), 3, 0.008);
+    let bellows = ribs(r(1.385, 0.092), r(1.465, 0.092), 2, 0.009);
     let joints = vec![(1.40, CHEST), (1.43, NECK), (1.46, HEAD)];
     let binding = Binding::Along {
         origin: DVec3::ZERO,

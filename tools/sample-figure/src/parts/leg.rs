@@ -18,27 +18,24 @@ pub(crate) fn add(kit: &mut Kit<'_>) {
 
     // The undersuit, from inside of the hips to the ankle.
     let mut leg = vec![
-        r(0.93, 0.05).centre(-0.03, 0.0),
-        r(0.915, 0.068).centre(-0.02, 0.0),
+        r(0.925, 0.055).centre(-0.025, 0.0),
         r(0.88, 0.082).centre(-0.012, 0.0),
         r(0.83, 0.085).centre(-0.006, 0.0),
-        r(0.77, 0.082),
+        r(0.77, 0.08),
         r(0.6, 0.062),
     ];
     leg.extend(ribs(
         r(0.575, 0.058).centre(0.0, 0.004),
         r(0.415, 0.054).centre(0.0, 0.002),
-        6,
-        0.009,
+        4,
+        0.01,
     ));
-    leg.extend([r(0.38, 0.05), r(0.2, 0.046)]);
     leg.extend(ribs(
-        r(0.185, 0.049).centre(0.002, -0.008),
-        r(0.095, 0.05).centre(0.002, -0.006),
-        3,
-        0.009,
+        r(0.185, 0.043).centre(0.002, -0.008),
+        r(0.095, 0.043).centre(0.002, -0.006),
+        2,
+        0.008,
     ));
-    leg.push(r(0.07, 0.03).centre(0.002, -0.006));
     let binding = Binding::Along {
         origin: DVec3::ZERO,
         along: DVec3::NEG_Y,
@@ -76,12 +73,12 @@ fn thigh(kit: &mut Kit<'_>, frame: Frame) {
     kit.pair(Trim, &plate(&wall, &side, 0.007).grid(), &bone, PLATE);
     let front = [[0.40, 0.16], [0.60, 0.16], [0.58, 0.84], [0.42, 0.84]];
     kit.pair(Shell, &plate(&wall, &front, 0.006).grid(), &bone, PLATE);
-    let band = bevelled(&[
-        ring(0.602, 0.07, 0.073),
-        ring(0.602, 0.081, 0.084).bevel(0.003),
-        ring(0.585, 0.079, 0.082).bevel(0.003),
-        ring(0.585, 0.07, 0.073),
-    ]);
+    let band = vec![
+        ring(0.604, 0.073, 0.076),
+        ring(0.600, 0.081, 0.084),
+        ring(0.587, 0.079, 0.082),
+        ring(0.583, 0.072, 0.075),
+    ];
     kit.pair(Metal, &Loft::new(frame, band).grid(FINE), &bone, &[]);
 }
 
@@ -103,12 +100,12 @@ fn shin(kit: &mut Kit<'_>, frame: Frame) {
     kit.pair(Shell, &wall.shelled(0.006, 0.024).grid(FINE), &bone, &[]);
     let greave = [[0.41, 0.07], [0.59, 0.07], [0.565, 0.92], [0.435, 0.92]];
     kit.pair(Shell, &plate(&wall, &greave, 0.009).grid(), &bone, PLATE);
-    let band = bevelled(&[
-        ring(0.222, 0.058, 0.062).centre(0.001, -0.006),
-        ring(0.222, 0.0685, 0.0725).centre(0.001, -0.006).bevel(0.003),
-        ring(0.20, 0.0685, 0.0725).centre(0.001, -0.006).bevel(0.003),
-        ring(0.20, 0.058, 0.062).centre(0.001, -0.006),
-    ]);
+    let band = vec![
+        ring(0.224, 0.059, 0.063).centre(0.001, -0.006),
+        ring(0.2195, 0.0685, 0.0725).centre(0.001, -0.006),
+        ring(0.2025, 0.0685, 0.0725).centre(0.001, -0.006),
+        ring(0.198, 0.059, 0.063).centre(0.001, -0.006),
+    ];
     kit.pair(Trim, &Loft::new(frame, band).grid(FINE), &bone, &[]);
     // Knee cap: a shield in front of the joint.
     let knee = Frame::along(DVec3::new(X, 0.492, -0.046), DVec3::NEG_Z, DVec3::Y);
@@ -116,7 +113,7 @@ fn shin(kit: &mut Kit<'_>, frame: Frame) {
         ring(0.0, 0.044, 0.058).square(0.5),
         ring(0.016, 0.05, 0.064).square(0.5).bevel(0.004),
         ring(0.03, 0.043, 0.056).square(0.5).bevel(0.006),
-        ring(0.038, 0.022, 0.03).square(0.4).bevel(0.006),
+        ring(0.038, 0.022, 0.03).square(0.4),
         ring(0.039, 0.0, 0.0),
     ]);
     kit.pair(Trim, &Loft::new(knee, cap).grid(FINE), &bone, &[]);
@@ -125,12 +122,16 @@ fn shin(kit: &mut Kit<'_>, frame: Frame) {
         let disc = bevelled(&[
             ring(0.0, 0.033, 0.033),
             ring(0.018, 0.032, 0.032).bevel(0.004),
-            ring(0.018, 0.02, 0.02).bevel(0.002),
+            ring(0.018, 0.02, 0.02),
             ring(0.014, 0.018, 0.018),
             ring(0.014, 0.0, 0.0),
         ]);
         let hinge = hinge(x);
         kit.pair(Metal, &Loft::new(hinge, disc).grid(FINE), &bone, &[]);
+        if x < 0.0 {
+            // The bolt of the inner one is not seen.
+            continue;
+        }
         kit.pair(
             Metal,
             &bolt(hinge.origin + hinge.along * 0.014, hinge.along, 0.008),
@@ -146,7 +147,7 @@ const UPPER: [[f64; 4]; 10] = [
     [-0.076, 0.03, 0.026, 0.058],
     [-0.066, 0.048, 0.039, 0.071],
     [-0.036, 0.059, 0.053, 0.083],
-    [0.01, 0.061, 0.06, 0.09],
+    [0.01, 0.061, 0.053, 0.083],
     [0.06, 0.06, 0.047, 0.076],
     [0.11, 0.063, 0.036, 0.066],
     [0.155, 0.061, 0.031, 0.06],
@@ -170,10 +171,12 @@ fn boot(kit: &mut Kit<'_>) {
     };
     let upper = UPPER.map(|[at, width, height, middle]| ring(at, width, height).centre(0.0, middle).square(0.3));
     let upper = Loft::new(frame, smooth(&upper, 1));
-    kit.pair(Shell, &upper.grid(FINE), &soft, &[]);
+    // Its ends are under the caps.
+    let seen = Loft::new(frame, upper.rings[2..8].to_vec());
+    kit.pair(Shell, &seen.grid(FINE), &soft, &[]);
     // A band where the foot bends, and hard caps over toes and heel.
     let cut = |from: f64, to: f64, by: f64| -> Vec<Ring> {
-        let rings = smooth(&upper.rings, 3).into_iter();
+        let rings = smooth(&upper.rings, 2).into_iter();
         let inside = rings.filter(|ring| (from..=to).contains(&ring.at));
         inside
             .map(|ring| {
@@ -189,25 +192,15 @@ fn boot(kit: &mut Kit<'_>) {
     band.insert(0, band[0].inset(0.02));
     band.push(band[band.len() - 1].inset(0.02));
     kit.pair(Rubber, &Loft::new(frame, band).grid(COARSE), &soft, &[]);
-    let mut toes = cut(0.138, 0.3, 0.008);
+    let mut toes = cut(0.13, 0.3, 0.008);
     let edge = toes[0];
-    toes.splice(..1, [edge.inset(0.02), edge.bevel(0.004)]);
-    kit.pair(
-        Metal,
-        &Loft::new(frame, bevelled(&toes)).grid(FINE),
-        &Binding::Rigid(toe),
-        &[],
-    );
+    toes.splice(..1, [edge.inset(0.02), edge]);
+    kit.pair(Metal, &Loft::new(frame, toes).grid(FINE), &Binding::Rigid(toe), &[]);
     let mut heel = cut(-0.1, -0.03, 0.008);
     heel[0] = heel[0].moved(-0.012);
     let edge = heel.pop().expect("a heel");
-    heel.extend([edge.bevel(0.004), edge.inset(0.02)]);
-    kit.pair(
-        Rubber,
-        &Loft::new(frame, bevelled(&heel)).grid(COARSE),
-        &Binding::Rigid(foot),
-        &[],
-    );
+    heel.extend([edge, edge.inset(0.02)]);
+    kit.pair(Rubber, &Loft::new(frame, heel).grid(COARSE), &Binding::Rigid(foot), &[]);
     let collar = bevelled(&[
         ring(0.105, 0.05, 0.052).centre(0.0, -0.006),
         ring(0.108, 0.063, 0.066).centre(0.0, -0.006).tilt(0.0, -0.12),
@@ -215,11 +208,7 @@ fn boot(kit: &mut Kit<'_>) {
             .centre(0.0, -0.006)
             .tilt(0.0, -0.12)
             .bevel(0.005),
-        ring(0.154, 0.056, 0.058)
-            .centre(0.0, -0.006)
-            .tilt(0.0, -0.12)
-            .bevel(0.003),
-        ring(0.13, 0.05, 0.052).centre(0.0, -0.006),
+        ring(0.154, 0.054, 0.056).centre(0.0, -0.006).tilt(0.0, -0.12),
     ]);
     let ankle = Frame::upright(frame.origin);
     kit.pair(Shell, &Loft::new(ankle, collar).grid(FINE), &Binding::Rigid(foot), &[]);
@@ -254,12 +243,11 @@ fn sole(kit: &mut Kit<'_>, soft: &Binding) {
         [-0.056, 0.04],
         [-0.062, -0.03],
     ];
-    kit.pair(Rubber, &tile(&up, &outline, 0.02, 0.026, 0.004), soft, &[]);
+    kit.pair(Rubber, &tile(&up, &outline, 0.0, 0.026, 0.004), soft, &[]);
     // Lugs under it.
     for (at, width, bone) in [
-        (-0.068, 0.1, Limb::Foot),
-        (-0.04, 0.12, Limb::Foot),
-        (-0.012, 0.118, Limb::Foot),
+        (-0.066, 0.1, Limb::Foot),
+        (-0.03, 0.12, Limb::Foot),
         (0.062, 0.116, Limb::Foot),
         (0.09, 0.126, Limb::Foot),
         (0.118, 0.132, Limb::Toe),
@@ -273,7 +261,7 @@ fn sole(kit: &mut Kit<'_>, soft: &Binding) {
             front: DVec3::Z,
             along: DVec3::NEG_Y,
         };
-        let lug = block(&down, &rectangle(width, 0.017), 0.0, 0.014, 0.003);
+        let lug = block(&down, &rectangle(width, 0.017), 0.0, 0.014, 0.0);
         kit.pair(Rubber, &lug, &Binding::Rigid(joint(Side::Left, bone)), &[]);
     }
 }

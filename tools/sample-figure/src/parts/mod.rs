@@ -106,30 +106,30 @@ impl Kit<'_> {
     }
 }
 
-/// A bolt with a hollow head, standing on `origin`.
+/// A bolt with a bevelled head, standing on `origin`.
 fn bolt(origin: DVec3, along: DVec3, radius: f64) -> Grid {
     let front = along.any_orthonormal_vector();
     let r = |at: f64, part: f64| ring(at * radius, part * radius, part * radius);
-    let rings = [r(-0.5, 1.0), r(0.45, 1.0), r(0.75, 0.75), r(0.75, 0.5), r(0.4, 0.4)];
+    let rings = [r(-0.5, 1.0), r(0.5, 1.0), r(0.75, 0.7), r(0.75, 0.0)];
     Loft::new(Frame::along(origin, along, front), Vec::from(rings)).grid(FINE)
 }
 
-/// A round rib as a stretch of rings: `count` ribs between two rings, each `depth` out of the wall.
+/// Bellows as a stretch of rings: `count` ribs between two rings, each `depth` out of the wall.
 fn ribs(from: Ring, to: Ring, count: usize, depth: f64) -> Vec<Ring> {
-    let steps = count * 3;
-    let wave = [0.0, 0.9, 0.9];
-    let rib = |step: usize| {
-        let part = step as f64 / steps as f64;
+    // A fold, and both ends of a rib's flat top.
+    let profile = [(0.0, 0.0), (0.2, depth), (0.8, depth)];
+    let at = |part: f64, depth: f64| {
         let between = |a: f64, b: f64| a + (b - a) * part;
         Ring {
             at: between(from.at, to.at),
-            half: from.half + (to.half - from.half) * part + depth * wave[step % 3],
+            half: from.half + (to.half - from.half) * part + depth,
             centre: from.centre + (to.centre - from.centre) * part,
             square: between(from.square, to.square),
             ..from
         }
     };
-    (0..=steps).map(rib).collect()
+    let rib = |rib: usize| profile.map(|(part, depth)| at((rib as f64 + part) / count as f64, depth));
+    (0..count).flat_map(rib).chain([to]).collect()
 }
 
 /// Adds a plate to a loft.
@@ -140,5 +140,6 @@ fn plate<'a>(on: &'a Loft, outline: &'a [[f64; 2]], lift: f64) -> Plate<'a> {
         rounding: 0.014,
         lift,
         bevel: 0.0035,
+        longest: 0.07,
     }
 }

@@ -19,7 +19,7 @@ pub(crate) fn add(kit: &mut Kit<'_>) {
     };
     kit.one(
         Metal,
-        &block(&back(0.0, 1.25, 0.1), &rectangle(0.2, 0.25), 0.03, 0.05, 0.008),
+        &block(&back(0.0, 1.25, 0.1), &rectangle(0.2, 0.25), 0.0, 0.05, 0.008),
         &chest,
         &[],
     );
@@ -68,28 +68,30 @@ pub(crate) fn add(kit: &mut Kit<'_>) {
     // Tanks.
     let tank = Frame::upright(DVec3::new(0.152, 0.0, 0.158));
     let r = |at: f64, radius: f64| ring(at, radius, radius);
-    let wall = bevelled(&[
+    let wall = vec![
         r(1.100, 0.0),
-        r(1.105, 0.028).bevel(0.012),
-        r(1.125, 0.045).bevel(0.012),
-        r(1.34, 0.045).bevel(0.014),
-        r(1.366, 0.024).bevel(0.006),
+        r(1.104, 0.024),
+        r(1.114, 0.039),
+        r(1.130, 0.045),
+        r(1.332, 0.045),
+        r(1.352, 0.038),
+        r(1.364, 0.024),
         r(1.366, 0.0),
-    ]);
+    ];
     kit.pair(Trim, &Loft::new(tank, wall).grid(FINE), &chest, TANK);
     for at in [1.155, 1.30] {
-        let band = bevelled(&[
-            r(at, 0.04),
-            r(at, 0.049).bevel(0.002),
-            r(at + 0.018, 0.049).bevel(0.002),
-            r(at + 0.018, 0.04),
-        ]);
+        let band = vec![
+            r(at - 0.002, 0.044),
+            r(at + 0.002, 0.049),
+            r(at + 0.016, 0.049),
+            r(at + 0.02, 0.044),
+        ];
         kit.pair(Metal, &Loft::new(tank, band).grid(FINE), &chest, &[]);
     }
     let valve = bevelled(&[
         r(1.36, 0.014),
-        r(1.384, 0.014).bevel(0.003),
-        r(1.386, 0.02).bevel(0.003),
+        r(1.384, 0.014),
+        r(1.386, 0.02),
         r(1.404, 0.02).bevel(0.004),
         r(1.404, 0.0),
     ]);
@@ -105,7 +107,7 @@ pub(crate) fn add(kit: &mut Kit<'_>) {
         SOCKET + SOCKET_ALONG * 0.004,
     ];
     let ribbed = |step: usize| if step.is_multiple_of(2) { 0.017 } else { 0.014 };
-    kit.pair(Rubber, &tube(&hose, 5, 7, ribbed), &chest, &[]);
+    kit.pair(Rubber, &tube(&hose, 4, 6, ribbed), &chest, &[]);
     let fitting = Frame::along(
         hose[0] - DVec3::new(0.0, 0.03, 0.014),
         DVec3::new(0.1, 0.9, -0.25),

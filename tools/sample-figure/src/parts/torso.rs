@@ -6,7 +6,7 @@ use super::{INK, Kit, PLATE, bolt, plate, ribs};
 use crate::maps::Mark;
 use crate::materials::Material::{Metal, Rubber, Shell, Trim, Visor};
 use crate::rig::{CHEST, HIPS, RIBS, WAIST};
-use crate::shape::{Binding, COARSE, FINE, Frame, Loft, Ring, bevelled, block, rectangle, ring, shell, smooth, tile};
+use crate::shape::{Binding, COARSE, FINE, Frame, Loft, Ring, bevelled, block, rectangle, ring, smooth};
 
 pub(crate) fn add(kit: &mut Kit<'_>) {
     chest(kit);
@@ -57,10 +57,14 @@ const BACK: &[[f64; 2]] = &[
 fn chest(kit: &mut Kit<'_>) {
     let chest = Binding::Rigid(CHEST);
     let core = core();
-    let closed = Loft::new(core.frame, shell(&core_rings(1), 0.006, 0.03));
+    let mut rings = core_rings(1);
+    rings.insert(0, rings[0].inset(0.03));
+    let closed = Loft::new(core.frame, rings);
     kit.one(Rubber, &closed.grid(COARSE), &chest, &[]);
     let mut breast = plate(&core, BREAST, 0.014);
     breast.bevel = 0.005;
+    // It bends most, and large facets would shade themselves where light grazes them.
+    breast.longest = 0.04;
     kit.sides(Shell, &breast.grid(), &chest, [NUMBER, NAME]);
     for (outline, lift) in [(SIDE, 0.010), (FLANK, 0.009), (BACK, 0.009)] {
         let mut plate = plate(&core, outline, lift);
@@ -77,16 +81,14 @@ fn chest(kit: &mut Kit<'_>) {
         r(1.375, 0.12, 0.11),
         r(1.385, 0.142, 0.124).bevel(0.005),
         r(1.412, 0.13, 0.122).bevel(0.006),
-        r(1.416, 0.106, 0.106).bevel(0.003),
-        r(1.395, 0.1, 0.1),
+        r(1.416, 0.106, 0.106),
     ]);
     kit.one(Shell, &Loft::new(frame, collar).grid(FINE), &chest, &[]);
     let lock = bevelled(&[
         r(1.40, 0.1, 0.1),
         r(1.405, 0.118, 0.116).bevel(0.003),
         r(1.424, 0.116, 0.114).bevel(0.004),
-        r(1.424, 0.1, 0.1).bevel(0.002),
-        r(1.405, 0.096, 0.096),
+        r(1.424, 0.1, 0.1),
     ]);
     kit.one(Trim, &Loft::new(frame, lock).grid(FINE), &chest, &[]);
     // Rings that the arms come out of.
@@ -95,10 +97,9 @@ fn chest(kit: &mut Kit<'_>) {
     let hole = bevelled(&[
         r(0.0, 0.084, 0.084),
         r(0.034, 0.082, 0.082).bevel(0.005),
-        r(0.036, 0.066, 0.066).bevel(0.003),
-        r(0.02, 0.06, 0.06),
+        r(0.036, 0.066, 0.066),
     ]);
-    kit.pair(Metal, &Loft::new(side, hole).grid(FINE), &chest, &[]);
+    kit.pair(Metal, &Loft::new(side, hole).grid(COARSE), &chest, &[]);
 }
 
 const NUMBER: &[Mark] = &[
@@ -115,9 +116,9 @@ const NAME: &[Mark] = &[
     Mark::Gap,
     Mark::Border(0.012),
     Mark::Word {
-        middle: [0.5, 0.26],
+        middle: [0.36, 0.26],
         word: "BINDPOSE",
-        height: 0.013,
+        height: 0.0115,
         tone: INK,
     },
 ];
@@ -145,14 +146,14 @@ fn controls(kit: &mut Kit<'_>) {
     ];
     kit.one(
         Metal,
-        &block(&on(0.0, 0.0, 0.0), &outline, 0.01, 0.034, 0.005),
+        &block(&on(0.0, 0.0, 0.0), &outline, 0.006, 0.034, 0.005),
         &chest,
         &[],
     );
     let lid = outline.map(|[x, y]| [x * 0.86, y * 0.8]);
     kit.one(
         Trim,
-        &block(&on(0.0, 0.0, 0.03), &lid, 0.008, 0.014, 0.003),
+        &block(&on(0.0, 0.0, 0.03), &lid, 0.006, 0.014, 0.003),
         &chest,
         &[],
     );
@@ -176,7 +177,7 @@ fn controls(kit: &mut Kit<'_>) {
     let socket = bevelled(&[
         r(0.0, 0.03),
         r(0.02, 0.028).bevel(0.004),
-        r(0.02, 0.021).bevel(0.002),
+        r(0.02, 0.021),
         r(0.034, 0.021).bevel(0.003),
         r(0.034, 0.0),
     ]);
@@ -190,12 +191,12 @@ pub(crate) const SOCKET_ALONG: DVec3 = DVec3::new(0.28, 0.0, -0.96);
 
 fn waist(kit: &mut Kit<'_>) {
     let frame = Frame::upright(DVec3::ZERO);
-    let mut rings = vec![ring(0.93, 0.13, 0.1).square(0.3)];
+    let mut rings = vec![ring(0.93, 0.12, 0.094).square(0.3)];
     rings.extend(ribs(
-        ring(0.99, 0.122, 0.094).square(0.3),
-        ring(1.135, 0.118, 0.092).square(0.3),
-        5,
-        0.01,
+        ring(0.985, 0.121, 0.093).square(0.3),
+        ring(1.135, 0.117, 0.091).square(0.3),
+        4,
+        0.011,
     ));
     rings.push(ring(1.16, 0.11, 0.09).square(0.3));
     let binding = Binding::Along {
@@ -224,13 +225,12 @@ fn hips(kit: &mut Kit<'_>) {
     let hips = Binding::Rigid(HIPS);
     let frame = Frame::upright(DVec3::ZERO);
     let pelvis = Loft::new(frame, pelvis());
-    kit.one(Shell, &pelvis.shelled(0.008, 0.03).grid(FINE), &hips, &[]);
+    kit.one(Shell, &pelvis.shelled(0.006, 0.03).grid(FINE), &hips, &[]);
     let belt = bevelled(&[
         ring(0.945, 0.14, 0.108).square(0.35),
         ring(0.948, 0.155, 0.123).square(0.35).bevel(0.004),
         ring(0.992, 0.148, 0.118).square(0.35).bevel(0.005),
-        ring(0.996, 0.128, 0.1).square(0.35).bevel(0.003),
-        ring(0.98, 0.12, 0.095).square(0.35),
+        ring(0.996, 0.128, 0.1).square(0.35),
     ]);
     kit.one(Trim, &Loft::new(frame, belt).grid(FINE), &hips, &[]);
     let front = [[0.42, 0.28], [0.58, 0.28], [0.565, 0.84], [0.435, 0.84]];
@@ -263,7 +263,7 @@ fn hips(kit: &mut Kit<'_>) {
         let pouch = Frame::along(DVec3::new(x, 0.966, z), along, DVec3::Y);
         kit.pair(
             Metal,
-            &tile(&pouch, &rectangle(0.05, 0.058), 0.008, 0.026, 0.005),
+            &block(&pouch, &rectangle(0.05, 0.058), 0.008, 0.026, 0.004),
             &hips,
             &[],
         );

@@ -149,7 +149,7 @@ pub(crate) fn smooth(rings: &[Ring], steps: usize) -> Vec<Ring> {
 }
 
 /// A bevel wider than this has a ring in its middle too, metres.
-const WIDE: f64 = 0.0045;
+const WIDE: f64 = 0.0065;
 
 /// Rings with every edge that has a bevel rounded.
 pub(crate) fn bevelled(rings: &[Ring]) -> Vec<Ring> {
@@ -183,8 +183,8 @@ pub(crate) fn shell(wall: &[Ring], edge: f64, thickness: f64) -> Vec<Ring> {
 }
 
 /// How near to round lacquer and metal are, and rubber, metres.
-pub(crate) const FINE: f64 = 0.0013;
-pub(crate) const COARSE: f64 = 0.0026;
+pub(crate) const FINE: f64 = 0.0017;
+pub(crate) const COARSE: f64 = 0.0034;
 
 /// A skin over rings.
 #[derive(Clone, Debug)]

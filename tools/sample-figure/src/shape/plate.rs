@@ -16,14 +16,14 @@ pub(crate) struct Plate<'a> {
     /// How far it stands out of the loft, metres.
     pub(crate) lift: f64,
     pub(crate) bevel: f64,
+    /// Segments of its outline are no longer than this, and its rings no further apart, metres.
+    pub(crate) longest: f64,
 }
 
-/// Segments of the outline are no longer than this, metres.
-const LONGEST: f64 = 0.05;
 /// The sides of a block are no wider in its chart, metres.
 const WIDEST_SIDE: f64 = 0.02;
 /// A rounding wider than this has a place in its middle too, metres.
-const WIDE: f64 = 0.0045;
+const WIDE: f64 = 0.0065;
 /// How deep a plate reaches into its loft, metres.
 const SUNK: f64 = 0.006;
 
@@ -48,7 +48,7 @@ impl Plate<'_> {
             .iter()
             .map(|corner| (DVec2::from_array(*corner) - middle) * metres)
             .collect();
-        let outline = rounded(&corners, self.rounding, LONGEST);
+        let outline = rounded(&corners, self.rounding, self.longest);
         let place = |p: DVec2, height: f64| {
             let at = p / metres + middle;
             let step = DVec2::splat(0.003) / metres;
@@ -62,7 +62,7 @@ impl Plate<'_> {
             (place(at) + outwards * height, p)
         };
         let reach = outline.iter().map(|point| point.length()).fold(0.0, f64::max);
-        let steps = (reach / 0.07).ceil().clamp(1.0, 3.0) as usize;
+        let steps = (reach / self.longest).ceil().clamp(1.0, 3.0) as usize;
         slab(&outline, [-SUNK, self.lift], self.bevel, steps, place)
     }
 
@@ -93,11 +93,13 @@ pub(crate) fn block(frame: &Frame, outline: &[[f64; 2]], rounding: f64, height: 
 /// The same, with a lower face too.
 pub(crate) fn tile(frame: &Frame, outline: &[[f64; 2]], rounding: f64, height: f64, bevel: f64) -> Grid {
     let mut grid = block(frame, outline, rounding, height, bevel);
-    // In the chart the face lies round the sides.
-    let middle = grid.rows[0].iter().map(|place| place.0).sum::<DVec3>() / grid.rows[0].len() as f64;
-    let beyond = grid.rows[0].iter().map(|(_, chart)| (middle, *chart * 1.1));
-    let face = beyond.collect();
-    grid.rows.insert(0, face);
+    let edge = &grid.rows[0];
+    let middle = edge.iter().map(|place| place.0).sum::<DVec3>() / edge.len() as f64;
+    // It is seen from behind.
+    let chart = |column: usize| grid.outline[column % grid.outline.len()] * DVec2::new(-1.0, 1.0);
+    let rim = (0..edge.len()).map(|column| (edge[column].0, chart(column))).collect();
+    let face = vec![(middle, DVec2::ZERO); edge.len()];
+    grid.rows.splice(0..0, [face, rim]);
     grid
 }
 
@@ -117,7 +119,10 @@ fn slab(
     place: impl Fn(DVec2, f64) -> (DVec3, DVec2),
 ) -> Grid {
     let flat = inset(outline, bevel);
-    let mut rings = vec![(outline.to_vec(), bottom), (outline.to_vec(), top - bevel)];
+    let mut rings = vec![(outline.to_vec(), bottom)];
+    if bevel > 0.0 {
+        rings.push((outline.to_vec(), top - bevel));
+    }
     if bevel > WIDE {
         rings.push((inset(outline, 0.3 * bevel), top - 0.3 * bevel));
     }
@@ -132,6 +137,12 @@ fn slab(
         ..Grid::default()
     };
     for (points, height) in rings {
+        if height == top {
+            let normal = |point: &DVec2| (place(*point, top + 0.001).0 - place(*point, top).0).normalize();
+            let mut normals: Vec<DVec3> = points.iter().map(normal).collect();
+            normals.push(normals[0]);
+            grid.top_normals.push(normals);
+        }
         let mut row: Vec<(DVec3, DVec2)> = points.iter().map(|point| place(*point, height)).collect();
         if grid.rows.is_empty() {
             // In the chart the sides lie round the top.

@@ -64,6 +64,8 @@ pub(crate) struct Grid {
     pub(crate) rows: Vec<Vec<(DVec3, DVec2)>>,
     /// The outline of a plate in its chart; lofts have none.
     pub(crate) outline: Vec<DVec2>,
+    /// Normals of the last rows, which are the top of a plate: its triangles are too uneven to give them.
+    pub(crate) top_normals: Vec<Vec<DVec3>>,
 }
 
 /// A vertex of a solid.
@@ -103,6 +105,10 @@ impl Solid {
         for row in &grid.rows {
             points.extend(row.iter().copied());
         }
+        let top = grid.rows.len() - grid.top_normals.len();
+        let known: Vec<Option<DVec3>> = std::iter::repeat_n(None, top * columns)
+            .chain(grid.top_normals.iter().flatten().copied().map(Some))
+            .collect();
         let at = |row: usize, column: usize| (row * columns + column) as u32;
         for row in 1..grid.rows.len() {
             for column in 1..columns {
@@ -111,7 +117,7 @@ impl Solid {
                 triangles.extend([[a, b, c], [a, c, d]]);
             }
         }
-        Solid::from_triangles(material, &points, triangles, &grid.outline, binding)
+        Solid::from_triangles(material, &points, triangles, &known, &grid.outline, binding)
     }
 
     /// A solid of triangles that all face one way.
@@ -119,6 +125,7 @@ impl Solid {
         material: Material,
         points: &[(DVec3, DVec2)],
         mut triangles: Vec<[u32; 3]>,
+        known_normals: &[Option<DVec3>],
         outline: &[DVec2],
         binding: &Binding,
     ) -> Solid {
@@ -155,30 +162,35 @@ impl Solid {
         let least = used().fold(DVec2::INFINITY, DVec2::min);
         let most = used().fold(DVec2::NEG_INFINITY, DVec2::max);
 
-        let normals = normals(&positions, &triangles);
+        let normals = normals(&positions, &triangles, known_normals);
         let tangents = tangents(&positions, &charts, &triangles);
         let mut corners = Vec::new();
         let mut added = BTreeMap::<(u32, [u32; 3]), u32>::new();
         let mut split = Vec::with_capacity(triangles.len());
-        for (triangle, normals) in triangles.iter().zip(normals) {
+        for ((triangle, normals), tangent) in triangles.iter().zip(normals).zip(tangents) {
             let mut corner = |index: usize| {
                 let point = triangle[index] as usize;
                 let normal = normals[index];
                 let key = (point as u32, normal.to_array().map(|value| round(value, 3).to_bits()));
-                *added.entry(key).or_insert_with(|| {
+                let added = *added.entry(key).or_insert_with(|| {
                     corners.push(Corner {
                         position: positions[point],
                         normal,
-                        tangent: tangents[point]
-                            .reject_from_normalized(normal)
-                            .normalize_or(normal.any_orthonormal_vector()),
+                        tangent: DVec3::ZERO,
                         chart: charts[point] - least,
                         influences: binding.influences(positions[point]),
                     });
                     corners.len() as u32 - 1
-                })
+                });
+                // The faces that share its normal share its tangent.
+                corners[added as usize].tangent += tangent;
+                added
             };
             split.push([corner(0), corner(1), corner(2)]);
+        }
+        for Corner { normal, tangent, .. } in &mut corners {
+            let across = tangent.reject_from_normalized(*normal);
+            *tangent = across.normalize_or(normal.any_orthonormal_vector());
         }
         Solid {
             material,
@@ -215,9 +227,9 @@ fn written(point: DVec3) -> DVec3 {
     (point * unit).round() / unit
 }
 
-/// Normals of the corners of each triangle: the mean of the faces there that meet smoothly, by area. Beside a bevel the
+/// Normals of the corners of each triangle: those that are known, else the mean of the faces there that meet smoothly, by area. Beside a bevel the
 /// large face wins, so faces look flat and bevels round.
-fn normals(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<[DVec3; 3]> {
+fn normals(positions: &[DVec3], triangles: &[[u32; 3]], known: &[Option<DVec3>]) -> Vec<[DVec3; 3]> {
     let key = |corner: u32| positions[corner as usize].to_array().map(f64::to_bits);
     let face = |triangle: &[u32; 3]| {
         let [a, b, c] = triangle.map(|corner| positions[corner as usize]);
@@ -232,6 +244,9 @@ fn normals(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<[DVec3; 3]> {
     }
     let normal = |index: usize, corner: u32| {
         let own = faces[index].normalize();
+        if let Some(known) = known[corner as usize].filter(|known| known.dot(own) > SMOOTH_COSINE) {
+            return known;
+        }
         let smooth = around[&key(corner)]
             .iter()
             .map(|other| faces[*other])
@@ -245,17 +260,13 @@ fn normals(positions: &[DVec3], triangles: &[[u32; 3]]) -> Vec<[DVec3; 3]> {
         .collect()
 }
 
-/// Directions of growing u at each point.
+/// The direction of growing u in each triangle, the longer the larger it is.
 fn tangents(positions: &[DVec3], charts: &[DVec2], triangles: &[[u32; 3]]) -> Vec<DVec3> {
-    let mut sums = vec![DVec3::ZERO; positions.len()];
-    for triangle in triangles {
+    let along_u = |triangle: &[u32; 3]| {
         let [a, b, c] = triangle.map(|corner| positions[corner as usize]);
         let [ta, tb, tc] = triangle.map(|corner| charts[corner as usize]);
         let (ab, ac) = (tb - ta, tc - ta);
-        let along_u = ((b - a) * ac.y - (c - a) * ab.y) * ab.perp_dot(ac).signum();
-        for &corner in triangle {
-            sums[corner as usize] += along_u;
-        }
-    }
-    sums
+        ((b - a) * ac.y - (c - a) * ab.y) * ab.perp_dot(ac).signum()
+    };
+    triangles.iter().map(along_u).collect()
 }

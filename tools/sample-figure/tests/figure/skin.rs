@@ -155,7 +155,7 @@ fn subsets_cover_all_triangles_and_only_their_own_vertices() {
         (FIGURE.triangles.len(), FIGURE.vertices.len())
     );
     assert!(
-        (24_000..32_000).contains(&FIGURE.triangles.len()),
+        (16_000..20_000).contains(&FIGURE.triangles.len()),
         "{} triangles",
         FIGURE.triangles.len()
     );
