@@ -6,7 +6,7 @@ use super::{INK, Kit, PLATE, bolt, plate, ribs};
 use crate::maps::Mark;
 use crate::materials::Material::{Metal, Rubber, Shell, Trim, Visor};
 use crate::rig::{CHEST, HIPS, RIBS, WAIST};
-use crate::shape::{Binding, COARSE, FINE, Frame, Loft, Ring, bevelled, block, rectangle, ring, smooth};
+use crate::shape::{Binding, COARSE, FINE, Frame, Loft, Ring, bevelled, block, rectangle, ring, smooth, tile};
 
 pub(crate) fn add(kit: &mut Kit<'_>) {
     chest(kit);
@@ -64,7 +64,7 @@ fn chest(kit: &mut Kit<'_>) {
     let mut breast = plate(&core, BREAST, 0.014);
     breast.bevel = 0.005;
     // It bends most, and large facets would shade themselves where light grazes them.
-    breast.longest = 0.04;
+    breast.longest = 0.034;
     kit.sides(Shell, &breast.grid(), &chest, [NUMBER, NAME]);
     for (outline, lift) in [(SIDE, 0.010), (FLANK, 0.009), (BACK, 0.009)] {
         let mut plate = plate(&core, outline, lift);
@@ -116,7 +116,7 @@ const NAME: &[Mark] = &[
     Mark::Gap,
     Mark::Border(0.012),
     Mark::Word {
-        middle: [0.36, 0.26],
+        middle: [0.59, 0.26],
         word: "BINDPOSE",
         height: 0.0115,
         tone: INK,
@@ -253,6 +253,10 @@ fn hips(kit: &mut Kit<'_>) {
         &hips,
         &[],
     );
+    // Plates over the hip joints.
+    let hip = Frame::along(DVec3::new(0.156, 0.897, 0.0), DVec3::new(0.96, 0.28, 0.0), DVec3::Y);
+    let outline = [[-0.042, -0.046], [0.042, -0.046], [0.052, 0.048], [-0.052, 0.048]];
+    kit.pair(Shell, &tile(&hip, &outline, 0.006, 0.03, 0.004), &hips, &[]);
     // Pouches on the belt.
     for (x, z, turn) in [(0.118, -0.086, -0.55), (0.152, 0.012, 0.0)] {
         let along = if turn == 0.0 {
@@ -263,7 +267,7 @@ fn hips(kit: &mut Kit<'_>) {
         let pouch = Frame::along(DVec3::new(x, 0.966, z), along, DVec3::Y);
         kit.pair(
             Metal,
-            &block(&pouch, &rectangle(0.05, 0.058), 0.008, 0.026, 0.004),
+            &block(&pouch, &rectangle(0.05, 0.058), 0.006, 0.026, 0.004),
             &hips,
             &[],
         );

@@ -41,7 +41,7 @@ fn the_committed_file_is_reproduced() {
     let committed =
         std::fs::read_to_string(path).expect("cargo run --package sample-figure writes the file that is missing");
     // The download stays small before compression too.
-    assert!(committed.len() < 4_300_000, "{} bytes", committed.len());
+    assert!(committed.len() < 3_300_000, "{} bytes", committed.len());
     if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
         assert!(
             committed == text,

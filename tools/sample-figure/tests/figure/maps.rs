@@ -33,7 +33,7 @@ fn the_committed_maps_are_reproduced() {
             map.name
         );
     }
-    assert!(download < 150_000, "{download} bytes of maps");
+    assert!(download < 90_000, "{download} bytes of maps");
 }
 
 #[test]
