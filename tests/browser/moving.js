@@ -120,6 +120,7 @@ test("a moving picture has less detail where the device is slow; at rest, and wh
 }, async (page) => {
   const still = async () => {
     await call(page, "pause");
+    await call(page, "selectClip", "Walk");
     await call(page, "seek", 0.25);
     // A moment after the last motion, one more frame is drawn.
     await page.waitForTimeout(500);

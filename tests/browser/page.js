@@ -8,7 +8,7 @@ import { assertDrawn, coloursOnScreen, contactSheet, decoded, difference, pictur
 test("the page opens the sample, draws it and logs no error", { draws: true, viewport: LARGE, own: true, fine: true, passes: true, motion: true }, async (page) => {
   const { model, playing, error } = await state(page);
   assert.equal(model.name, "figure.m3d");
-  assert.ok(model.clips.length >= 2, "a walk and a wave at least");
+  assert.ok(model.clips.length >= 2, "an idle and a walk at least");
   assert.equal(playing, true);
   assert.equal(error, null);
   assert.match(await page.title(), /^figure\.m3d · Bindpose$/);

@@ -16,6 +16,7 @@ const ALL_PASSES = { passes: true };
 /** The sample in the middle of a step, as in every committed picture of it. */
 export async function inStep(page) {
   await call(page, "pause");
+  await call(page, "selectClip", "Walk");
   await call(page, "seek", 0.25);
   await settled(page);
 }

@@ -13,11 +13,12 @@ const WINDOW = { width: 1280, height: 800 };
 const WHOLE = { viewport: WINDOW, fine: true, passes: true, own: true };
 /** Places in that window: ground beside the figure, and the bellows of its waist, which follow two bones and lie beside their lines. */
 const GROUND = [820, 640];
-const WAIST = [690, 331];
+const WAIST = [644, 332];
 
 /** In the middle of a step. */
 async function inStep(page) {
   await call(page, "pause");
+  await call(page, "selectClip", "Walk");
   await call(page, "seek", 0.4);
   await atRest(page);
 }

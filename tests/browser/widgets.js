@@ -31,9 +31,9 @@ export function timeBar({ x, y, width, height }) {
 export const INSPECTOR = { x: 662, y: 62, width: 284, height: 386 };
 
 /** The figure's chest, on its first frame: a part of its shell. */
-export const CHEST = [500, 240];
+export const CHEST = [505, 212];
 /** Ground beside the figure that no panel covers. */
 export const GROUND = [600, 510];
 
 /** Bones of the figure on its first frame, by their numbers in the file: points on them beside other bones. */
-export const BONES = { 19: [508, 318], 24: [452, 205], 4: [492, 195] };
+export const BONES = { 19: [508, 318], 24: [444, 208], 4: [490, 195] };

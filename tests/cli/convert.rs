@@ -103,7 +103,7 @@ fn a_model_that_needs_no_change_is_the_same_after_it() {
 #[test]
 fn json_has_its_keys_and_no_others() {
     let output = out("json", "figure.glb");
-    let told = convert(FIGURE, &output, &["--clips", "Take1", "--scale", "2"]);
+    let told = convert(FIGURE, &output, &["--clips", "Walk", "--scale", "2"]);
     let mut keys: Vec<_> = told
         .as_object()
         .expect("an object")
@@ -156,7 +156,7 @@ fn a_glb_is_read_again_with_the_same_lengths() {
     for file in [&output, &back] {
         assert_eq!(info(file)["handedness"], "right", "{file}");
     }
-    for clip in ["Take1", "Run", "Wave", "Idle"] {
+    for clip in ["Take1", "Walk", "Run", "Wave"] {
         let old = lengths(&positions(FIGURE, clip, 0.4));
         for file in [&output, &back] {
             assert_alike(&old, &lengths(&positions(file, clip, 0.4)), 1.0, 1e-3);
@@ -167,7 +167,7 @@ fn a_glb_is_read_again_with_the_same_lengths() {
 #[test]
 fn text_tells_changes_losses_and_bytes() {
     let output = out("text", "figure.glb");
-    let options = words("--clips Take1,Run --rename Run=Dash");
+    let options = words("--clips Walk,Run --rename Run=Dash");
     let printed = run(["convert", FIGURE, &output].iter().chain(&options)).fine();
     let lines: Vec<_> = printed.lines().collect();
     assert_eq!(lines[0], "change[clips-chosen]: 2 clips are left out.");
@@ -186,7 +186,7 @@ fn text_tells_changes_losses_and_bytes() {
 #[test]
 fn clips_are_chosen_cut_and_renamed() {
     let output = out("clips", "walk.m3d");
-    let options = words("--clips Take1 --range 0.25..0.75 --rename Take1=Step --hand right");
+    let options = words("--clips Walk --range 0.25..0.75 --rename Walk=Step --hand right");
     let told = convert(FIGURE, &output, &options);
     assert_eq!(codes(&told["changes"]), ["clips-chosen", "range-cut", "clip-renamed"]);
     let clip = &info(&output)["clips"][0];
@@ -195,10 +195,7 @@ fn clips_are_chosen_cut_and_renamed() {
         (Some(0.0), Some(0.5))
     );
     for secs in [0.25, 0.4, 0.75] {
-        let (old, new) = (
-            positions(FIGURE, "Take1", secs),
-            positions(&output, "Step", secs - 0.25),
-        );
+        let (old, new) = (positions(FIGURE, "Walk", secs), positions(&output, "Step", secs - 0.25));
         for (old, new) in old.iter().zip(&new) {
             assert!(
                 (0..3).all(|axis| (old[axis] - new[axis]).abs() < 1e-3),
@@ -244,7 +241,7 @@ fn keys_are_reduced_and_the_error_told() {
 
 #[test]
 fn spaces_turn_and_lengths_grow() {
-    let old = lengths(&positions(FIGURE, "Take1", 0.4));
+    let old = lengths(&positions(FIGURE, "Walk", 0.4));
     let turns: [(&[&str], f64, &str, &str); 4] = [
         (&["--hand", "left"], 1.0, "left", "handedness"),
         (&["--hand", "right"], 1.0, "right", "handedness"),
@@ -255,7 +252,7 @@ fn spaces_turn_and_lengths_grow() {
         let output = out("space", &format!("{number}.m3d"));
         convert(FIGURE, &output, options);
         assert_eq!(info(&output)[key], value, "{options:?}");
-        assert_alike(&old, &lengths(&positions(&output, "Take1", 0.4)), factor, 1e-3 * factor);
+        assert_alike(&old, &lengths(&positions(&output, "Walk", 0.4)), factor, 1e-3 * factor);
     }
     let output = out("space", "up.m3d");
     let told = convert(FIGURE, &output, &["--up", "z"]);
@@ -559,13 +556,13 @@ fn wrong_use_says_what_is_wrong_and_writes_nothing() {
         (&m3d, "--range 2", "such as 0.5..2"),
         (&m3d, "--range 2..1", "such as 0.5..2"),
         (&m3d, "--range 0..0.5", "A range is of one clip, and there are 4; choose one."),
-        (&m3d, "--clips Take1 --range 0..9", "is not inside \"Take1\""),
+        (&m3d, "--clips Walk --range 0..9", "is not inside \"Walk\""),
         (&m3d, "--clips Swim", "there is no clip \"Swim\""),
         (&m3d, "--clips Run --close-loop 5", "its end cannot be eased over 5 s"),
         (&m3d, "--reduce 0", "a number above 0"),
         (&m3d, "--scale -1", "a number above 0"),
-        (&m3d, "--rename Take1", "OLD=NEW"),
-        (&m3d, "--rename Take1=Run", "A clip cannot be named \"Run\": another one is."),
+        (&m3d, "--rename Walk", "OLD=NEW"),
+        (&m3d, "--rename Walk=Run", "A clip cannot be named \"Run\": another one is."),
         (&m3d, "--rename-bone 900=Tail", "There is no bone 900"),
         (&m3d, "--rename-bone 0=", "it is N=NAME"),
         (&m3d, "--deny loses", "there is no code \"loses\"; the nearest is \"losses\""),

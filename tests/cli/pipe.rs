@@ -22,8 +22,8 @@ fn a_reader_that_leaves_ends_the_output_and_not_the_work() {
     let bad = fixture("bad/empty.m3d");
     for (line, code) in [
         // Hundreds of kilobytes: more than any buffer between the two.
-        ("pose FIGURE --clip Take1 --time 0 --json --positions", 0),
-        ("pose FIGURE --clip Take1 --time 0 --positions", 0),
+        ("pose FIGURE --clip Walk --time 0 --json --positions", 0),
+        ("pose FIGURE --clip Walk --time 0 --positions", 0),
         ("info FIGURE --json", 0),
         ("check BAD FIGURE", 1),
         ("--help", 0),

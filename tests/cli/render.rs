@@ -87,7 +87,7 @@ fn a_crowd_is_said_and_framed() {
 }
 
 fn same_frame_twice(backend: &str) -> RgbaImage {
-    let line = format!("--backend {backend} --size 320x180 --clip Take1 --time 0.3");
+    let line = format!("--backend {backend} --size 320x180 --clip Walk --time 0.3");
     let arguments = words(&line);
     let (first, _) = draw(&format!("first-{backend}.png"), FIGURE, &arguments);
     let (second, _) = draw(&format!("second-{backend}.png"), FIGURE, &arguments);
@@ -106,7 +106,7 @@ fn both_backends_draw_the_same_picture() {
 /// Each option against the plain picture: by how much of it that must at least differ.
 #[test]
 fn every_option_changes_the_picture() {
-    let plain = ["--size", "320x180", "--clip", "Take1"];
+    let plain = ["--size", "320x180", "--clip", "Walk"];
     let (picture, _) = draw("plain.png", FIGURE, &plain);
     for (name, more, at_least) in [
         ("time.png", &["--time", "0.3"][..], 0.005),

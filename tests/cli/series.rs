@@ -40,7 +40,7 @@ fn picture(path: &Path) -> RgbaImage {
 }
 
 /// The walk has 32 steps of 1/30 s.
-const WALK: [&str; 4] = ["--clip", "Take1", "--size", "64x48"];
+const WALK: [&str; 4] = ["--clip", "Walk", "--size", "64x48"];
 
 #[test]
 fn frames_go_through_the_clip_and_leave_its_end_out() {
@@ -50,7 +50,7 @@ fn frames_go_through_the_clip_and_leave_its_end_out() {
     std::fs::write(folder.join("frame-0009.png"), "of a longer run").expect("writes");
     let printed = fill(&folder, FIGURE, &[&WALK[..], &["--frames", "4"]].concat());
     assert!(
-        printed.contains("frames: 4 pictures of 64x48, Take1 from 0.000 s to 0.800 s, drawn by "),
+        printed.contains("frames: 4 pictures of 64x48, Walk from 0.000 s to 0.800 s, drawn by "),
         "{printed}"
     );
     let mut expected = frames(4);
@@ -62,7 +62,7 @@ fn frames_go_through_the_clip_and_leave_its_end_out() {
     let clips = run(["info", FIGURE, "--json"]).json()["clips"].take();
     let walk = clips
         .as_array()
-        .and_then(|clips| clips.iter().find(|clip| clip["name"] == "Take1"));
+        .and_then(|clips| clips.iter().find(|clip| clip["name"] == "Walk"));
     let end_secs = walk
         .and_then(|walk| walk["end_secs"].as_f64())
         .expect("the walk has an end") as f32;
@@ -78,7 +78,7 @@ fn frames_go_through_the_clip_and_leave_its_end_out() {
 fn a_rate_makes_as_many_frames_as_begin_before_the_end() {
     for (rate, count) in [("3", 4), ("30", 32), ("0.5", 1)] {
         let folder = scratch(&format!("rate-{rate}"));
-        fill(&folder, FIGURE, &["--clip", "Take1", "--size", "16x16", "--fps", rate]);
+        fill(&folder, FIGURE, &["--clip", "Walk", "--size", "16x16", "--fps", rate]);
         assert_eq!(names(&folder), frames(count), "{rate}");
     }
 }
@@ -116,10 +116,10 @@ fn every_kind_of_picture_has_the_same_bytes_every_time() {
 #[test]
 fn a_turntable_looks_from_all_sides_and_the_model_stays_in_its_middle() {
     let folder = scratch("turntable");
-    let turn = words("--clip Take1 --size 90x120 --view front --transparent --turntable 4");
+    let turn = words("--clip Walk --size 90x120 --view front --transparent --turntable 4");
     let printed = fill(&folder, FIGURE, &turn);
     assert!(
-        printed.contains(": 4 pictures of 90x120, Take1 at 0 s, all round, "),
+        printed.contains(": 4 pictures of 90x120, Walk at 0 s, all round, "),
         "{printed}"
     );
     assert_eq!(names(&folder), frames(4));
@@ -148,7 +148,7 @@ fn a_clip_and_a_turntable_go_on_together() {
         &[&WALK[..], &["--turntable", "4", "--frames", "2"]].concat(),
     );
     assert!(
-        printed.contains(": 4 pictures of 64x48, Take1 from 0.000 s to 0.533 s, all round, "),
+        printed.contains(": 4 pictures of 64x48, Walk from 0.000 s to 0.533 s, all round, "),
         "{printed}"
     );
     let turned = scratch("turned");
@@ -167,7 +167,7 @@ const GROUND: [u8; 4] = [0x18, 0x1b, 0x21, 255];
 
 #[test]
 fn a_sheet_has_every_picture_and_a_label_under_each() {
-    let arguments = words("--clip Take1 --size 360x260 --sheet 2x2 --frames 3");
+    let arguments = words("--clip Walk --size 360x260 --sheet 2x2 --frames 3");
     let (sheet, printed) = draw("sheet.png", FIGURE, &arguments);
     assert_eq!(sheet.dimensions(), (360, 260));
     let told = printed
@@ -175,11 +175,11 @@ fn a_sheet_has_every_picture_and_a_label_under_each() {
         .nth(1)
         .expect("says the size of its pictures");
     let cell = told.split(',').next().expect("a size");
-    assert!(told.contains("Take1 from 0.000 s to 0.711 s, drawn by "), "{printed}");
+    assert!(told.contains("Walk from 0.000 s to 0.711 s, drawn by "), "{printed}");
 
     // The same pictures in a folder are found on the sheet, to the pixel.
     let folder = scratch("cells");
-    fill(&folder, FIGURE, &["--clip", "Take1", "--size", cell, "--frames", "3"]);
+    fill(&folder, FIGURE, &["--clip", "Walk", "--size", cell, "--frames", "3"]);
     let [first, second, third] = [0, 1, 2].map(|index| picture(&folder.join(&frames(3)[index])));
     let (width, height) = first.dimensions();
     let at = |x: u32, y: u32| imageops::crop_imm(&sheet, x, y, width, height).to_image();
@@ -207,9 +207,9 @@ fn a_sheet_has_every_picture_and_a_label_under_each() {
 
 #[test]
 fn a_sheet_alone_shows_the_clip_and_with_a_turntable_a_model_without_one() {
-    let (_, printed) = draw("whole.png", FIGURE, &words("--clip Take1 --size 200x200 --sheet 2x2"));
+    let (_, printed) = draw("whole.png", FIGURE, &words("--clip Walk --size 200x200 --sheet 2x2"));
     assert!(
-        printed.contains(", 4 pictures of ") && printed.contains("Take1 from 0.000 s to 0.800 s"),
+        printed.contains(", 4 pictures of ") && printed.contains("Walk from 0.000 s to 0.800 s"),
         "{printed}"
     );
     let still = fixture("good/d3d11_static.m3d");
@@ -225,7 +225,7 @@ fn a_sheet_alone_shows_the_clip_and_with_a_turntable_a_model_without_one() {
 
 #[test]
 fn ghosts_stand_before_and_after_where_the_clip_has_poses() {
-    let plain = ["--clip", "Take1", "--size", "160x120", "--view", "right"];
+    let plain = ["--clip", "Walk", "--size", "160x120", "--view", "right"];
     // Pixels that are bluer, and that are yellower, than without ghosts.
     let tinted = |name: &str, time: &str| {
         let at = [&plain[..], &["--time", time]].concat();

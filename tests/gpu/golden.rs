@@ -151,6 +151,9 @@ on_both_backends! {
         let mut session = Session::new(true);
         let figure = include_bytes!("../../web/sample/figure.m3d").to_vec();
         session.apply(FileCommand::Add(vec![File::new("figure.m3d", figure)]));
+        let clips = &session.open_model().expect("the sample is sound").model.clips;
+        let walk = clips.iter().position(|clip| clip.name == "Walk").expect("it walks");
+        session.apply(PlayCommand::SelectClip(walk));
         session.apply(PlayCommand::Seek { time_secs: 0.25 });
         session.apply(CameraCommand::SetViewport { aspect: 0.75, insets: Insets::default() });
         session.apply(CameraCommand::LookFrom(ViewPreset::ThreeQuarter));

@@ -7,7 +7,7 @@ use std::rc::Rc;
 use bindpose::app::App;
 use bindpose::render::Picture;
 use bindpose::scene::{Background, FrameOptions, Light, Overlay, Overlays, ViewMode};
-use bindpose::session::{FileCommand, PlayCommand, Session};
+use bindpose::session::{FileCommand, Session};
 use bindpose::ui;
 use egui::{Theme, Vec2};
 use egui_kittest::Harness;
@@ -15,7 +15,7 @@ use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_set
 use image::RgbaImage;
 
 use crate::page::{new_app, whole_window};
-use crate::picture::{sample_with_its_maps, share_that_differs};
+use crate::picture::{sample_with_its_maps, share_that_differs, show_walk};
 
 /// The window of the browser tests, and the size of their pictures: the camera stands where that window's panels let it.
 const WINDOW: Vec2 = Vec2::new(960.0, 600.0);
@@ -42,7 +42,7 @@ fn a_native_device_draws_what_browsers_draw() {
     let gpu = create_render_state(default_wgpu_setup(), egui_wgpu::RendererOptions::PREDICTABLE);
     let session = Rc::new(RefCell::new(Session::new(true)));
     session.borrow_mut().apply(FileCommand::Add(sample_with_its_maps()));
-    session.borrow_mut().apply(PlayCommand::Seek { time_secs: 0.25 });
+    show_walk(&mut session.borrow_mut(), 0.25);
     let app: Rc<RefCell<Option<App>>> = Rc::default();
     let (of_window, of_app) = (Rc::clone(&app), gpu.clone());
     let mut harness = Harness::builder()

@@ -44,6 +44,17 @@ pub(crate) fn sample_with_its_maps() -> Vec<File> {
         .collect()
 }
 
+/// Which of the sample's clips is `Walk`.
+const WALK: usize = 1;
+
+/// Shows the sample's walk at a time.
+pub(crate) fn show_walk(session: &mut Session, time_secs: f32) {
+    let open = session.open_model().expect("the sample opens");
+    assert_eq!(open.model.clips[WALK].name, "Walk");
+    session.apply(PlayCommand::SelectClip(WALK));
+    session.apply(PlayCommand::Seek { time_secs });
+}
+
 /// The window as it looks once it has settled, with the sample at a moment of its walk.
 fn draw(size: Vec2, theme: Theme, coarse_pointer: bool, then: Vec<Command>) -> RgbaImage {
     draw_after(size, theme, coarse_pointer, then, &[])
@@ -71,7 +82,7 @@ fn draw_with(
     let gpu = create_render_state(default_wgpu_setup(), egui_wgpu::RendererOptions::PREDICTABLE);
     let session = Rc::new(RefCell::new(Session::new(true)));
     session.borrow_mut().apply(FileCommand::Add(sample_with_its_maps()));
-    session.borrow_mut().apply(PlayCommand::Seek { time_secs: 0.4 });
+    show_walk(&mut session.borrow_mut(), 0.4);
     for command in then {
         session.borrow_mut().apply(command);
     }
@@ -233,6 +244,7 @@ fn maps_that_are_missing_and_one_that_is_damaged() {
     files.retain(|file| !file.is_image() || [&kept, &damaged].contains(&&file.path));
     let then = vec![
         FileCommand::Add(files).into(),
+        PlayCommand::SelectClip(WALK).into(),
         PlayCommand::Seek { time_secs: 0.4 }.into(),
     ];
     shows("wide-light-maps", then, &[]);
@@ -245,6 +257,7 @@ fn modes_that_are_on_and_a_message() {
         files.push(crate::models::still("sketches/box.m3d"));
         vec![
             FileCommand::Add(files).into(),
+            PlayCommand::SelectClip(WALK).into(),
             PlayCommand::Seek { time_secs: 0.4 }.into(),
             PlayCommand::SetRangeStart(Some(0.3)).into(),
             PlayCommand::SetRangeEnd(Some(0.9)).into(),
@@ -372,7 +385,7 @@ fn curves_on_a_phone() {
 
 #[test]
 fn clips_and_how_they_are_mixed() {
-    let then = vec![PlayCommand::SetBlend { clip: 1, weight: 0.5 }.into()];
+    let then = vec![PlayCommand::SetBlend { clip: 2, weight: 0.5 }.into()];
     shows("wide-dark-clips", then, &["Clip"]);
 }
 

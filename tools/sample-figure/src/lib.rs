@@ -30,8 +30,8 @@ use image::{ExtendedColorType, ImageEncoder as _};
 
 pub use maps::SampleMap;
 
-/// The figure as it is made: left-handed, y up, 1.8 m tall, standing on y = 0 and facing −z, with the clips `Walk`, `Run`, `Wave`
-/// and `Idle` at 30 keys a second, each of which loops.
+/// The figure as it is made: left-handed, y up, 1.8 m tall, standing on y = 0 and facing −z, with the clips `Idle`, `Walk`, `Run`
+/// and `Wave` at 30 keys a second, each of which loops.
 pub fn figure() -> Document {
     let rig = rig::Rig::new();
     document::document(&parts::Kit::figure(&rig), motion::clips(&rig))
@@ -42,8 +42,8 @@ pub fn maps() -> Vec<SampleMap> {
     maps::maps(&parts::Kit::figure(&rig::Rig::new()))
 }
 
-/// The sample: a figure as the DirectX 12 book's demo shows it, right-handed, 72 units high, and walking in the clip `Take1`. Its materials
-/// name DDS files; [`maps`] are their pictures.
+/// The sample: a figure as the DirectX 12 book's demo shows it, right-handed, 72 units high, and standing at ease in the clip `Take1`. Its
+/// materials name DDS files; [`maps`] are their pictures.
 pub fn sample(figure: Document) -> Document {
     demo::for_the_demo(figure)
 }

@@ -15,13 +15,13 @@ use pose::{LocalKey, Pose};
 /// All clips, the one to greet with first.
 pub(crate) fn clips(rig: &Rig) -> Vec<AnimationClip> {
     vec![
+        clip(rig, "Idle", standing::IDLE_KEY_SPANS, |phase| {
+            standing::idle(rig, phase)
+        }),
         clip(rig, "Walk", gait::WALK.key_spans, |phase| gait::WALK.pose(rig, phase)),
         clip(rig, "Run", gait::RUN.key_spans, |phase| gait::RUN.pose(rig, phase)),
         clip(rig, "Wave", standing::WAVE_KEY_SPANS, |phase| {
             standing::wave(rig, phase)
-        }),
-        clip(rig, "Idle", standing::IDLE_KEY_SPANS, |phase| {
-            standing::idle(rig, phase)
         }),
     ]
 }

@@ -11,55 +11,75 @@ use crate::rig::{CHEST, HEAD, HIPS, NECK, RIBS, Rig, Side, WAIST};
 /// Length of [`idle`] in thirtieths of a second.
 pub(crate) const IDLE_KEY_SPANS: usize = 120;
 
-/// Degrees to the figure's right.
+/// Where the head looks, degrees to the figure's right.
 const LOOK: Curve<'_> = Curve::new(&[
-    (0.0, 0.0),
-    (0.1, 0.0),
-    (0.2, 15.0),
-    (0.4, 14.0),
-    (0.56, -13.0),
-    (0.78, -11.0),
-    (0.92, 0.0),
+    (0.0, -20.0),
+    (0.16, -22.0),
+    (0.3, 3.0),
+    (0.42, 25.0),
+    (0.66, 21.0),
+    (0.82, -4.0),
+    (0.94, -18.0),
 ]);
 /// Weight on the left leg, −1…1.
-const WEIGHT: Curve<'_> = Curve::new(&[(0.02, -0.7), (0.16, -0.8), (0.42, 1.0), (0.64, 0.9), (0.9, -0.7)]);
+const WEIGHT: Curve<'_> = Curve::new(&[(0.04, -0.9), (0.2, -1.0), (0.5, 1.0), (0.68, 0.9), (0.96, -0.8)]);
+/// How full the lungs are, −1…1: in more quickly than out.
+const BREATH: Curve<'_> = Curve::new(&[
+    (0.0, -0.8),
+    (0.2, 1.0),
+    (0.26, 0.95),
+    (0.48, -1.0),
+    (0.54, -0.9),
+    (0.72, 0.8),
+    (0.78, 0.75),
+    (0.96, -0.9),
+]);
 
-/// Standing at ease at a phase 0…1: two breaths, the weight goes from one leg to the other, the head looks about.
+/// Standing at ease at a phase 0…1: two breaths, the weight goes from one leg to the other, the head turns and looks. The chest
+/// follows the head, and the arms follow the chest.
 pub(crate) fn idle(rig: &Rig, phase: f64) -> Pose {
     let mut pose = Pose::relaxed();
-    let breath = (2.0 * TAU * phase).sin();
-    let late_breath = (2.0 * TAU * (phase - 0.04)).sin();
-    let weight = WEIGHT.at(phase);
-    let look = LOOK.at(phase);
+    let (breath, late_breath) = (BREATH.at(phase), BREATH.at(phase - 0.05));
+    let (weight, late_weight, arms_weight) = (WEIGHT.at(phase), WEIGHT.at(phase - 0.04), WEIGHT.at(phase - 0.09));
+    let (look, late_look) = (LOOK.at(phase), LOOK.at(phase - 0.06));
 
-    pose.hips_offset = DVec3::new(0.026 * weight, -0.02 + 0.003 * breath, 0.004);
-    pose.set(HIPS, roll(2.6 * weight) * yaw(0.15 * look));
-    let spine = roll(-1.1 * weight) * yaw(0.05 * look);
-    pose.set(WAIST, spine * pitch(0.4 * breath));
-    pose.set(RIBS, spine * pitch(0.7 * breath));
-    pose.set(CHEST, spine * pitch(0.8 * breath));
-    pose.set(NECK, yaw(0.35 * look) * pitch(-late_breath));
+    pose.hips_offset = DVec3::new(0.032 * weight, -0.024 + 0.003 * breath, 0.006);
+    pose.set(HIPS, roll(3.2 * weight) * yaw(2.0 * weight + 0.1 * late_look));
+    let spine = roll(-1.5 * late_weight) * yaw(0.09 * late_look);
+    pose.set(WAIST, spine * pitch(-0.5 + 0.5 * breath));
+    pose.set(RIBS, spine * pitch(1.0 * breath));
+    pose.set(CHEST, spine * pitch(1.1 * breath));
+    pose.set(
+        NECK,
+        yaw(0.3 * look) * roll(0.4 * late_weight) * pitch(-1.0 * late_breath),
+    );
     pose.set(
         HEAD,
-        yaw(0.5 * look) * roll(-0.1 * look) * pitch(-0.8 * late_breath - 1.5),
+        yaw(0.6 * look) * roll(-0.12 * look) * pitch(-1.0 * late_breath - 2.0 - 0.1 * look.abs()),
     );
 
     for side in Side::BOTH {
         let rest = Arm::default();
+        let sign = side.sign();
+        // The right arm hangs a little further forwards and is bent more.
         let arm = Arm {
-            shrug_degrees: rest.shrug_degrees + 1.6 * breath,
-            raise_degrees: rest.raise_degrees + 1.0 * late_breath + 1.5 * side.sign() * weight,
-            swing_degrees: rest.swing_degrees + 1.2 * late_breath,
-            elbow_degrees: rest.elbow_degrees + 1.8 * late_breath,
+            shrug_degrees: rest.shrug_degrees + 2.4 * breath + 0.8 * sign * late_weight,
+            raise_degrees: rest.raise_degrees + 3.0 + 1.5 * late_breath + 2.0 * sign * arms_weight,
+            swing_degrees: rest.swing_degrees + 2.0 - 2.0 * sign - 1.6 * late_breath + 2.0 * sign * arms_weight,
+            elbow_degrees: rest.elbow_degrees + 5.0 - 4.0 * sign + 2.6 * late_breath,
+            hand_to_palm_degrees: rest.hand_to_palm_degrees + 2.5 * arms_weight * sign,
             ..rest
         };
         pose.set_arm(side, arm);
+        pose.curl_fingers(side, 22.0 - 3.0 * sign + 3.0 * late_breath);
         set_leg(
             &mut pose,
             rig,
             side,
             Footing {
-                splay_degrees: 9.0,
+                // Apart, the left foot a little ahead.
+                offset: DVec3::new(0.032 * sign, 0.0, -0.03 * sign),
+                splay_degrees: 12.0,
                 ..Footing::default()
             },
         );

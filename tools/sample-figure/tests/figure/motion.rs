@@ -7,7 +7,7 @@ use super::{FIGURE, LEFT_THIGH, RIGHT_THIGH, end_secs, frames, is_below, model_f
 #[test]
 fn clips_loop_and_keep_30_keys_a_second() {
     let names: Vec<&str> = FIGURE.clips.iter().map(|clip| clip.name.as_str()).collect();
-    assert_eq!(names, ["Walk", "Run", "Wave", "Idle"]);
+    assert_eq!(names, ["Idle", "Walk", "Run", "Wave"]);
     for clip in &FIGURE.clips {
         assert_eq!(clip.bones.len(), FIGURE.bone_offsets.len());
         let end = end_secs(clip);
