@@ -134,7 +134,7 @@ fn fingers(kit: &mut Kit<'_>) {
 fn finger(length: f64, radius: f64, knuckle: f64) -> Vec<Ring> {
     let r = |at: f64, part: f64| ring(at, radius * part, radius * part);
     vec![
-        r(-0.012, 0.9),
+        r(-0.004, 0.96),
         r(knuckle - 0.008, 0.97),
         r(knuckle, 1.05),
         r(knuckle + 0.008, 0.93),
