@@ -47,15 +47,12 @@ pub(crate) fn idle(rig: &Rig, phase: f64) -> Pose {
     pose.set(HIPS, roll(3.2 * weight) * yaw(2.0 * weight + 0.1 * late_look));
     let spine = roll(-1.5 * late_weight) * yaw(0.09 * late_look);
     pose.set(WAIST, spine * pitch(-0.5 + 0.5 * breath));
-    pose.set(RIBS, spine * pitch(1.0 * breath));
+    pose.set(RIBS, spine * pitch(breath));
     pose.set(CHEST, spine * pitch(1.1 * breath));
-    pose.set(
-        NECK,
-        yaw(0.3 * look) * roll(0.4 * late_weight) * pitch(-1.0 * late_breath),
-    );
+    pose.set(NECK, yaw(0.3 * look) * roll(0.4 * late_weight) * pitch(-late_breath));
     pose.set(
         HEAD,
-        yaw(0.6 * look) * roll(-0.12 * look) * pitch(-1.0 * late_breath - 2.0 - 0.1 * look.abs()),
+        yaw(0.6 * look) * roll(-0.12 * look) * pitch(-late_breath - 2.0 - 0.1 * look.abs()),
     );
 
     for side in Side::BOTH {
