@@ -137,9 +137,9 @@ fn neck(kit: &mut Kit<'_>, head: &Binding) {
     let frame = Frame::upright(DVec3::ZERO);
     let r = |at: f64, radius: f64| ring(at, radius, radius);
     let collar = bevelled(&[
-        r(1.448, 0.085),
-        r(1.442, 0.112).bevel(0.004),
-        r(1.468, 0.124).bevel(0.005),
+        r(1.446, 0.085),
+        r(1.438, 0.112).bevel(0.004),
+        r(1.458, 0.124).bevel(0.005),
         r(1.485, 0.11),
     ]);
     kit.one(Metal, &Loft::new(frame, collar).grid(FINE), head, &[]);

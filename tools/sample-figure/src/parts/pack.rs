@@ -51,7 +51,7 @@ pub(crate) fn add(kit: &mut Kit<'_>) {
         &chest,
         PANEL,
     );
-    for [x, y] in [panel[0], panel[1], panel[3], panel[4]] {
+    for [x, y] in [panel[0], panel[1], panel[2], panel[5]] {
         let place = DVec3::new(-x * 1.22, 1.275 + y * 1.22, 0.217);
         kit.one(Metal, &bolt(place, DVec3::Z, 0.004), &chest, &[]);
     }
