@@ -42,7 +42,7 @@ fn a_native_device_draws_what_browsers_draw() {
     let gpu = create_render_state(default_wgpu_setup(), egui_wgpu::RendererOptions::PREDICTABLE);
     let session = Rc::new(RefCell::new(Session::new(true)));
     session.borrow_mut().apply(FileCommand::Add(sample_with_its_maps()));
-    show_walk(&mut session.borrow_mut(), 0.25);
+    let opened = Rc::clone(&session);
     let app: Rc<RefCell<Option<App>>> = Rc::default();
     let (of_window, of_app) = (Rc::clone(&app), gpu.clone());
     let mut harness = Harness::builder()
@@ -53,9 +53,12 @@ fn a_native_device_draws_what_browsers_draw() {
         .renderer(WgpuTestRenderer::from_render_state(gpu.clone()))
         .build_ui(move |ui| {
             let mut app = of_window.borrow_mut();
-            let app = app.get_or_insert_with(|| new_app(ui.ctx(), &of_app, &session, false));
+            let app = app.get_or_insert_with(|| new_app(ui.ctx(), &of_app, &opened, false));
             app.ui(&mut whole_window(ui));
         });
+    // As on the page: the camera stands where the first clip is seen whole.
+    harness.run();
+    show_walk(&mut session.borrow_mut(), 0.25);
     harness.run();
 
     let mut differing = Vec::new();
