@@ -113,6 +113,8 @@ test("a click on the bar of a paused clip goes there and stays", {}, async (page
 test("the ends of the range are dragged from frame to frame, and playing stays between them", {}, async (page) => {
   await call(page, "pause");
   await call(page, "selectClip", "Walk");
+  // The bar becomes another one.
+  await settled(page);
   const frames = 32;
   const onBar = await barOf(page);
   await drag(page, await place(page, "range-out"), onBar(20.2 / frames));

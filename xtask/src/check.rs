@@ -70,14 +70,15 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     second_tries::judge(&second_tries.read()?)
 }
 
-/// Draws the README's pictures.
+/// Draws the README's pictures, and those beside three.js.
 pub(crate) fn pictures() -> Result<(), Failure> {
     let mut steps = Steps::new();
     steps.step("What the pictures are drawn with", prerequisites::ensure)?;
     let run = RUNS[1];
     let page = page(&mut steps, Profile::Dev, &[run])?;
-    let tests = "tests/browser/readme.js";
-    steps.step("The pictures", || node(run, None, tests, &page).run())
+    let draw = |tests| node(run, None, tests, &page).run();
+    steps.step("The pictures", || draw("tests/browser/readme.js"))?;
+    steps.step("The same beside three.js", || draw("tests/browser/beside.js"))
 }
 
 /// Measures what is asked for, and prints it.
