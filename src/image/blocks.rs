@@ -2,7 +2,7 @@
 
 use super::format::ImageFormat;
 use super::srgb::srgb_from_linear;
-use super::{half, radiance};
+use super::{half, rgbe};
 
 /// Texels of a block.
 const BLOCK_TEXELS: usize = 16;
@@ -33,7 +33,7 @@ pub(super) fn to_rgba32f(format: ImageFormat, width: u32, height: u32, data: &[u
             .collect();
     }
     if format == ImageFormat::Rgbe {
-        let rgba = |&texel| radiance::light_of(texel).extend(1.0).to_array();
+        let rgba = |&texel| rgbe::light_of(texel).extend(1.0).to_array();
         return data.as_chunks().0.iter().flat_map(rgba).collect();
     }
     let signed = format == ImageFormat::Bc6hSigned;

@@ -5,7 +5,7 @@ use glam::{Vec3A, Vec4};
 use super::format::{Channels, ImageFormat};
 use super::picture::{Image, full_level_count, level_size};
 use super::srgb::{Srgb, WHOLE};
-use super::{half, radiance};
+use super::{half, rgbe};
 use crate::slices::{Slices, at_once};
 
 /// The kind of values in a map, which decides how they are averaged.
@@ -261,11 +261,7 @@ impl Coding {
                 let values = texels.iter().flat_map(|texel| texel.to_array());
                 data.extend(values.flat_map(|value| half::from_f32(value).to_le_bytes()));
             }
-            Self::Rgbe => data.extend(
-                texels
-                    .iter()
-                    .flat_map(|texel| radiance::texel_of(Vec3A::from_vec4(*texel))),
-            ),
+            Self::Rgbe => data.extend(texels.iter().flat_map(|texel| rgbe::texel_of(Vec3A::from_vec4(*texel)))),
         }
     }
 }

@@ -8,6 +8,7 @@
 //! No allocation trusts a header: sizes are compared with the length of the file first.
 
 mod blocks;
+mod cube_faces;
 mod dds;
 mod dds_header;
 mod dds_layout;
@@ -20,14 +21,15 @@ mod mips;
 mod picture;
 mod radiance;
 mod raster;
+mod rgbe;
 pub(crate) mod srgb;
 
 use file_kind::FileKind;
-use glam::Vec3A;
 
 use crate::diagnostic::{Diagnostic, Fault, codes};
 use crate::slices::{Slices, at_once};
 
+pub(crate) use cube_faces::cube_direction;
 pub use encode::{EncodeError, encode_dds, encode_png};
 pub use format::{Channels, ImageFormat, MAX_SIDE};
 pub use mips::MapKind;
@@ -115,17 +117,4 @@ pub const CUBE_HEADER_LEN: usize = dds_header::HEADER_LEN + dds_header::DX10_LEN
 /// the texels may be damaged.
 pub fn cube_side(bytes: &[u8]) -> Option<u32> {
     dds::cube_side(bytes).or_else(|| radiance::cube_side(bytes))
-}
-
-/// Towards the point `across` and `down` a face of a cube map, −1 … 1 from its left and its upper edge; not of unit length. Faces are +x, −x,
-/// +y, −y, +z, −z, as D3D and WebGPU have them.
-pub(crate) fn cube_direction(face: usize, across: f32, down: f32) -> Vec3A {
-    match face {
-        0 => Vec3A::new(1.0, -down, -across),
-        1 => Vec3A::new(-1.0, -down, across),
-        2 => Vec3A::new(across, 1.0, down),
-        3 => Vec3A::new(across, -1.0, -down),
-        4 => Vec3A::new(across, -down, 1.0),
-        _ => Vec3A::new(-across, -down, -1.0),
-    }
 }

@@ -7,10 +7,11 @@ use std::f32::consts::{FRAC_1_PI, TAU};
 
 use glam::{Vec2, Vec3, Vec3A};
 
-use super::cube_direction;
+use super::cube_faces::cube_direction;
 use super::file_kind::FileKind;
 use super::format::{Channels, ImageFormat};
 use super::picture::{Image, ImageKind};
+use super::rgbe::{light_of, texel_of};
 use crate::diagnostic::{Fault, codes};
 use crate::slices::Slices;
 
@@ -22,32 +23,6 @@ const MAX_COLUMNS: u32 = 4096;
 const SIDES: [u32; 2] = [16, 1024];
 /// A run of equal bytes is longer than this by its length.
 const RUN: u8 = 128;
-
-/// The light of a texel: three mantissas and their exponent. Linear, never negative.
-pub(super) fn light_of([red, green, blue, exponent]: [u8; 4]) -> Vec3A {
-    if exponent == 0 {
-        return Vec3A::ZERO;
-    }
-    // Of a bright texel 2^(exponent - 136) has a float, and of a dark one too, which may have fewer bits.
-    let scale = f32::exp2(f32::from(exponent) - 136.0);
-    Vec3A::new(red.into(), green.into(), blue.into()) * scale
-}
-
-/// The nearest texel of a light; NaN and what is negative become 0, what is too large the largest.
-pub(super) fn texel_of(light: Vec3A) -> [u8; 4] {
-    let light = light.max(Vec3A::ZERO).min(Vec3A::splat(1e38));
-    let most = light.max_element();
-    if most < 1e-32 {
-        return [0; 4];
-    }
-    // The power of two above the brightest channel. 255.5 of its parts would round to 256.
-    let mut power = most.log2().floor() as i32 + 1;
-    if most * f32::exp2((8 - power) as f32) >= 255.5 {
-        power += 1;
-    }
-    let [red, green, blue] = (light * f32::exp2((8 - power) as f32)).round().to_array();
-    [red as u8, green as u8, blue as u8, (power + 128) as u8]
-}
 
 /// Texels a side of the cube map that a file becomes, by its header alone; 0 where that is damaged. `None` for other files.
 pub(super) fn cube_side(bytes: &[u8]) -> Option<u32> {
