@@ -69,9 +69,9 @@ const DARK: Radiances = Radiances {
 };
 
 const BRIGHT: Radiances = Radiances {
-    ceiling: Vec3::new(0.355, 0.36, 0.37),
-    wall: Vec3::new(0.385, 0.39, 0.40),
-    floor: Vec3::new(0.54, 0.53, 0.515),
+    ceiling: Vec3::new(0.70, 0.71, 0.73),
+    wall: Vec3::new(0.30, 0.305, 0.315),
+    floor: Vec3::new(0.30, 0.29, 0.275),
     soft_box: Vec3::new(3.5, 3.43, 3.32),
     cloth: Vec3::new(0.60, 0.63, 0.67),
     left_strip: Vec3::new(4.2, 4.9, 5.6),
@@ -164,8 +164,11 @@ impl Set {
         let Radiances {
             ceiling, wall, floor, ..
         } = self.radiances;
-        let above = wall.lerp(ceiling, smoothstep(0.0, 0.9, direction.y));
-        let room = floor.lerp(above, smoothstep(-0.45, 0.12, direction.y));
+        let y = direction.y;
+        let above = wall.lerp(ceiling, smoothstep(0.05, 0.9, y));
+        // The floor is lit from above: it darkens towards the walls, and where they meet is a line, which metal shows.
+        let ground = (floor * 0.45).lerp(floor, smoothstep(-0.05, -0.6, y));
+        let room = ground.lerp(above, smoothstep(-0.06, -0.02, y));
         self.panels
             .iter()
             .fold(room, |behind, panel| panel.over(behind, direction))

@@ -123,13 +123,19 @@ fn the_dark_studio_has_range_over_dim_walls() {
 }
 
 #[test]
-fn the_bright_studio_has_bright_walls() {
+fn the_bright_studio_is_bright_all_round_and_brightest_above() {
     let [dark, bright] = Room::ALL.map(Environment::studio);
+    let lights = |direction: Vec3| [&dark, &bright].map(|room| room.sample(direction).y);
     for direction in [Vec3::NEG_Y, Vec3::Z, Vec3::X] {
-        assert!(
-            bright.sample(direction).y > 1.9 * dark.sample(direction).y,
-            "{direction}"
-        );
+        let [of_dark, of_bright] = lights(direction);
+        assert!(of_bright > 1.5 * of_dark, "{direction}: {of_bright} beside {of_dark}");
+    }
+    let [of_dark, of_bright] = lights(Vec3::new(-0.3, 0.9, 0.3).normalize());
+    assert!(of_bright > 2.5 * of_dark, "{of_bright} beside {of_dark}");
+    // Metal shows where floor and walls meet.
+    for room in [&dark, &bright] {
+        let [wall, floor] = [0.02, -0.1].map(|y: f32| room.sample(Vec3::new(0.0, y, 1.0).normalize()).y);
+        assert!(wall > 1.8 * floor, "{wall} over {floor}");
     }
     let average = bright.average();
     assert!(average.max_element() / average.min_element() < 1.12, "{average}");
