@@ -3,12 +3,13 @@
 //! What is asked for is made ready from copies of what is open, so that the session goes on meanwhile, and then shown at once: until then all
 //! stays as it is. A session that was given slices works in them, whenever [`Session::advance_opening`] is called; any other does all at once.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::content::{Content, Opened};
 use super::files::File;
 use super::load::Loaded;
-use super::underway::Underway;
+use super::underway::{Opening, Underway};
 use super::wish::{Ready, Wish};
 use crate::session::Session;
 use crate::session::changes::Changes;
@@ -64,11 +65,15 @@ impl Session {
             FileCommand::CancelOpening => self.cancel_opening(),
             FileCommand::UseSky(path) => {
                 let found = self.skies().iter().find(|file| file.path == path).cloned();
-                if let Some(file) = found.filter(|file| self.sky_file() != Some(file)) {
-                    self.ask(Wish::Sky(file), None);
+                if let Some(wish) = self.sky_wish(found) {
+                    self.ask(wish, None);
                 }
             }
-            FileCommand::ClearSky => self.clear_sky(),
+            FileCommand::ClearSky => {
+                self.take_sky_wishes();
+                self.begin_next_if_idle();
+                self.clear_sky();
+            }
             FileCommand::DismissError => self.content.error = None,
         }
     }
@@ -100,7 +105,8 @@ impl Session {
     /// [`Session::openings`]: once that is another number, nobody waits for them.
     pub fn begin_fetching(&mut self, name: String, total_bytes: usize, replaces: bool) -> u64 {
         if replaces {
-            self.forget_opening();
+            self.overtake_opening();
+            self.begin_next_if_idle();
         }
         self.opening.fetching = Some((name, [0, total_bytes]));
         self.revisions.openings
@@ -144,7 +150,7 @@ impl Session {
     /// `closes`: the model that leaves the list once this one is shown.
     fn ask(&mut self, wish: Wish, closes: Option<String>) {
         if wish.replaces() {
-            self.forget_opening();
+            self.overtake_opening();
         } else if self.opening.now.is_some() {
             self.opening.waiting.push_back(wish);
             return;
@@ -165,7 +171,32 @@ impl Session {
         }
     }
 
-    /// What came before is overtaken.
+    /// [`Session::begin_next`] where nothing is being opened.
+    fn begin_next_if_idle(&mut self) {
+        if self.opening.now.is_none() {
+            self.begin_next();
+        }
+    }
+
+    /// Another model is asked for. Nobody waits any more for what came before, but a sky belongs to no model: it comes afterwards.
+    fn overtake_opening(&mut self) {
+        let skies = self.take_sky_wishes();
+        self.forget_opening();
+        self.opening.waiting.extend(skies);
+    }
+
+    /// Takes the skies out of what is being opened and out of what waits.
+    fn take_sky_wishes(&mut self) -> Vec<Wish> {
+        let Opening { now, waiting, .. } = &mut self.opening;
+        let now = now.take_if(|now| now.sky.is_some()).and_then(|now| now.sky);
+        let (skies, others) = std::mem::take(waiting)
+            .into_iter()
+            .partition::<VecDeque<_>, _>(|wish| matches!(wish, Wish::Sky(_)));
+        *waiting = others;
+        now.map(Wish::Sky).into_iter().chain(skies).collect()
+    }
+
+    /// All that came before is given up.
     fn forget_opening(&mut self) {
         self.revisions.openings += 1;
         self.opening.waiting.clear();
@@ -186,6 +217,10 @@ impl Session {
             wish => wish,
         };
         let name = wish.name();
+        let sky = match &wish {
+            Wish::Sky(file) => Some(file.clone()),
+            _ => None,
+        };
         let shown = content.open.as_ref().map(|open| Loaded {
             open: Arc::clone(open),
             files: Arc::clone(&content.files),
@@ -198,6 +233,7 @@ impl Session {
         self.opening.now = Some(Underway {
             work,
             name,
+            sky,
             begins_anew,
             closes,
         });

@@ -69,7 +69,8 @@ impl Session {
             self.offer_skies(files);
         } else {
             let cubes = self.content.sky.note(files);
-            self.ask_for_sky(cubes.into_iter().next());
+            let wish = self.sky_wish(cubes.into_iter().next());
+            self.opening.waiting.extend(wish);
         }
     }
 
@@ -242,10 +243,9 @@ impl Session {
         }
     }
 
-    /// Has a cube map read that is to be the sky, unless it is.
-    fn ask_for_sky(&mut self, cube: Option<File>) {
-        let cube = cube.filter(|cube| self.sky_file() != Some(cube));
-        self.opening.waiting.extend(cube.map(Wish::Sky));
+    /// The wish that a cube map is the sky, unless it is.
+    pub(super) fn sky_wish(&self, cube: Option<File>) -> Option<Wish> {
+        cube.filter(|cube| self.sky_file() != Some(cube)).map(Wish::Sky)
     }
 
     fn use_as_sky(&mut self, cube: File, read: Result<Image, Fault>) {
@@ -268,7 +268,8 @@ impl Session {
         let again = cubes.iter().find(is_sky).cloned();
         let new = sky.found.get(known);
         self.news.extend(new.map(|cube| News::SkyFound(cube.path.clone())));
-        self.ask_for_sky(again);
+        let wish = self.sky_wish(again);
+        self.opening.waiting.extend(wish);
     }
 
     pub(in crate::session) fn clear_sky(&mut self) {

@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 
+use super::files::File;
 use super::wish::{Ready, Wish};
 use crate::slices::{Sliced, Slices};
 
@@ -20,6 +21,8 @@ pub(in crate::session) struct Opening {
 pub(super) struct Underway {
     pub(super) work: Sliced<Ready>,
     pub(super) name: String,
+    /// The cube map, where it is to be the sky.
+    pub(super) sky: Option<File>,
     /// Whether the session begins anew when it is shown, and motion is reduced from then on.
     pub(super) begins_anew: Option<bool>,
     /// The model that leaves the list once this one is shown.

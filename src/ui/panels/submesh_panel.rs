@@ -187,7 +187,9 @@ fn of_gltf(ui: &mut Ui, material: &Material, of_file: &Layers, mut edited: Mater
 fn layer_rows(ui: &mut Ui, of_file: &Layers, edited: &mut Layers) {
     let none = Layers::default();
     if of_file.ior != none.ior {
-        number_row(ui, "IOR", &mut edited.ior, 1.0..=4.0, (0.01, 2));
+        // glTF knows 0 too: what mirrors all.
+        let range = of_file.ior.min(1.0)..=of_file.ior.max(4.0);
+        number_row(ui, "IOR", &mut edited.ior, range, (0.01, 2));
     }
     if (of_file.specular, of_file.specular_color) != (none.specular, none.specular_color) {
         part_row(ui, "Specular", &mut edited.specular);

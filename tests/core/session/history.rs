@@ -8,6 +8,7 @@ use bindpose::session::{
 };
 use proptest::prelude::*;
 
+use super::loading::shortest;
 use super::models::{self, jointed, moving, still};
 use super::opened;
 use super::random::{command, number};
@@ -297,7 +298,12 @@ fn names_that_were_kept_elsewhere_are_no_step() {
 fn clips_that_were_added_to_a_model_without_clips_go_and_come_back() {
     let mut session = opened(jointed("a.m3d"));
     let start = kept(&session);
+    // As on the page.
+    session.open_in(&shortest());
     session.apply(FileCommand::AddClips(vec![moving("walk.m3d")]));
+    while session.is_opening() {
+        session.advance_opening();
+    }
     assert_eq!(session.history().undo_label(), Some("add 3 clips"));
     session.advance(0.5);
     assert!(session.playback().is_playing());

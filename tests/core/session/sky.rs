@@ -224,6 +224,40 @@ fn a_panorama_is_a_sky_that_is_read_in_slices_and_that_undo_takes_back() {
 }
 
 #[test]
+fn a_sky_that_is_being_read_comes_behind_another_model_and_never_once_it_was_removed() {
+    let hdr = || File::new("studio.hdr", panorama(64, |towards| towards.abs()));
+    let begun = || {
+        let mut session = opened(still("a.m3d"));
+        session.open_in(&shortest());
+        session.apply(FileCommand::Add(vec![hdr()]));
+        for _ in 0..8 {
+            session.advance_opening();
+        }
+        assert!(session.is_opening() && sky_name(&session).is_none());
+        session
+    };
+    let ended = |mut session: Session| {
+        while session.is_opening() {
+            session.advance_opening();
+        }
+        let model = session.open_model().map(|open| open.file.path.clone());
+        (model.expect("open"), sky_name(&session).map(str::to_owned))
+    };
+    let mut replaced = begun();
+    replaced.apply(FileCommand::Add(vec![still("b.m3d")]));
+    assert_eq!(ended(replaced), ("b.m3d".to_owned(), Some("studio.hdr".to_owned())));
+    for given_up in [FileCommand::ClearSky, FileCommand::CancelOpening] {
+        let mut session = begun();
+        session.apply(given_up);
+        assert_eq!(ended(session), ("a.m3d".to_owned(), None));
+    }
+    let mut fetched = begun();
+    fetched.begin_fetching("c.m3d".to_owned(), 10, true);
+    fetched.end_fetching();
+    assert_eq!(ended(fetched), ("a.m3d".to_owned(), Some("studio.hdr".to_owned())));
+}
+
+#[test]
 fn of_several_cubes_the_largest_that_can_be_read_is_taken() {
     let mut session = opened(still("a.m3d"));
     session.apply(FileCommand::Add(vec![
