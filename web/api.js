@@ -4,7 +4,7 @@ import { onlyJoins } from "./files.js";
 import { recordOf } from "./sources.js";
 
 /** What `state()` says before there is a viewer to ask. */
-const EMPTY = { backend: null, model: null, models: [], opening: null, timings: {}, clip: null, timeSecs: 0, playing: false, undo: null, redo: null, framesRendered: 0, notices: [], book: null, error: null };
+const EMPTY = { backend: null, model: null, models: [], opening: null, timings: {}, clip: null, timeSecs: 0, playing: false, undo: null, redo: null, framesRendered: 0, notices: [], book: null, link: "", error: null };
 
 /** A failure of the viewer itself, in the shape that `state().error` has for a file. */
 const stopped = ({ message }) => ({ severity: "error", code: "viewer-stopped", message, expected: null, found: null, line: null, column: null, subject: null, count: 1, places: [], file: null });
@@ -17,10 +17,10 @@ const COMMANDS = [
 ];
 
 /**
- * Makes the object that programs see, and what only the page may do: `give(files, how)` for what a person opens, `attach(viewer)` when it runs,
+ * Makes the object that programs see, whose states say `linkText(state)` as their link, and what only the page may do: `give(files, how)` for what a person opens, `attach(viewer)` when it runs,
  * `fail(error)` when it never will again, `emit(type, detail)`. After a failure the viewer is not called: `state().error` says why, promises are rejected.
  */
-export function createApi() {
+export function createApi(linkText) {
   let viewer = null;
   let failure = null;
   let used = false;
@@ -92,7 +92,10 @@ export function createApi() {
 
   Object.assign(bindpose, {
     ready,
-    state: () => viewer?.state() ?? { ...EMPTY, error: failure && stopped(failure) },
+    state() {
+      const state = viewer?.state();
+      return state ? { ...state, link: linkText(state) } : { ...EMPTY, error: failure && stopped(failure) };
+    },
 
     /** Opens `File`s or `{name, bytes}` records, in place of what is being opened. Resolves with the state after it. */
     open: asked("open"),

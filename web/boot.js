@@ -7,6 +7,7 @@ import {
   clearNotice, showDownloadFailure, showGpuFailure, showGpuLoss, showNotice, showOldBrowser, showPanic, showPutAside, wordsOf,
 } from "./fault.js";
 import { greeting, keep, kept } from "./kept.js";
+import { embedding, keepLink } from "./link.js";
 import { mirrorOf } from "./mirror.js";
 import { backend, fetchProgram, first, options } from "./program.js";
 import { keepOnCanvas } from "./restart.js";
@@ -30,7 +31,7 @@ const SPOKEN_AFTER_MS = 60;
 
 const element = (id) => document.getElementById(id);
 const view = element("view");
-const { bindpose, wasUsed, give, attach, fail, hasFailed, emit } = createApi();
+const { bindpose, wasUsed, give, attach, fail, hasFailed, emit } = createApi(() => link.text());
 globalThis.bindpose = bindpose;
 
 let viewer = null;
@@ -45,13 +46,31 @@ let received = false; // Whether the person opened anything, readable or not.
 const sources = rememberSources();
 let choices = null; // Of the person, as they were when the visit began.
 
+const link = keepLink({
+  viewer: () => (hasFailed() ? null : viewer),
+  changed: (text) => emit("linkchange", { link: text }),
+  // A link's values are not the person's choices.
+  followed() {
+    keepVisit();
+    choices = choicesNow();
+  },
+  ask(words) {
+    viewer.greet(words ?? undefined);
+    if (words) say(words);
+  },
+  refuse: (names) => showNotice("The link is not shown in full", `Left out, since they are damaged, newer than this page or not of this model: ${names.join(", ")}`),
+});
+
+/** A link to what is seen: the whole address. */
+bindpose.link = () => link.whole().address;
+
 /** Resets the page to how a visit begins, without loading the program again. Resolves with the new state. */
 bindpose.reset = async () => {
   clearNotice();
   sources.forget();
   // fetchOpening() reports what it could not fetch. Then nothing is opened.
   const files = (await fetchOpening()) ?? [];
-  await give(files, "startOver");
+  await link.opens(give(files, "startOver"));
   bindpose.setRenderScale(addressedScale());
   bindpose.setQuality(addressedQuality(), { samples: addressedSamples() });
   bindpose.setCrowd(addressedCrowd());
@@ -142,17 +161,23 @@ async function boot() {
   const displaySecs = watchDisplay();
   addEventListener("error", ({ error }) => onPanic(error));
   addEventListener("unhandledrejection", ({ reason }) => onPanic(reason));
+  addEventListener("hashchange", () => link.hashChanged());
   addEventListener("storage", ({ key }) => key?.startsWith("bindpose.names.") && !hasFailed() && viewer?.readNames());
   addEventListener("pagehide", keepVisit);
   addEventListener("visibilitychange", keepVisit);
   // A restart comes here too, when the GPU goes away during the first start.
   bindpose.ready.then(async () => {
     greet();
+    link.follow();
     hideShell();
     const files = await opensAtOnce;
     if (!files || wasUsed() || received) return;
     // A crowd is of what is open.
-    await give(files, "open").then(() => bindpose.setCrowd(addressedCrowd()), refuseError);
+    const opened = link.opens(give(files, "open"));
+    await opened.then(() => {
+      bindpose.setCrowd(addressedCrowd());
+      link.follow();
+    }, refuseError);
   }, () => {});
   await start(program, backend, displaySecs);
 }
@@ -162,7 +187,7 @@ async function start(program, wanted, displaySecs) {
   let loaded;
   try {
     loaded = await program;
-    viewer = new loaded.module.Viewer({ ...kept(), renderScale: addressedScale(), quality: addressedQuality(), samples: addressedSamples(), displaySecs: displaySecs() }, onEvent);
+    viewer = new loaded.module.Viewer({ ...kept(), renderScale: addressedScale(), quality: addressedQuality(), samples: addressedSamples(), ui: options.get("ui") ?? undefined, displaySecs: displaySecs() }, onEvent);
     watchBattery(viewer);
     choices = choicesNow();
   } catch (error) {
@@ -333,6 +358,9 @@ function onEvent(type, detail) {
     say("The graphics went away and are started again.", "alarm");
     return void onCanvas.restart(detail.reason);
   }
+  if (type === "settling") return link.settling();
+  if (type === "moving") return link.moving();
+  if (type === "copylink") return void copyLink(detail.embed);
   if (type === "pickfiles") return pick("files");
   if (type === "pickclips") return pick("clips");
   if (type === "readagain") return void readSourcesAgain();
@@ -345,6 +373,7 @@ function onEvent(type, detail) {
     clearNotice();
     const name = (openName = detail?.name ?? "");
     document.title = name ? `${name} · Bindpose` : "Bindpose";
+    void link.loaded();
   }
   emit(type, detail);
 }
@@ -419,6 +448,19 @@ async function fetchOpening(program) {
   } catch (error) {
     refuse(wordsOf(error));
     return null;
+  }
+}
+
+/** Copies a link to what is seen, or an element that shows it on another page, and says of what it cannot tell. */
+async function copyLink(embed) {
+  const { address, leftOut, asksFor } = link.whole();
+  try {
+    await navigator.clipboard.writeText(embed ? embedding(address, document.title) : address);
+    const asked = asksFor ? [`who opens it is asked for ${asksFor.split("/").pop()}`] : [];
+    const missing = leftOut.length ? [`too long for ${leftOut.join(", ")}`] : [];
+    viewer.tell([`${embed ? "Embed" : "Link"} copied`, ...asked, ...missing].join("; "));
+  } catch {
+    showNotice("The link could not be copied", address);
   }
 }
 

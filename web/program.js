@@ -1,7 +1,7 @@
 // Which program the page fetches: the smaller one draws on WebGPU alone. It begins before the rest of the page is here.
 
-/** What the address asks for, before the `#` or after it. */
-export const options = new URLSearchParams(`${location.search.slice(1)}&${location.hash.slice(1)}`);
+/** How the page starts. What stands behind `#` is a link to what is seen: link.js. */
+export const options = new URLSearchParams(location.search);
 const named = options.get("backend");
 /** The way to draw that it asks for. */
 export const backend = ["webgpu", "webgl2"].includes(named) ? named : "auto";

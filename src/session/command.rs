@@ -76,12 +76,12 @@ groups! {
 }
 
 impl Command {
-    /// Whether what it changes can be undone. Names that are read from where they were kept were no change of the person's; which
-    /// instances there are and which is selected is how the model is looked at.
+    /// Whether what it changes can be undone. Names that are read from where they were kept, and a view that
+    /// comes back, were no change of the person's; which instances there are and which is selected is how the model is looked at.
     pub(super) fn is_undoable(&self) -> bool {
         !matches!(
             self,
-            Self::History(_) | Self::Crowd(_) | Self::Export(_) | Self::Name(NameCommand::Import(_))
+            Self::History(_) | Self::Crowd(_) | Self::Export(_) | Self::Name(NameCommand::Import(_)) | Self::Restore(_)
         )
     }
 }

@@ -46,6 +46,7 @@ pub use play::crowd::CrowdCommand;
 pub use play::instances::{CrowdState, MAX_CROWD};
 pub use play::mixer::{Blend, DEFAULT_CROSSFADE_SECS, MAX_CROSSFADE_SECS};
 pub use play::playing::PlayCommand;
+pub use published::link::{Link, Linked, MAX_LINK_LEN, names as link_names};
 pub use published::series::Series;
 pub use published::summary;
 pub use published::verdicts::limits_once_converted;

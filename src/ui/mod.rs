@@ -20,7 +20,7 @@ pub use kit::theme::Contrast;
 pub use panels::picture::{contact_sheet_name, picture_name, report_name};
 pub use rim::announce::{Announcement, view_in_words};
 pub use rim::mirror::{Mirror, MirrorAction, MirrorChanges, MirrorId, MirrorInput, MirrorNode};
-pub use state::{ContactSheetRequest, DrawerPage, MAX_PICTURE_SIDE, Request, UiState};
+pub use state::{Chrome, ContactSheetRequest, DrawerPage, MAX_PICTURE_SIDE, Request, UiState};
 pub use window::message::Messages;
 
 use crate::scene::{Insets, Theme};

@@ -5,6 +5,7 @@ use egui::{Rect, Ui};
 use super::input::{Grip, Keyboard};
 use super::timeline::state::TimelineState;
 use crate::model::JointIndex;
+use crate::modes::modes;
 use crate::scene::{Insets, Theme};
 use crate::session::{ExportOptions, Session};
 use crate::ui::kit::Kept;
@@ -18,6 +19,11 @@ use crate::ui::window::drawer::DrawerHeight;
 use crate::ui::window::focus::Focus;
 use crate::ui::window::message::Messages;
 use crate::ui::window::viewport::ViewHold;
+
+/// Names of panels in links. Sheets of the timeline and pages of the drawer have theirs.
+const SKELETON: &str = "skeleton";
+const FINDINGS: &str = "findings";
+const EXPLAINED: &str = "explained";
 
 /// The longest side of a picture, in pixels.
 pub const MAX_PICTURE_SIDE: u32 = 8192;
@@ -49,6 +55,10 @@ pub enum Request {
     ExplainCode(&'static str),
     /// Remember that the person does not want the greeting.
     CloseGreeting,
+    /// Copy a link to what is seen; `embed`: as an element for other pages.
+    CopyLink {
+        embed: bool,
+    },
     Announce(Announcement),
 }
 
@@ -65,23 +75,37 @@ pub struct ContactSheetRequest {
     pub transparent: bool,
 }
 
-/// What the drawer of a narrow window shows below the timeline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum DrawerPage {
-    /// The page of the panel that is on the left of a wide window: facts, or the tree of joints. Instead of all tabs the diagnostics while
-    /// they are open.
-    Model,
-    Selection,
-    ViewMode,
-    Light,
-    /// Lines over the model.
-    Overlays,
-    ViewFrom,
-    /// A picture as a file.
-    Picture,
-    /// The model as a file of another format.
-    Export,
-    Timeline,
+modes! {
+    /// What the drawer of a narrow window shows below the timeline.
+    pub enum DrawerPage {
+        /// The page of the panel that is on the left of a wide window: facts, or the tree of joints. Instead of all tabs the diagnostics while
+        /// they are open.
+        Model = "sheet-model", "Model";
+        Selection = "sheet-selection", "Selection";
+        ViewMode = "sheet-view", "View mode";
+        Light = "sheet-light", "Light and background";
+        /// Lines over the model.
+        Overlays = "sheet-lines", "Lines over the model";
+        ViewFrom = "sheet-from", "View from";
+        /// A picture as a file.
+        Picture = "sheet-picture", "Picture";
+        /// The model as a file of another format.
+        Export = "sheet-export", "Export";
+        Timeline = "sheet-timeline", "Timeline";
+    }
+}
+
+modes! {
+    /// How much of the interface there is.
+    #[derive(Default)]
+    pub enum Chrome {
+        /// The picture alone, with what tells that a file cannot be opened.
+        None = "none", "None";
+        /// The picture and the timeline.
+        Transport = "transport", "Transport";
+        #[default]
+        Full = "full", "Full";
+    }
 }
 
 impl DrawerPage {
@@ -104,6 +128,7 @@ pub(super) struct Framed {
 pub struct UiState {
     /// What the page is for, and the table of keys.
     pub help_open: bool,
+    pub chrome: Chrome,
     pub diagnostics_open: bool,
     /// What was just done, in a few words.
     pub messages: Messages,
@@ -166,6 +191,7 @@ impl UiState {
     pub fn start_over(&mut self) {
         *self = Self {
             contrast: self.contrast,
+            chrome: self.chrome,
             ..Self::new(self.coarse_pointer)
         };
     }
@@ -182,6 +208,37 @@ impl UiState {
         self.skeleton.show_page(session, SidePage::Skeleton);
         self.diagnostics_open = false;
         self.drawer = Some(DrawerPage::Model);
+    }
+
+    /// The names of open panels, for links.
+    pub fn open_panels(&self) -> Vec<String> {
+        let skeleton = (self.skeleton.page == SidePage::Skeleton).then_some(SKELETON);
+        let findings = self.diagnostics_open.then_some(FINDINGS);
+        let explained = self.skeleton.explains.then_some(EXPLAINED);
+        let drawer = self.drawer.map(DrawerPage::name);
+        let names = [skeleton, findings, explained, self.timeline.open_sheet(), drawer];
+        names.into_iter().flatten().map(str::to_owned).collect()
+    }
+
+    /// Opens the panels of these names, and no others. Returns the names that are none.
+    pub fn open_these_panels(&mut self, session: &Session, names: &[String]) -> Vec<String> {
+        let has = |name: &str| names.iter().any(|open| open == name);
+        let page = if has(SKELETON) {
+            SidePage::Skeleton
+        } else {
+            SidePage::Model
+        };
+        self.skeleton.show_page(session, page);
+        self.diagnostics_open = has(FINDINGS);
+        self.skeleton.explains = has(EXPLAINED);
+        self.timeline.open_this_sheet(names);
+        self.drawer = names.iter().find_map(|name| DrawerPage::from_name(name));
+        let is_known = |name: &str| {
+            [SKELETON, FINDINGS, EXPLAINED].contains(&name)
+                || TimelineState::has_sheet(name)
+                || DrawerPage::from_name(name).is_some()
+        };
+        names.iter().filter(|name| !is_known(name)).cloned().collect()
     }
 
     /// Shows in the open drawer what was selected since the last pass; the page of before when nothing is any more.

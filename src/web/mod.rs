@@ -14,6 +14,7 @@ mod contrast;
 mod drawing;
 mod exporting;
 mod joint_names;
+mod link;
 mod mirror;
 mod opening;
 mod picture;

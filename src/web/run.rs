@@ -93,6 +93,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
         exports: Rc::default(),
         drawn: Rc::clone(&drawn),
         names: JointNames::default(),
+        is_busy: Cell::default(),
         saving: Saving::new(Rc::clone(&app), Rc::clone(shared)),
     };
     let made = Rc::new(RefCell::new(None));
@@ -183,9 +184,24 @@ struct Shell {
     drawn: Rc<Cell<[u64; 2]>>,
     names: JointNames,
     saving: Saving,
+    /// Whether what is seen changed by itself, or something was held, in the frame before.
+    is_busy: Cell<bool>,
 }
 
 impl Shell {
+    /// Tells the page after each frame that may have changed what is seen, and once when that goes on by itself or something is held: a
+    /// link to it waits until it rests.
+    fn tell_settling(&self, ctx: &egui::Context) {
+        let is_busy = self.shared.session.borrow().is_moving() || ctx.input(|input| input.pointer.any_down());
+        let was_busy = self.is_busy.replace(is_busy);
+        // Frames that make the picture of a view at rest finer change nothing.
+        if !is_busy && self.drawn.get()[1] <= 1 {
+            self.shared.emit("settling", &JsValue::UNDEFINED);
+        } else if is_busy && !was_busy {
+            self.shared.emit("moving", &JsValue::UNDEFINED);
+        }
+    }
+
     /// Goes on with what is exported, in tasks between frames: while frames take long, and in a hidden tab, where none comes.
     fn go_on_exporting(&self, ctx: &egui::Context) {
         if self.shared.session.borrow().export().is_none() || self.exports.replace(true) {
@@ -255,6 +271,7 @@ impl eframe::App for Shell {
                 Request::SavePictureAs => self.saving.save_picture_as(),
                 Request::SaveReport => self.saving.save_report(),
                 Request::ExplainCode(code) => self.shared.emit("explain", &object([("code", code.into())])),
+                Request::CopyLink { embed } => self.shared.emit("copylink", &object([("embed", embed.into())])),
                 Request::CloseGreeting => self.shared.emit("greetingclosed", &JsValue::UNDEFINED),
                 Request::Announce(Announcement { text, assertive }) => {
                     let detail = object([("text", text.into()), ("assertive", assertive.into())]);
@@ -262,6 +279,7 @@ impl eframe::App for Shell {
                 }
             }
         }
+        self.tell_settling(ui.ctx());
         self.go_on_exporting(ui.ctx());
         self.shared.go_on_opening();
         self.shared.emit_events();

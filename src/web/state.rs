@@ -43,6 +43,8 @@ pub(super) struct State<'a> {
     frames_rendered: u64,
     /// The one that a person chose, whatever the system's is.
     theme: Option<Theme>,
+    /// What stands behind `#` in a link to what is seen, but for the model.
+    link: String,
     notices: Vec<Finding<'a>>,
     book: Option<Books<'a>>,
     error: Option<FileError<'a>>,
@@ -158,7 +160,7 @@ impl<'a> State<'a> {
         backend: Option<&'a str>,
         adapter: Option<&'a str>,
         [frames_rendered, samples]: [u64; 2],
-        theme: Option<Theme>,
+        (theme, link): (Option<Theme>, String),
         timings: BTreeMap<&'static str, f64>,
     ) -> Self {
         let ViewState {
@@ -213,6 +215,7 @@ impl<'a> State<'a> {
             redo: session.history().redo_label(),
             frames_rendered,
             theme,
+            link,
             notices: session.diagnostics().map(Finding::from).collect(),
             book: session
                 .open_model()

@@ -16,7 +16,10 @@ use super::shared::Shared;
 use super::{field, picture, promise, reduced_motion, state};
 use crate::scene::{Light, Theme};
 use crate::script;
-use crate::session::{Command, HistoryCommand, LookCommand, QualityCommand, QualityMode, RenderScale, Session};
+use crate::session::{
+    Command, HistoryCommand, LookCommand, MAX_LINK_LEN, QualityCommand, QualityMode, RenderScale, Session,
+};
+use crate::ui::Chrome;
 
 /// A viewer: what is open and how it is viewed, and the canvas that it is drawn on, if any.
 ///
@@ -33,10 +36,11 @@ impl Viewer {
     ///
     /// `options`: `{renderScale: number, quality: "auto" | "full" | "low", samples: number, displaySecs: number}`, 1 and
     /// `auto` where they are absent; `samples` is as `setQuality` takes it; `displaySecs` is how often the display shows a picture, 60 times a second where it is absent. `theme`, `light` and
-    /// `split` are as the state has them. `on_event(type, detail)` hears of `load`, `error`, `play`, `pause`, `timeupdate` and `playbackchange`; of `devicelost` (`{reason}`); and of what only the page
+    /// `split` are as the state has them; `ui` is `none`, `transport` or `full`. `on_event(type, detail)` hears of `load`, `error`, `play`, `pause`, `timeupdate` and `playbackchange`; of `devicelost` (`{reason}`); and of what only the page
     /// can do: `pickfiles`, `pickclips`, `readagain`, `picture` (`{name, bytes}`, and `choosesPlace` where the person asks where to save it),
-    /// `picturefailed` (`{message}`), `greetingclosed` after `greet`, `save` (`{name, contents, type}`: a file to save, as text or bytes), `explain` (`{code}`: its place on the page of codes) and `announce` (`{text, assertive}`). It also tells of its controls, for
-    /// `web/mirror.js`: `mirror` (`{changes, view}`). The callback may call any method but `free`.
+    /// `picturefailed` (`{message}`), `greetingclosed` after `greet`, `save` (`{name, contents, type}`: a file to save, as text or bytes), `explain` (`{code}`: its place on the page of codes), `copylink` (`{embed}`: whether as an element) and `announce` (`{text, assertive}`). It also tells of its controls, for
+    /// `web/mirror.js`: `mirror` (`{changes, view}`), and, for `web/link.js`, of frames after which a link may be another: `settling`, and `moving` once
+    /// while that goes on by itself or something is held. The callback may call any method but `free`.
     #[wasm_bindgen(constructor)]
     pub fn new(options: &JsValue, on_event: Function) -> Self {
         report_panics();
@@ -64,7 +68,13 @@ impl Viewer {
             session.apply(LookCommand::SetSplit(Some(split as f32)));
         }
         let shared = Shared::new(session, on_event);
-        shared.ui.borrow_mut().theme = named("theme").and_then(|name| Theme::from_name(&name));
+        {
+            let mut ui = shared.ui.borrow_mut();
+            ui.theme = named("theme").and_then(|name| Theme::from_name(&name));
+            ui.chrome = named("ui")
+                .and_then(|name| Chrome::from_name(&name))
+                .unwrap_or_default();
+        }
         Self {
             shared: Rc::new(shared),
         }
@@ -185,12 +195,13 @@ impl Shared {
     pub(super) fn state(&self) -> JsValue {
         let running = self.running.borrow();
         let running = running.as_ref();
+        let link = self.link(MAX_LINK_LEN).text;
         state::to_js(&state::State::new(
             &self.session.borrow(),
             running.map(|running| running.backend),
             running.map(|running| running.adapter.as_str()),
             running.map_or([0, 1], |running| running.drawn.get()),
-            self.ui.borrow().theme,
+            (self.ui.borrow().theme, link),
             self.timings.millis(),
         ))
     }

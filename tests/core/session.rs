@@ -12,6 +12,7 @@ mod going_back;
 mod history;
 mod joining;
 mod joints;
+mod link;
 mod loading;
 mod looking;
 mod maps;

@@ -41,6 +41,10 @@ impl Session {
         self.view.motion.interrupt();
         self.view.motion.set_turntable(state.camera.turntable);
         self.view.camera = state.camera.camera(state.appearance.light);
+        if state.camera.framed && state.camera.distance == 0.0 {
+            let first = self.first_framing();
+            (self.view.camera.target, self.view.camera.distance) = (first.target, first.distance);
+        }
         self.view.framed = state.camera.framed;
     }
 

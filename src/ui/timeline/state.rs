@@ -27,6 +27,9 @@ pub(super) enum SheetTab {
     Curves,
 }
 
+/// The sheets, by the names that they have in links.
+const SHEETS: [(&str, SheetTab); 2] = [("keys", SheetTab::Keys), ("curves", SheetTab::Curves)];
+
 /// What the timeline remembers. Nothing here changes the model or the picture of it.
 #[derive(Debug, Default)]
 pub(in crate::ui) struct TimelineState {
@@ -52,6 +55,24 @@ pub(in crate::ui) struct TimelineState {
 }
 
 impl TimelineState {
+    /// The name of the sheet that is open.
+    pub(in crate::ui) fn open_sheet(&self) -> Option<&'static str> {
+        let mut open = SHEETS.iter().filter(|(_, tab)| self.open && *tab == self.tab);
+        open.next().map(|(name, _)| *name)
+    }
+
+    /// Whether a sheet has this name.
+    pub(in crate::ui) fn has_sheet(name: &str) -> bool {
+        SHEETS.iter().any(|(sheet, _)| *sheet == name)
+    }
+
+    /// Opens the sheet that is among these names, or none.
+    pub(in crate::ui) fn open_this_sheet(&mut self, names: &[String]) {
+        let named = SHEETS.iter().find(|(sheet, _)| names.iter().any(|name| name == sheet));
+        self.open = named.is_some();
+        self.tab = named.map_or(self.tab, |(_, tab)| *tab);
+    }
+
     /// Resets what belonged to another clip or model, and follows the play head.
     pub(in crate::ui) fn update(&mut self, session: &Session) {
         self.hovered = None;

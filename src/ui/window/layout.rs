@@ -20,7 +20,7 @@ use crate::ui::kit::wording::grouped;
 use crate::ui::panels::skeleton::state::SidePage;
 use crate::ui::panels::skeleton::{self, LegendShape};
 use crate::ui::panels::{error_card, findings, help, model_panel};
-use crate::ui::state::{DrawerPage, UiState};
+use crate::ui::state::{Chrome, DrawerPage, UiState};
 use crate::ui::{kit, timeline};
 
 /// Width of the panel on the left.
@@ -51,6 +51,10 @@ const LEAST_WITH_STRIP: f32 = 180.0;
 /// Shows all panels. Returns what they leave free for the model, and what of that no panel covers.
 pub(in crate::ui) fn show(ui: &Ui, cx: &mut Cx<'_, UiState>) -> (Rect, Rect) {
     let window = ui.max_rect();
+    if cx.state.chrome != Chrome::Full {
+        let free = embedded(ui, cx, Free::new(window));
+        return (free.rect, free.room());
+    }
     let (free, uncovered) = match Arrangement::of(window) {
         Arrangement::Wide => wide(ui, cx, Free::new(window)),
         arrangement => {
@@ -59,6 +63,24 @@ pub(in crate::ui) fn show(ui: &Ui, cx: &mut Cx<'_, UiState>) -> (Rect, Rect) {
         }
     };
     (free.rect, uncovered.room())
+}
+
+/// On another page: the timeline or nothing, and what tells that a file cannot be opened. Returns what is free for the model.
+fn embedded(ui: &Ui, cx: &mut Cx<'_, UiState>, mut free: Free) -> Free {
+    if cx.state.chrome == Chrome::Transport && cx.session.clip().is_some() {
+        let room = free.room();
+        let arrangement = Arrangement::of(ui.max_rect());
+        let timeline = Panel::new("timeline", "Timeline", Align2::LEFT_BOTTOM)
+            .margin(Margin::symmetric(9, 8))
+            .width(room.width())
+            .show(ui, room, |ui| match arrangement {
+                Arrangement::Wide => timeline::wide(ui, cx),
+                _ => timeline::narrow(ui, cx, arrangement == Arrangement::Low),
+            });
+        free.cut_bottom(timeline);
+    }
+    show_on_top(ui, cx, &free);
+    free
 }
 
 /// Wide windows. Returns what is free for the model, and what of that is not covered.

@@ -7,7 +7,7 @@ use egui::{
 };
 
 use super::arrangement::Arrangement;
-use super::panel::{popover, popover_menu, unscrolled_popover};
+use super::panel::{popover, popover_gap, popover_menu, unscrolled_popover};
 use crate::actions::{self, Action, Control};
 use crate::anim::SkinView;
 use crate::scene::{Theme, ViewMode, ViewPreset};
@@ -34,6 +34,12 @@ const TITLE_SPACING: f32 = 10.0;
 const LIGHT_WIDTH: f32 = 288.0;
 /// The light's button has one width for all lights, so that nothing beside it moves.
 const LIGHT_BUTTON_WIDTH: f32 = 103.0;
+/// Buttons that copy a link to what is seen: label, name, and whether it is an element for other pages.
+const COPIES: [(&str, Control, bool); 2] = [
+    ("Copy link", Control::new("copy-link"), false),
+    ("Copy embed", Control::new("copy-embed"), true),
+];
+
 /// Width of the menus of view modes and directions.
 const MENU_WIDTH: f32 = 190.0;
 /// The least room for the program's name beside that of the file.
@@ -80,6 +86,16 @@ pub(in crate::ui) fn show(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
         popover(ui, (&camera, "Picture"), 224.0, |ui| {
             section_name(ui, "Picture");
             picture::show(ui, cx.session, cx.state);
+            popover_gap(ui);
+            section_name(ui, "Link to this view");
+            ui.horizontal(|ui| {
+                for (label, control, embed) in COPIES {
+                    if named(TextButton::new(label, label).show(ui), control).clicked() {
+                        cx.state.requests.push(Request::CopyLink { embed });
+                        ui.close();
+                    }
+                }
+            });
         });
         export_button(ui, cx);
         theme_button(ui, cx.state);
@@ -283,6 +299,12 @@ fn action_items(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
         }
     }
     let turns = MenuLine::Switch(actions::TURNTABLE.is_on(cx.session));
+    for (label, control, embed) in COPIES {
+        if named(menu_item(ui, label, MenuLine::Action), control).clicked() {
+            cx.state.requests.push(Request::CopyLink { embed });
+            ui.close();
+        }
+    }
     for (action, line) in [(&actions::FRAME_MODEL, MenuLine::Action), (&actions::TURNTABLE, turns)] {
         if menu_item(ui, action.label, line).clicked() {
             cx.act(action);

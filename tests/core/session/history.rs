@@ -18,7 +18,7 @@ use crate::rigs;
 
 use HistoryCommand::{BeginEdit, EndEdit, Redo, Undo};
 
-fn three_parts(path: &str) -> File {
+pub(super) fn three_parts(path: &str) -> File {
     models::file(path, &parted(models::skinned(&models::CLIPS)))
 }
 
@@ -467,11 +467,14 @@ fn an_edit_that_ends_where_it_began_leaves_what_can_be_redone() {
 #[test]
 fn a_step_of_several_changes_says_the_first_and_how_many_more() {
     let mut session = opened(three_parts("a.m3d"));
-    let before = session.view_state();
     session.apply(hide(1));
     session.apply(Command::SetHandedness(Some(Handedness::Right)));
     session.apply(Command::SetUpAxis(Some(UpAxis::Z)));
-    session.apply(Command::Restore(Box::new(before)));
+    session.apply(BeginEdit);
+    session.apply(SubmeshCommand::ShowAll);
+    session.apply(Command::SetHandedness(None));
+    session.apply(Command::SetUpAxis(None));
+    session.apply(EndEdit);
     assert_eq!(session.history().undo_label(), Some("show Y and 2 more changes"));
     session.apply(Undo);
     assert!(!session.submeshes().is_visible(1) && session.up_axis() == UpAxis::Z);

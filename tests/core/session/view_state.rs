@@ -9,7 +9,7 @@ use super::random::{command, number};
 use super::{dropped, opened};
 
 /// Commands that change how a model is looked at, and not which one.
-fn looking() -> impl Strategy<Value = Command> {
+pub(super) fn looking() -> impl Strategy<Value = Command> {
     command().prop_filter("it opens another model", |command| {
         !matches!(
             command,

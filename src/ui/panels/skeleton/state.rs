@@ -32,7 +32,7 @@ pub(in crate::ui) struct SkeletonState {
     pub(super) mirrored: Mirrored,
     /// The vertex that the panel showed in the last pass.
     pub(super) shown_vertex: Option<u32>,
-    pub(super) explains: bool,
+    pub(in crate::ui) explains: bool,
     /// Whether the matrices of each influence of the explained vertex are unfolded. Kept for the next vertex.
     pub(super) unfolded: [bool; 4],
     /// The joint whose row or link is under the pointer in this pass.

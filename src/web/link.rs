@@ -1,0 +1,64 @@
+//! Links: what stands behind `#` in the page's address.
+
+use js_sys::Uint8Array;
+use wasm_bindgen::prelude::*;
+
+use super::object;
+use super::shared::Shared;
+use super::state::to_js;
+use super::viewer::Viewer;
+use crate::session::{Command, Link, QualityCommand};
+
+#[wasm_bindgen]
+impl Viewer {
+    /// What stands behind `#` in a link to what is seen, but for the model, as `{text, left_out}`: of a text that became longer than `most` bytes the
+    /// longest fields are left out, and named.
+    pub fn link(&self, most: usize) -> JsValue {
+        to_js(&self.shared.link(most))
+    }
+
+    /// Shows of the open model what a link says; what it does not say is as at a first visit. It is no step to undo. Returns the names of what is damaged,
+    /// unknown, or not of this model.
+    #[wasm_bindgen(js_name = followLink)]
+    pub fn follow_link(&self, text: &str) -> Vec<String> {
+        let (linked, mut left_out) = self.shared.session.borrow().read_link(text);
+        self.shared.apply(QualityCommand::SetMode(linked.quality));
+        self.shared.apply(Command::Restore(Box::new(linked.view)));
+        let session = self.shared.session.borrow();
+        let unknown = self.shared.ui.borrow_mut().open_these_panels(&session, &linked.panels);
+        left_out.extend((!unknown.is_empty()).then(|| "panel".to_owned()));
+        left_out
+    }
+
+    /// The model on screen as `{path, opening}`, with the number of the opening that brought it.
+    #[wasm_bindgen(js_name = modelOnScreen)]
+    pub fn model_on_screen(&self) -> JsValue {
+        let session = self.shared.session.borrow();
+        let Some(open) = session.open_model() else {
+            return JsValue::NULL;
+        };
+        let opening = session.shown_opening().map(|number| number as f64);
+        object([("path", (&*open.file.path).into()), ("opening", opening.into())])
+    }
+
+    /// The bytes of the file that the open model was read from.
+    #[wasm_bindgen(js_name = modelBytes)]
+    pub fn model_bytes(&self) -> Option<Uint8Array> {
+        let session = self.shared.session.borrow();
+        let open = session.open_model()?;
+        Some(Uint8Array::from(&open.file.bytes[..]))
+    }
+
+    /// Shows a sentence over the view for a while, and has it spoken.
+    pub fn tell(&self, words: String) {
+        self.shared.ui.borrow_mut().messages.say(words);
+        self.shared.request_repaint();
+    }
+}
+
+impl Shared {
+    pub(super) fn link(&self, most: usize) -> Link {
+        let panels = self.ui.borrow().open_panels();
+        self.session.borrow().link(panels, most)
+    }
+}

@@ -1,0 +1,247 @@
+//! Links: a view as text in an address, and back.
+
+use bindpose::model::{Handedness, UpAxis};
+use bindpose::scene::{Background, Light, Overlay, ViewMode};
+use bindpose::session::{
+    CameraCommand, Command, CrowdCommand, JointCommand, LookCommand, MAX_LINK_LEN, PlayCommand, QualityCommand,
+    QualityMode, Session, SubmeshCommand,
+};
+use proptest::prelude::*;
+
+use super::history::three_parts;
+use super::models::{jointed, moving, still};
+use super::random::number;
+use super::view_state::looking;
+use super::{dropped, opened};
+
+fn text(session: &Session) -> String {
+    let link = session.link(Vec::new(), MAX_LINK_LEN);
+    assert_eq!(link.left_out, [""; 0]);
+    link.text
+}
+
+/// The names that were left out.
+fn follow(session: &mut Session, text: &str) -> Vec<String> {
+    let (linked, left_out) = session.read_link(text);
+    session.apply(Command::Restore(Box::new(linked.view)));
+    session.apply(QualityCommand::SetMode(linked.quality));
+    left_out
+}
+
+#[test]
+fn a_first_visit_has_an_empty_link() {
+    for file in [moving("a.m3d"), still("a.m3d"), jointed("a.m3d")] {
+        for reduced_motion in [false, true] {
+            let mut session = Session::new(reduced_motion);
+            session.apply(bindpose::session::FileCommand::Add(vec![file.clone()]));
+            let still_moves = reduced_motion && session.clip().is_some();
+            assert_eq!(text(&session), if still_moves { "play=0" } else { "" }, "{}", file.path);
+        }
+    }
+}
+
+#[test]
+fn a_link_is_written_as_a_person_would_write_it() {
+    let mut session = opened(moving("a.m3d"));
+    for command in [
+        PlayCommand::Pause,
+        PlayCommand::SelectClip(1),
+        PlayCommand::Seek { time_secs: 0.75 },
+        PlayCommand::SetSpeed(0.5),
+        PlayCommand::SetRangeStart(Some(0.75)),
+        PlayCommand::SetRangeEnd(Some(1.5)),
+    ] {
+        session.apply(command);
+    }
+    session.apply(JointCommand::Select(Some(bindpose::model::JointIndex(1))));
+    session.apply(LookCommand::SetLight(Light::Book));
+    session.apply(LookCommand::SetViewMode(ViewMode::ShadingNormal));
+    session.apply(LookCommand::SetBackground(Background::Color([0x20, 0x26, 0x2e])));
+    session.apply(LookCommand::SetOverlay(Overlay::Wireframe, true));
+    session.apply(LookCommand::SetEnvironmentTurn(90_f32.to_radians()));
+    session.apply(Command::SetUpAxis(Some(UpAxis::Z)));
+    session.apply(Command::SetUpAxis(None));
+    session.apply(Command::SetHandedness(None));
+    session.apply(CrowdCommand::Set { count: 3, seed: 7 });
+    session.apply(QualityCommand::SetMode(QualityMode::Low));
+    let link = text(&session);
+    let (fields, camera): (Vec<&str>, Vec<&str>) = link.split('&').partition(|field| !field.starts_with("cam="));
+    assert_eq!(
+        fields.join("&"),
+        "clip=Turn&t=0.75&play=0&speed=0.5&range=0.75,1.5&bone=1&light=book&view=normal&bg=20262e\
+         &overlay=grid,wireframe&env=90&crowd=3&seed=7&quality=low"
+    );
+    assert_eq!(camera.len(), 1, "a crowd is seen from farther away: {link}");
+    let mut elsewhere = opened(moving("a.m3d"));
+    assert_eq!(follow(&mut elsewhere, &link), [""; 0]);
+    assert_eq!(text(&elsewhere), link);
+    assert_eq!(elsewhere.quality().mode(), QualityMode::Low);
+    assert_eq!(elsewhere.history().undo_label(), None, "no step");
+    // Nothing leads back to the first visit.
+    assert_eq!(follow(&mut elsewhere, ""), [""; 0]);
+    assert_eq!(text(&elsewhere), "");
+}
+
+#[test]
+fn a_camera_is_framed_or_where_its_numbers_say() {
+    let mut session = opened(moving("a.m3d"));
+    assert!(follow(&mut session, "cam=70,12").is_empty());
+    let camera = session.view_state().camera;
+    assert_eq!(
+        [camera.yaw_radians, camera.pitch_radians],
+        [70_f32, 12.0].map(f32::to_radians)
+    );
+    assert!(camera.framed);
+    assert_eq!(text(&session), "cam=70,12");
+    assert!(follow(&mut session, "cam=70,12,4.2").is_empty());
+    let near = session.view_state().camera;
+    assert_eq!((near.distance, near.target, near.framed), (4.2, camera.target, false));
+    assert!(follow(&mut session, "cam=-10.5,3,7,1,-2,0.125").is_empty());
+    assert_eq!(text(&session), "cam=-10.5,3,7,1,-2,0.125");
+    session.apply(CameraCommand::Reset);
+    for _ in 0..100 {
+        session.advance(0.05);
+    }
+    for damaged in [
+        "",
+        "1",
+        "1,2,0",
+        "1,2,-3",
+        "1,2,3,4",
+        "1,2,3,4,5,6,7",
+        "x,2",
+        "1,2,inf",
+        "1,NaN",
+    ] {
+        let before = session.view_state().camera;
+        assert_eq!(follow(&mut session, &format!("cam={damaged}")), ["cam"], "{damaged}");
+        assert!(before.framed && session.view_state().camera.framed, "{damaged}");
+    }
+}
+
+#[test]
+fn what_a_model_does_not_have_is_named_and_the_rest_is_shown() {
+    let mut session = opened(moving("a.m3d"));
+    let left_out = follow(
+        &mut session,
+        "clip=Fly&bone=99&vertex=1000000&subset=7&hide=0,5&solo=9&trails=0,77&blend=Swim,0.5&view=uv&newer=1&speed=&=&play",
+    );
+    assert_eq!(
+        left_out,
+        [
+            "", "blend", "bone", "clip", "hide", "newer", "play", "solo", "speed", "subset", "trails", "vertex"
+        ]
+    );
+    let state = session.view_state();
+    assert_eq!(state.appearance.view_mode, ViewMode::TexCoords);
+    assert_eq!(
+        (state.playback.clip.as_deref(), state.playback.speed),
+        (Some("Bend"), 1.0)
+    );
+    assert_eq!(
+        (state.selection.hidden_subsets, state.appearance.trails),
+        (vec![0], vec![0])
+    );
+}
+
+#[test]
+fn each_field_with_rubbish_is_left_out_or_brought_into_range() {
+    let mut session = opened(three_parts("a.m3d"));
+    let names: Vec<&str> = bindpose::session::link_names().collect();
+    assert!(names.len() > 40);
+    for name in names {
+        for value in [
+            "",
+            "-1",
+            "1e999",
+            "NaN",
+            "x",
+            ",",
+            "%",
+            "%ff",
+            "1,2,3,4,5",
+            "99999999999999999999",
+            "\u{0}",
+            "#",
+            "🦴",
+        ] {
+            let left_out = follow(&mut session, &format!("{name}={value}"));
+            assert!(
+                left_out.is_empty() || left_out == [name],
+                "{name}={value}: {left_out:?}"
+            );
+            // What it came to is a link again.
+            let link = text(&session);
+            assert!(follow(&mut session, &link).is_empty(), "{name}={value}: {link}");
+            assert_eq!(text(&session), link, "{name}={value}");
+        }
+    }
+}
+
+#[test]
+fn of_a_long_link_the_longest_fields_are_left_out() {
+    let mut session = opened(three_parts("a.m3d"));
+    session.apply(SubmeshCommand::SetVisible {
+        submesh: 1,
+        visible: false,
+    });
+    session.apply(LookCommand::SetLight(Light::Book));
+    let panels = vec!["skeleton".to_owned(), "keys".to_owned()];
+    let whole = session.link(panels.clone(), MAX_LINK_LEN);
+    assert_eq!(whole.text, "hide=1&light=book&panel=skeleton,keys");
+    for len in 0..=whole.text.len() {
+        let link = session.link(panels.clone(), len);
+        assert!(link.text.len() <= len, "{len}: {}", link.text);
+        assert_eq!(link.left_out.is_empty(), len == whole.text.len());
+    }
+    assert_eq!(session.link(panels, 20).left_out, ["panel"]);
+}
+
+#[test]
+fn names_with_any_character_come_back() {
+    let mut session = opened(moving("a.m3d"));
+    for name in ["Übergang & Lauf=2, #1 50%", "走る", "a+b c"] {
+        let link = session.link(vec![name.to_owned()], MAX_LINK_LEN).text;
+        assert!(link.bytes().all(|byte| byte.is_ascii_graphic()), "{link}");
+        assert_eq!(session.read_link(&link).0.panels, [name]);
+    }
+    session.apply(Command::SetHandedness(Some(Handedness::Right)));
+    assert!(text(&session).starts_with("hand=right"), "{}", text(&session));
+}
+
+proptest! {
+    #![proptest_config(crate::properties::cases(96))]
+
+    #[test]
+    fn a_link_brings_back_what_was_seen(
+        before in prop::collection::vec((looking(), prop::option::of(number())), 0..30),
+        other in prop::collection::vec(looking(), 0..20),
+    ) {
+        let mut session = dropped(vec![moving("a.m3d"), still("c.m3d")]);
+        for (command, dt_secs) in before {
+            session.apply(command);
+            dt_secs.map(|dt_secs| session.advance(dt_secs));
+        }
+        let (link, state) = (text(&session), session.view_state());
+        let mut elsewhere = dropped(vec![moving("a.m3d"), still("c.m3d")]);
+        for command in other {
+            elsewhere.apply(command);
+        }
+        prop_assert_eq!(follow(&mut elsewhere, &link), [""; 0], "{}", link);
+        let mut found = elsewhere.view_state();
+        // A model that is framed as at first stands within a hair.
+        let off = (found.camera.distance / state.camera.distance - 1.0).abs();
+        prop_assert!(off <= 2e-5, "{off}: {}", link);
+        found.camera = bindpose::session::CameraState { distance: state.camera.distance, target: state.camera.target, framed: state.camera.framed, ..found.camera };
+        prop_assert_eq!(found, state, "{}", &link);
+    }
+
+    #[test]
+    fn any_text_is_a_link(text in ".{0,200}", fields in prop::collection::vec(("[a-z]{1,9}", "[-0-9a-z.,%#]{0,12}"), 0..8)) {
+        let fields: Vec<String> = fields.into_iter().map(|(name, value)| format!("{name}={value}")).collect();
+        let mut session = opened(moving("a.m3d"));
+        for link in [text, fields.join("&")] {
+            follow(&mut session, &link);
+        }
+    }
+}

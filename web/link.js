@@ -1,0 +1,162 @@
+// The address as a link to what is seen: written when that rests, followed when the page opens and when another link is clicked. Behind `#`
+// stands what the viewer says of itself, and before that which model it is about, where the page does not open that one by itself.
+
+/** A link is written when nothing changed for so long. */
+const RESTS_AFTER_MS = 250;
+
+/** And no more often than this. */
+const EVERY_MS = 500;
+
+/** An address is longer than this nowhere that people write to each other. */
+const LONGEST = 2_000;
+
+/** A file is known by so many digits of its SHA-256. */
+const DIGITS = 12;
+
+const baseName = (path) => path.split("/").pop();
+
+/** `{model, sha, view}` of a text behind `#`: the model's name and digest where it says one, and the rest, which the viewer reads. */
+function parsed(text) {
+  const found = { view: [] };
+  for (const field of text.split("&")) {
+    const [name, ...value] = field.split("=");
+    if (name !== "model" && name !== "sha") {
+      found.view.push(field);
+      continue;
+    }
+    try {
+      found[name] = decodeURIComponent(value.join("="));
+    } catch {
+      found.view.push(field); // The viewer names it as unknown.
+    }
+  }
+  return { ...found, view: found.view.join("&") };
+}
+
+/** The first digits of the SHA-256 of bytes; nothing where the page may not know it: it came without `https:`. */
+async function digestOf(bytes) {
+  const digest = new Uint8Array((await globalThis.crypto?.subtle?.digest("SHA-256", bytes)) ?? []);
+  return [...digest].map((byte) => byte.toString(16).padStart(2, "0")).join("").slice(0, DIGITS);
+}
+
+/**
+ * Keeps the address and what is seen together. The page gives what it does otherwise: `viewer()`, or null while there is none; `changed(link)`
+ * hears of another link, `followed()` of one that is shown, `ask(words)` asks for a file and `refuse(words)` tells what was left out.
+ */
+export function keepLink({ viewer, changed, followed, ask, refuse }) {
+  let own = null; // What the page opened by itself: its opening and path.
+  let opensOwn = false; // Whether it does so now.
+  let model = { opening: null, path: null, sha: "" }; // On screen.
+  let wanted = null; // A link that waits for its model.
+  let last = null; // The link that was told last.
+  let timer = 0;
+  let writtenAt = -EVERY_MS;
+
+  const isOwn = ({ opening, path }) => opening === own?.opening && path === own?.path;
+
+  /** What is seen, with at most so many characters. */
+  const read = () => {
+    const { opening, path } = model;
+    const named = path && !isOwn({ opening, path }) ? [`model=${encodeURIComponent(path)}`, model.sha && `sha=${model.sha}`] : [];
+    const start = named.filter(Boolean).join("&");
+    const address = location.href.split("#")[0];
+    const room = LONGEST - address.length - start.length - 2;
+    const { text, leftOut } = viewer()?.link(Math.max(0, room)) ?? { text: "", leftOut: [] };
+    return { address, text: [start, text].filter(Boolean).join("&"), leftOut };
+  };
+
+  const write = () => {
+    // The address stays that of the link until the model is here that it is about.
+    if (!viewer() || (wanted && isOwn(model))) return;
+    const { address, text } = read();
+    writtenAt = performance.now();
+    if (text === last) return;
+    last = text;
+    if (text !== location.hash.slice(1)) history.replaceState(history.state, "", text ? `${address}#${text}` : address);
+    changed(text);
+  };
+
+  const show = ({ view }, words) => {
+    wanted = null;
+    ask(null);
+    const leftOut = viewer().followLink(view);
+    if (words) viewer().tell(words);
+    if (leftOut.length) refuse(leftOut);
+    followed();
+  };
+
+  /** Shows the moment of the link that waits, if it is about the model on screen. */
+  const showWanted = () => {
+    const { model: name, sha } = wanted;
+    if (name === undefined) return void show(wanted);
+    if (isOwn(model) && name !== model.path) return;
+    const isNamed = baseName(name) === baseName(model.path);
+    const isSame = sha && model.sha ? sha === model.sha : null;
+    if (isNamed && isSame !== false) return void show(wanted);
+    if (isNamed) show(wanted, `${baseName(name)} has other bytes than the file that the link was made of`);
+    else if (isSame) show(wanted, `${baseName(model.path)} is ${baseName(name)} of the link, under another name`);
+  };
+
+  return {
+    /** Behind the `#`. */
+    text: () => read().text,
+    /** The whole address, and the names of what it has no room for. */
+    whole() {
+      const { address, text, leftOut } = read();
+      return { address: text ? `${address}#${text}` : address, leftOut, asksFor: isOwn(model) ? null : model.path };
+    },
+    /** What comes until `work` is settled, the page opens by itself. Returns that. */
+    opens(work) {
+      opensOwn = true;
+      const end = () => (opensOwn = false);
+      work.then(end, end);
+      return work;
+    },
+    /** Follows the link in the address. Its model may not be here yet. */
+    follow() {
+      const link = parsed(location.hash.slice(1));
+      if (link.model === undefined && !link.view) return;
+      wanted = link;
+      const { model: name } = link;
+      if (model.path !== null && !opensOwn) showWanted();
+      if (!wanted || name === undefined || viewer().openModel(name)) return;
+      ask(`This link is about ${baseName(name)}: drop it to see the same moment.`);
+    },
+    /** Another model is on screen. */
+    async loaded() {
+      const now = viewer().modelOnScreen() ?? { opening: null, path: null };
+      model = { ...now, sha: "" };
+      if (opensOwn) own = now;
+      const sha = isOwn(now) || now.path === null ? "" : await digestOf(viewer().modelBytes()).catch(() => "");
+      if (model.opening !== now.opening || model.path !== now.path) return;
+      model.sha = sha;
+      // Of its own model the page has more to set first.
+      if (wanted && !opensOwn && now.path !== null) showWanted();
+      this.settling();
+    },
+    /** What is seen may be another. */
+    settling() {
+      clearTimeout(timer);
+      timer = setTimeout(write, Math.max(RESTS_AFTER_MS, writtenAt + EVERY_MS - performance.now()));
+    },
+    moving: () => clearTimeout(timer),
+    /** Follows a link that was clicked, or one of before. */
+    hashChanged() {
+      const text = location.hash.slice(1);
+      if (!viewer() || text === last) return;
+      last = text;
+      if (text) this.follow();
+      else if (model.path !== null) show({ view: "" });
+    },
+  };
+}
+
+/** An element that shows an address on another page, without a script of its own. */
+export function embedding(address, name) {
+  const shown = new URL(address);
+  shown.searchParams.set("ui", "transport");
+  const frame = document.createElement("iframe");
+  Object.assign(frame, { src: shown.href, title: name, width: 640, height: 480, loading: "lazy", allowFullscreen: true });
+  frame.style.border = "0";
+  return frame.outerHTML;
+}
