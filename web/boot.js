@@ -11,7 +11,7 @@ import { embedding, keepLink } from "./link.js";
 import { mirrorOf } from "./mirror.js";
 import { backend, fetchProgram, first, options } from "./program.js";
 import { keepOnCanvas } from "./restart.js";
-import { fetchFile, readAgain, rememberSources } from "./sources.js";
+import { fetchFrom, fetchOwn, readAgain, rememberSources } from "./sources.js";
 
 /** The sample: the model, then its maps. Addresses may carry a hash, names never do. */
 const SAMPLE = {
@@ -436,9 +436,9 @@ async function readSourcesAgain() {
 async function fetchOpening(program) {
   const named = ["src", "tex"].flatMap((key) => options.getAll(key));
   try {
-    if (named.length) return await Promise.all(named.map((address) => fetchFile(address)));
+    if (named.length) return await fetchNamed(named);
     const [first, ...rest] = Object.entries(SAMPLE);
-    const fetchSample = ([name, at]) => fetchFile(new URL(at, import.meta.url), name);
+    const fetchSample = ([name, at]) => fetchOwn(new URL(at, import.meta.url), name);
     const model = fetchSample(first);
     model.catch(() => {}); // It is reported below.
     await program;
@@ -446,8 +446,30 @@ async function fetchOpening(program) {
     const opened = await Promise.all([model, ...rest.map((map) => fetchSample(map).catch(() => null))]);
     return opened.filter(Boolean);
   } catch (error) {
-    refuse(wordsOf(error));
+    refuseError(error);
     return null;
+  }
+}
+
+/** The files at the addresses that the page's own names. The viewer shows how far it is, and Esc gives it up. */
+async function fetchNamed(addresses) {
+  const stop = new AbortController();
+  let fetching; // The number by which the viewer knows it.
+  const total = { name: "", bytes: 0 };
+  try {
+    return await fetchFrom(addresses, {
+      signal: stop.signal,
+      began(name, bytes) {
+        if (!total.name) total.name = name;
+        total.bytes += bytes;
+      },
+      got(bytes) {
+        fetching ??= viewer?.beginFetching(total.name, total.bytes);
+        if (fetching !== undefined && !viewer.noteFetched(fetching, bytes)) stop.abort();
+      },
+    });
+  } finally {
+    if (fetching !== undefined) viewer.endFetching(fetching);
   }
 }
 

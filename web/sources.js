@@ -15,11 +15,86 @@ export function recordOf(item) {
   return { name, bytes };
 }
 
-/** The file at an address. */
-export async function fetchFile(address, name = decodeURIComponent(new URL(address, location.href).pathname.split("/").pop())) {
+/** The file at an address of this site. */
+export async function fetchOwn(address, name) {
   const response = await fetch(address);
   if (!response.ok) throw new Error(`The server answered ${response.status} for ${address}`);
   return { name, bytes: await response.blob() };
+}
+
+/** This computer, which may be asked without encryption. */
+const LOCAL = ["localhost", "127.0.0.1"];
+
+/** The address that a person wrote into the page's own; throws where the page asks nobody for it. */
+function addressOf(text) {
+  const url = URL.parse?.(text, location.href) ?? new URL(text, location.href);
+  const isAsked = url.origin === location.origin || url.protocol === "https:" || (url.protocol === "http:" && LOCAL.includes(url.hostname));
+  if (!isAsked) throw new Error(`${url.href} is not asked for: a file comes from this server, from an https: address or from this computer`);
+  return url;
+}
+
+/** The server's answer. No server but this one learns who asks, nor from which page. */
+async function answerOf(url, signal) {
+  const how = { credentials: "same-origin", referrerPolicy: "no-referrer", signal };
+  let response;
+  try {
+    response = await fetch(url, how);
+  } catch (error) {
+    if (signal.aborted) throw error;
+    // Without a look at what it says it answers also where it lets no other page read.
+    const isThere = url.origin !== location.origin && (await fetch(url, { ...how, mode: "no-cors" }).then(() => true, () => false));
+    if (signal.aborted) throw error;
+    throw new Error(isThere ? `${url.host} does not let other pages read ${url.pathname} (it sends no Access-Control-Allow-Origin)` : `${url.host} did not answer`);
+  }
+  if (response.status === 404) throw new Error(`${url.host} has no ${url.pathname}`);
+  if (!response.ok) throw new Error(`${url.host} answered ${response.status} for ${url.pathname}`);
+  return response;
+}
+
+/** What a `.gltf` names beside itself: addresses on its server, by the paths that it has for them. */
+async function namedBy({ name, bytes }, url) {
+  if (!/\.gltf$/i.test(name)) return [];
+  try {
+    const { buffers = [], images = [] } = JSON.parse(await bytes.text());
+    const paths = new Set([...buffers, ...images].map(({ uri }) => uri).filter((uri) => typeof uri === "string" && !uri.startsWith("data:")));
+    const named = [...paths].map((path) => [decodeURIComponent(path), new URL(path, url)]);
+    return named.filter(([, address]) => address.origin === url.origin);
+  } catch {
+    return []; // The viewer tells what is wrong with it.
+  }
+}
+
+/**
+ * The files at addresses, and what each `.gltf` among them names beside it. `began(name, bytes)` and `got(bytes)` hear how far it is, as far as servers tell; it
+ * ends when `signal` does. Throws in words that say what happened: no answer, not allowed, not found, broken off.
+ */
+export async function fetchFrom(addresses, { began, got, signal }) {
+  const fetchOne = async ([name, url]) => {
+    const response = await answerOf(url, signal);
+    const length = response.headers.has("Content-Encoding") ? 0 : Number(response.headers.get("Content-Length"));
+    began(name, length);
+    const pieces = [];
+    let arrived = 0;
+    try {
+      for (const reader = response.body.getReader(); ; ) {
+        const { done, value } = await reader.read();
+        if (done) break;
+        arrived += value.length;
+        pieces.push(value);
+        got(value.length);
+      }
+    } catch (error) {
+      if (signal.aborted) throw error;
+      throw new Error(`${url.host} broke off after ${arrived}${length ? ` of ${length}` : ""} bytes of ${url.pathname}`);
+    }
+    return { name, bytes: new Blob(pieces) };
+  };
+  const asked = addresses.map(addressOf).map((url) => [decodeURIComponent(url.pathname.split("/").pop()), url]);
+  const files = await Promise.all(asked.map(fetchOne));
+  const beside = await Promise.all(files.map((file, index) => namedBy(file, asked[index][1])));
+  // What is not there is told by the viewer, as of a model that was dropped without it.
+  const found = await Promise.all(beside.flat().map((one) => fetchOne(one).catch((error) => { if (signal.aborted) throw error; return null; })));
+  return [...files, ...found.filter(Boolean)];
 }
 
 /** `before` without the files whose names come again in `files`, and then those. */

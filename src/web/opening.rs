@@ -68,6 +68,39 @@ impl Viewer {
         self.shared.apply_to_listed("closeModel", path, FileCommand::Close)
     }
 
+    /// Learns that the page fetches files that it will open in place of what is open, this one first; `total` is 0 where servers do not say how many
+    /// bytes that will be. Returns the number by which the viewer knows it.
+    #[wasm_bindgen(js_name = beginFetching)]
+    pub fn begin_fetching(&self, name: String, total: f64) -> f64 {
+        let mine = self
+            .shared
+            .session
+            .borrow_mut()
+            .begin_fetching(name, total as usize, true);
+        self.shared.request_repaint();
+        mine as f64
+    }
+
+    /// Learns that so many bytes more have come. Returns whether they are still waited for.
+    #[wasm_bindgen(js_name = noteFetched)]
+    pub fn note_fetched(&self, fetching: f64, bytes: f64) -> bool {
+        let is_wanted = self.shared.session.borrow().openings() as f64 == fetching;
+        if is_wanted {
+            self.shared.session.borrow_mut().note_fetched(bytes as usize);
+            self.shared.request_repaint();
+        }
+        is_wanted
+    }
+
+    /// Learns that all has come, or will never.
+    #[wasm_bindgen(js_name = endFetching)]
+    pub fn end_fetching(&self, fetching: f64) {
+        if self.shared.session.borrow().openings() as f64 == fetching {
+            self.shared.session.borrow_mut().end_fetching();
+            self.shared.request_repaint();
+        }
+    }
+
     /// Begins anew, as a new viewer does, once these files are ready, which are opened as by [`Viewer::open`]: every choice is forgotten. What
     /// the GPU has compiled stays. Without files it begins anew at once.
     #[wasm_bindgen(js_name = startOver)]

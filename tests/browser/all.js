@@ -17,4 +17,5 @@ import "./several.js";
 import "./slices.js";
 import "./lasting.js";
 import "./visits.js";
+import "./link.js";
 import "./programs.js";

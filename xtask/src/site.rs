@@ -10,7 +10,7 @@ use crate::failure::{Doing as _, Failure};
 
 /// What the page may do. `index.html` carries the same words for hosts that cannot set headers.
 pub(crate) const CONTENT_SECURITY_POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; \
-     style-src 'self'; img-src 'self' blob: data:; connect-src 'self' blob:; worker-src 'self' blob:; base-uri 'none'; \
+     style-src 'self'; img-src 'self' blob: data:; connect-src 'self' blob: https: http://localhost:* http://127.0.0.1:*; worker-src 'self' blob:; base-uri 'none'; \
      object-src 'none'; form-action 'none'";
 
 /// Who may show the page in a frame. Only a header can say it.

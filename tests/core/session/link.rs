@@ -179,6 +179,14 @@ fn each_field_with_rubbish_is_left_out_or_brought_into_range() {
 }
 
 #[test]
+fn the_readme_names_every_field() {
+    let readme = include_str!("../../../README.md");
+    for name in bindpose::session::link_names() {
+        assert!(readme.contains(&format!("`{name}`")), "{name}");
+    }
+}
+
+#[test]
 fn of_a_long_link_the_longest_fields_are_left_out() {
     let mut session = opened(three_parts("a.m3d"));
     session.apply(SubmeshCommand::SetVisible {

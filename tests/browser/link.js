@@ -1,0 +1,187 @@
+// Links: the address says what is seen, and brings it back.
+
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { BACKEND, PAGE, SAMPLE, call, running, settled, state, test, until } from "./harness.js";
+
+const QUERY = `?backend=${BACKEND}&scale=0.2`;
+const OWN = { own: true, query: QUERY };
+
+/** As people would write them, in the order in which the page writes. Each field stands in one of them at least. */
+const LINKS = [
+  "t=0.5&play=0",
+  "clip=Walk&play=0",
+  "clip=Run&t=0.25&play=0&back=1",
+  "clip=Wave&t=0.75&play=0&speed=0.25",
+  "t=1&play=0&loop=once",
+  "t=1.5&play=0&loop=pingpong",
+  "t=2&play=0&wrap=book-demo",
+  "t=0.5&play=0&range=0.25,1.5",
+  "clip=Walk&t=0.1&play=0&blend=Run,0.25",
+  "t=0.5&play=0&fade=0.5",
+  "t=0.5&play=0&bind=1",
+  "t=0.5&play=0&bone=5",
+  "t=0.5&play=0&bone=9&skin=weight",
+  "t=0.5&play=0&vertex=100",
+  "t=0.5&play=0&subset=0&panel=skeleton",
+  "t=0.5&play=0&skin=stretch&bones=1",
+  "t=0.5&play=0&bones=1&bonestyle=axes",
+  "t=0.5&play=0&trails=5,9&ghosts=2,1,3",
+  "t=0.5&play=0&bindghost=1",
+  "t=0.5&play=0&light=book&lamps=45&cam=20,10",
+  "t=0.5&play=0&split=0.5",
+  "t=0.5&play=0&view=normal&panel=keys",
+  "t=0.5&play=0&bg=20262e&overlay=grid,wireframe",
+  "t=0.5&play=0&bg=sky&env=90&exposure=0.5",
+  "t=0.5&play=0&overlay=normals&lines=0.1&panel=findings,curves",
+  "t=0.5&play=0&green=1&ground=0.05",
+  "t=0.5&play=0&hand=right&cam=-160,12,6,0,1,0",
+  "t=0.5&play=0&up=z&cam=30,5,7,0,1,0.5",
+  "t=0.5&play=0&crowd=3&seed=7&instance=2&cam=0,20,12,0,1,0",
+  "t=0.5&play=0&ortho=1&quality=low&cam=70,12",
+];
+
+/** What a state says of a view, without what counts starts and frames. */
+const seen = ({ timings, cost, framesRendered, undo, redo, model, opening, look, ...rest }) => ({
+  ...rest,
+  model: { ...model, opening: null },
+  look: { ...look, samples: null, lowered: null },
+});
+
+/** The picture, small. */
+const picture = (page) => page.evaluate(async () => {
+  const bytes = new Uint8Array(await (await bindpose.snapshot({ width: 96, height: 72 })).arrayBuffer());
+  return btoa(String.fromCharCode(...bytes));
+});
+
+const hash = (page) => page.evaluate(() => location.hash.slice(1));
+const notice = (page) => page.textContent("#notice");
+
+/** Waits until a screen reader is given this. */
+const hears = (page, words) =>
+  page.waitForFunction((words) => document.getElementById("spoken").textContent.includes(words), words, { polling: 30, timeout: 20_000 });
+
+/** Waits until the address says this. */
+const says = (page, text) => page.waitForFunction((text) => location.hash.slice(1) === text, text, { polling: 50, timeout: 20_000 });
+
+/** Goes to a link in the page as it is. */
+async function follow(page, text) {
+  await page.evaluate((text) => (location.hash = text), text);
+  await page.waitForFunction((text) => bindpose.state().link === text, text, { polling: 50, timeout: 20_000 }).catch(async (error) => {
+    throw new Error(`${text}: ${(await state(page)).link}`, { cause: error });
+  });
+}
+
+/** Opens the page anew. */
+async function visit(page, text) {
+  await page.goto("about:blank");
+  await page.goto(`${PAGE}${QUERY}#${text}`);
+  await running(page);
+}
+
+test("links bring back what they say, in this page and in a new one", OWN, async (page) => {
+  await until(page, (now) => now.model);
+  const shown = [];
+  for (const text of LINKS) {
+    await follow(page, text);
+    await settled(page);
+    shown.push([seen(await state(page)), await picture(page)]);
+    assert.equal((await state(page)).undo, null, `${text} is no step`);
+  }
+  const [paused, walk] = shown;
+  assert.deepEqual([paused[0].timeSecs, paused[0].playing, walk[0].clip], [0.5, false, "Walk"]);
+  assert.deepEqual([shown[12][0].skeleton.selected, shown[12][0].skeleton.skinView, shown[19][0].look.light], [9, "weight", "book"]);
+  assert.equal(new Set(shown.map(([, picture]) => picture)).size > 20, true, "most of them are seen");
+  await follow(page, "");
+  const fresh = (index) => index % 5 === 0;
+  for (const [index, text] of LINKS.entries()) {
+    if (fresh(index)) await visit(page, text);
+    else await follow(page, "").then(() => follow(page, text));
+    await until(page, (now) => now.link === text);
+    await settled(page);
+    assert.deepEqual([seen(await state(page)), await picture(page)], shown[index], text);
+  }
+});
+
+test("the address follows what is seen once that rests", OWN, async (page) => {
+  await until(page, (now) => now.model);
+  await page.evaluate(() => {
+    globalThis.links = [];
+    bindpose.addEventListener("linkchange", ({ detail }) => globalThis.links.push(detail.link));
+  });
+  await page.waitForTimeout(700);
+  assert.equal(await hash(page), "", "nothing while it plays");
+  await call(page, "pause");
+  await call(page, "seek", 0.5);
+  await says(page, "t=0.5&play=0");
+  assert.equal(await page.evaluate(() => bindpose.link()), await page.evaluate(() => location.href));
+  await call(page, "play");
+  await page.waitForTimeout(700);
+  assert.equal(await hash(page), "t=0.5&play=0", "the last rest");
+  await call(page, "pause");
+  await call(page, "seek", 1);
+  await says(page, "t=1&play=0");
+  assert.deepEqual([await page.evaluate(() => globalThis.links.at(-1)), (await state(page)).link], ["t=1&play=0", "t=1&play=0"]);
+  // While the model is dragged round nothing is written.
+  await page.mouse.move(480, 250);
+  await page.mouse.down();
+  await page.mouse.move(560, 260, { steps: 4 });
+  await page.waitForTimeout(700);
+  assert.equal(await hash(page), "t=1&play=0");
+  await page.mouse.up();
+  await page.waitForFunction(() => /&cam=-?[\d.]+,-?[\d.]+$/.test(location.hash), null, { polling: 50 });
+  assert.equal(await page.evaluate(() => history.length), 2, "no step of the history");
+  const moment = await hash(page);
+  await page.reload();
+  await running(page);
+  await until(page, (now) => now.link === moment);
+});
+
+test("what a link does not know or the model does not have is named, and the rest is shown", OWN, async (page) => {
+  await until(page, (now) => now.model);
+  await page.evaluate(() => (location.hash = "clip=Fly&t=0.5&play=0&speed=fast&%zz&future=1&view=uv&bone=4000000000"));
+  await until(page, (now) => now.look.viewMode === "uv");
+  assert.match(await notice(page), /The link is not shown in full.*zz, bone, clip, future, speed/s);
+  assert.equal((await state(page)).error, null);
+  await follow(page, "t=0.5&play=0");
+  const rubbish = [..."=&%#,.-:1aé🦴 \u0000"];
+  await page.evaluate((rubbish) => {
+    let seed = 1;
+    const next = (below) => (seed = (seed * 48_271) % 2_147_483_647) % below;
+    const names = ["clip", "t", "cam", "bone", "model", "sha", "range", "ghosts", "bg", "crowd", "panel", "x"];
+    for (let round = 0; round < 1000; round += 1) {
+      const fields = Array.from({ length: next(5) }, () => `${names[next(names.length)]}=${Array.from({ length: next(9) }, () => rubbish[next(rubbish.length)]).join("")}`);
+      location.hash = fields.join("&");
+      dispatchEvent(new HashChangeEvent("hashchange"));
+    }
+  }, rubbish);
+  await follow(page, "t=0.25&play=0");
+  assert.equal(await page.isHidden("#fault"), true);
+});
+
+test("a link to a dropped file waits for it, by its name and by its bytes", { ...OWN, firstVisit: true }, async (page) => {
+  const bytes = await readFile(SAMPLE);
+  const file = (name, bytes) => ({ name, mimeType: "text/plain", buffer: bytes });
+  const choose = (name, bytes) => page.setInputFiles("#files", file(name, bytes));
+  await until(page, (now) => now.model);
+  await choose("hero.m3d", bytes);
+  await until(page, (now) => now.model?.name === "hero.m3d");
+  await call(page, "pause");
+  await call(page, "seek", 0.75);
+  await page.waitForFunction(() => /^#model=hero\.m3d&sha=[0-9a-f]{12}&t=0\.75&play=0$/.test(location.hash), null, { polling: 50 });
+  const link = await hash(page);
+  for (const [name, changed, told] of [
+    ["hero.m3d", false, null],
+    ["other.m3d", false, "other.m3d is hero.m3d of the link, under another name"],
+    ["hero.m3d", true, "hero.m3d has other bytes than the file that the link was made of"],
+  ]) {
+    await visit(page, link);
+    await hears(page, "This link is about hero.m3d: drop it to see the same moment.");
+    await page.getByRole("button", { name: /^Close the welcome/ }).waitFor({ state: "attached" });
+    await page.waitForTimeout(600);
+    assert.equal(await hash(page), link, "it stays until its model is here");
+    await choose(name, changed ? Buffer.concat([bytes, Buffer.from("\n")]) : bytes);
+    await until(page, (now) => now.model?.name === name && now.timeSecs === 0.75 && !now.playing);
+    if (told) await hears(page, told);
+  }
+});
