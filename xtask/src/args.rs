@@ -28,7 +28,10 @@ Bindpose's own commands. Each does its set-up itself.
         The README's pictures, drawn by the page in Chromium: assets/page/ and, beside three.js, assets/beside/.
 
     cargo xtask dist
-        The static site in dist/: smallest download, hashed names, .br and .gz beside each file.
+        The static site in dist/: smallest download, hashed names, .br and .gz beside each file, and the licences of all.
+
+    cargo xtask licenses TARGET
+        What the command `bindpose` is made of when it is built for TARGET, and the licences of it, for whoever passes it on.
 
     cargo xtask bench [--counts] [--browser [--dist] [--model FILE]]
         What speed is: one of these at least.
@@ -53,6 +56,8 @@ pub(crate) enum Task {
     Test(TestOptions),
     Pictures,
     Dist,
+    /// For the command, built for this target.
+    Licenses(String),
     Bench(BenchOptions),
     Fuzz(FuzzOptions),
 }
@@ -106,6 +111,10 @@ pub(crate) fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, Fail
         "test" => test_options(&rest).map(Task::Test),
         "pictures" => nothing_more("pictures", &rest).map(|()| Task::Pictures),
         "dist" => nothing_more("dist", &rest).map(|()| Task::Dist),
+        "licenses" => match <[String; 1]>::try_from(rest) {
+            Ok([target]) => Ok(Task::Licenses(target)),
+            Err(_) => Err(Failure::Usage("`licenses` takes a target".to_owned())),
+        },
         "bench" => bench_options(rest).map(Task::Bench),
         "fuzz" => fuzz_options(&rest).map(Task::Fuzz),
         other => Err(Failure::Usage(format!("there is no command `{other}`"))),
@@ -284,6 +293,8 @@ mod tests {
             parsed("bench --browser --model a.m3d --dist"),
             Ok(Task::Bench(expected))
         );
+        let expected = "aarch64-apple-darwin".to_owned();
+        assert_eq!(parsed("licenses aarch64-apple-darwin"), Ok(Task::Licenses(expected)));
         assert_eq!(parsed("dist --help"), Ok(Task::Help));
         assert_eq!(parsed(""), Ok(Task::Help));
     }
@@ -304,6 +315,7 @@ mod tests {
             ("test --browser metal", "but `metal` was given"),
             ("fuzz --secs 0", "`--secs` takes a number of seconds"),
             ("fuzz --fast", "`fuzz` has no option `--fast`"),
+            ("licenses", "`licenses` takes a target"),
             ("bench", "`bench` takes --counts or --browser"),
             ("bench --dist", "`bench` does not know `--dist` here"),
             ("bench --browser --model", "`--model` takes a file"),

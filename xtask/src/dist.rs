@@ -1,6 +1,6 @@
 //! `cargo xtask dist`: the site as static files that a host may keep for ever.
 //!
-//! Each file but the pages has a part of its content's hash in its name, and every reference to it is rewritten. A file
+//! Each file but the pages and the licences has a part of its content's hash in its name, and every reference to it is rewritten. A file
 //! is named after those it refers to, so a change below changes the names above it.
 
 use std::collections::BTreeMap;
@@ -9,11 +9,12 @@ use std::path::{Path, PathBuf};
 
 use crate::compress::{Coding, Effort};
 use crate::failure::{Doing as _, Failure};
+use crate::licenses;
 use crate::site::Site;
 use crate::sizes::{self, Size};
 use crate::wasm::{self, Profile, Program};
 
-/// The viewer's page. Others lead back to it, so it comes last; pages keep their names.
+/// The viewer's page. Others lead back to it, so it comes last; pages keep their names, and so do the licences.
 const PAGE: &str = "index.html";
 
 /// Files that are text and may refer to others.
@@ -30,6 +31,7 @@ pub(crate) fn run() -> Result<(), Failure> {
             sources.insert(address, bytes);
         }
     }
+    sources.insert(licenses::NAME.to_owned(), licenses::of_the_page()?.into_bytes());
     let dist = crate::root().join("dist");
     if dist.exists() {
         fs::remove_dir_all(&dist).doing("removing dist/")?;
@@ -115,7 +117,7 @@ impl Naming<'_> {
         let bytes = self.rewritten(address)?;
         self.open.pop();
         let name = match (address, address.rsplit_once('.')) {
-            (_, None | Some((_, "html"))) => address.to_owned(),
+            (licenses::NAME, _) | (_, None | Some((_, "html"))) => address.to_owned(),
             (_, Some((stem, extension))) => format!("{stem}.{:016x}.{extension}", fnv1a(&bytes)),
         };
         self.names.insert(address.to_owned(), name.clone());
@@ -203,6 +205,8 @@ fn page() -> BTreeMap<String, Vec<u8>> {
         ("pkg/webgpu/bindpose_bg.wasm", b"4".to_vec()),
     ];
     let mut files = BTreeMap::from(built.map(|(address, bytes)| (address.to_owned(), bytes)));
+    let licenses = licenses::of_the_page().expect("cargo resolves the page");
+    files.insert(licenses::NAME.to_owned(), licenses.into_bytes());
     // The folder of what is built: any other will do.
     let site = Site::new(crate::root().join("web"), None);
     for address in site.addresses().expect("the site lists") {
@@ -271,6 +275,10 @@ mod tests {
         let files = page();
         let built = hashed(&files).expect("no circle");
         assert_eq!(built.len(), files.len());
+        assert!(
+            built.contains_key(licenses::NAME),
+            "who looks for the licences finds them"
+        );
         let choice = text_of(&built, "web/program.").1;
         for folder in ["pkg/bindpose", "pkg/webgpu/bindpose"] {
             for end in [".", "_bg."] {

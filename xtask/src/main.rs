@@ -1,4 +1,4 @@
-//! The project's own commands, run as `cargo xtask serve | test | pictures | dist | bench | fuzz`.
+//! The project's own commands, run as `cargo xtask serve | test | pictures | dist | licenses | bench | fuzz`.
 //!
 //! Each does all of its set-up itself, so that a fresh machine with rustup needs nothing else: the wasm target is added,
 //! wasm-bindgen is a library here rather than a tool to install, and what the tests draw with is installed or named.
@@ -17,6 +17,9 @@
 //! | [`absent`] | which real files the tests could not look at |
 //! | [`second_tries`] | which browser tests had to be tried again |
 //! | [`dist`] | the static site: hashed names, compressed twice |
+//! | [`packages`] | which packages a program is made of |
+//! | [`licenses`] | what they are passed on under: `licenses.txt` |
+//! | `published`, for tests | what the library's package holds |
 //! | [`sizes`] | the most bytes that files of the site may have: `xtask/sizes.txt` |
 //! | [`fuzz`] | files that a fuzzer makes up, read and written |
 
@@ -29,9 +32,13 @@ mod dist;
 mod failure;
 mod fuzz;
 mod http;
+mod licenses;
 mod list;
+mod packages;
 mod prerequisites;
 mod process;
+#[cfg(test)]
+mod published;
 mod second_tries;
 mod serve;
 mod site;
@@ -55,6 +62,7 @@ fn main() -> ExitCode {
         Task::Test(options) => check::run(&options),
         Task::Pictures => check::pictures(),
         Task::Dist => dist::run(),
+        Task::Licenses(target) => licenses::print(&target),
         Task::Bench(options) => check::bench(&options),
         Task::Fuzz(options) => fuzz::run(&options),
     });

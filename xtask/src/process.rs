@@ -77,6 +77,17 @@ impl Line {
         Err(Failure::Command { shown: self.shown, why })
     }
 
+    /// Runs it and gives what it wrote to standard output; errors go to the terminal.
+    pub(crate) fn read(mut self) -> Result<String, Failure> {
+        let outcome = self.command.stdin(Stdio::null()).stderr(Stdio::inherit()).output();
+        let text = outcome
+            .iter()
+            .map(|output| String::from_utf8_lossy(&output.stdout).into_owned());
+        let text = text.collect();
+        self.judge(outcome.map(|output| output.status))?;
+        Ok(text)
+    }
+
     /// Runs it quietly; gives what it wrote to standard output, or `None` when it is not there or ended with an error.
     pub(crate) fn output(mut self) -> Option<String> {
         let output = self.command.stdin(Stdio::null()).stderr(Stdio::null()).output().ok()?;

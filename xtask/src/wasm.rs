@@ -9,7 +9,8 @@ use wasm_bindgen_cli_support::Bindgen;
 use crate::failure::{Doing as _, Failure};
 use crate::process::Line;
 
-const TARGET: &str = "wasm32-unknown-unknown";
+/// The compiler's name of the browser.
+pub(crate) const TARGET: &str = "wasm32-unknown-unknown";
 
 /// Where the built library goes, by how hard the compiler works on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
