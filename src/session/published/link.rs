@@ -161,7 +161,7 @@ impl Session {
                 None => _ = left_out.insert(shortened(name)),
             }
         }
-        left_out.extend(self.forget_foreign(&mut linked.view).map(str::to_owned));
+        left_out.extend(self.forget_foreign(&mut linked.view).into_iter().map(str::to_owned));
         if !has_time && let Some(start_secs) = self.start_secs(&linked.view) {
             linked.view.playback.time_secs = start_secs;
         }
@@ -235,7 +235,7 @@ impl Session {
     }
 
     /// Takes out of a state what the open model does not have. Returns the names of those fields.
-    fn forget_foreign(&self, view: &mut ViewState) -> impl Iterator<Item = &'static str> + use<> {
+    fn forget_foreign(&self, view: &mut ViewState) -> Vec<&'static str> {
         let clips = self.content.clips();
         let has_clip = |name: &String| clips.iter().any(|clip| clip.name == *name);
         let submesh_count = self.submeshes().count();
@@ -279,7 +279,8 @@ impl Session {
             playback.clip = first.map(|clip| clip.name.clone());
             foreign.push(("clip", true));
         }
-        foreign.into_iter().filter(|(_, is)| *is).map(|(name, _)| name)
+        foreign.retain(|(_, is_foreign)| *is_foreign);
+        foreign.into_iter().map(|(name, _)| name).collect()
     }
 }
 

@@ -463,19 +463,3 @@ fn an_edit_that_ends_where_it_began_leaves_what_can_be_redone() {
     session.apply(EndEdit);
     assert_eq!(session.history().redo_label(), None);
 }
-
-#[test]
-fn a_step_of_several_changes_says_the_first_and_how_many_more() {
-    let mut session = opened(three_parts("a.m3d"));
-    session.apply(hide(1));
-    session.apply(Command::SetHandedness(Some(Handedness::Right)));
-    session.apply(Command::SetUpAxis(Some(UpAxis::Z)));
-    session.apply(BeginEdit);
-    session.apply(SubmeshCommand::ShowAll);
-    session.apply(Command::SetHandedness(None));
-    session.apply(Command::SetUpAxis(None));
-    session.apply(EndEdit);
-    assert_eq!(session.history().undo_label(), Some("show Y and 2 more changes"));
-    session.apply(Undo);
-    assert!(!session.submeshes().is_visible(1) && session.up_axis() == UpAxis::Z);
-}
