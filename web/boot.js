@@ -8,6 +8,7 @@ import {
 } from "./fault.js";
 import { greeting, keep, kept } from "./kept.js";
 import { mirrorOf } from "./mirror.js";
+import { keepPage, takeLaunches } from "./offline.js";
 import { backend, fetchProgram, first, options } from "./program.js";
 import { keepOnCanvas } from "./restart.js";
 import { fetchFile, readAgain, rememberSources } from "./sources.js";
@@ -122,6 +123,7 @@ const gaveWay = (name) => {
 const pick = takeChoices({ files: element("files"), folder: element("folder"), clips: element("clips") }, { receive, refuse });
 // The page has one viewer, so all of it is the viewer's.
 takeDrops(globalThis, { receive, refuse, gaveWay, openModel: () => openName, show: showDrop });
+takeLaunches(receive, refuse);
 takeUnclaimedKeys();
 printView(bindpose, () => view.querySelector("canvas"));
 element("open-files").addEventListener("click", () => pick("files"));
@@ -189,7 +191,7 @@ async function start(program, wanted, displaySecs) {
       showGpuLoss(error, gpu);
     },
   });
-  await onCanvas.start().catch((error) => {
+  await onCanvas.start().then(() => keepPage(loaded.name, say), (error) => {
     if (error.name === "WebGl2Missing") {
       // Nothing is open yet, nor drawn.
       console.info(wordsOf(error));

@@ -18,3 +18,4 @@ import "./slices.js";
 import "./lasting.js";
 import "./visits.js";
 import "./programs.js";
+import "./offline.js";

@@ -17,6 +17,8 @@
 //! | [`absent`] | which real files the tests could not look at |
 //! | [`second_tries`] | which browser tests had to be tried again |
 //! | [`dist`] | the static site: hashed names, compressed twice |
+//! | [`worker`] | what keeps that site for visits without a network |
+//! | [`headers`] | what its host is to say of each file |
 //! | [`sizes`] | the most bytes that files of the site may have: `xtask/sizes.txt` |
 //! | [`fuzz`] | files that a fuzzer makes up, read and written |
 
@@ -28,6 +30,7 @@ mod compress;
 mod dist;
 mod failure;
 mod fuzz;
+mod headers;
 mod http;
 mod list;
 mod prerequisites;
@@ -38,6 +41,7 @@ mod site;
 mod sizes;
 mod wasm;
 mod watch;
+mod worker;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
