@@ -11,17 +11,17 @@ const TYPES = {
   webmanifest: "application/manifest+json",
 };
 
-/** Serves a build below a folder; `build` may be changed, `asked` has the names that were asked for. It can stop and come back to the same address. */
+/** Serves a build below a folder; `build` may be changed, `lacks` is how names begin that it does not have, `asked` has those that were asked for. It can stop and come back to the same address. */
 export async function hostOf(build) {
   const folder = "/some/where/";
-  const host = { build, asked: [], address: "", stop, start };
+  const host = { build, asked: [], lacks: null, address: "", stop, start };
   let port = 0;
   const server = createServer(async ({ url }, response) => {
     const { pathname } = new URL(url, "http://host");
     const name = pathname.slice(folder.length) || "index.html";
     host.asked.push(name);
     try {
-      if (!pathname.startsWith(folder)) throw new Error("not of the site");
+      if (!pathname.startsWith(folder) || (host.lacks && name.startsWith(host.lacks))) throw new Error("not of the site");
       const bytes = await readFile(`${BUILDS}/${host.build}/${name}`);
       response.writeHead(200, { "Content-Type": TYPES[name.split(".").pop()] ?? "application/octet-stream" }).end(bytes);
     } catch {

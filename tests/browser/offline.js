@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { BACKEND, FIXTURES, SAMPLE, dropAndWait, keep, state, test as eachTest, turnPhone, until } from "./harness.js";
+import { BACKEND, FIXTURES, SAMPLE, dropAndWait, keep, state, test as eachTest, until } from "./harness.js";
 import { hostOf } from "./host.js";
 
 const QUERY = `?backend=${BACKEND}&quality=full&scale=0.2`;
@@ -75,8 +75,133 @@ test("after one visit the page opens without a network, and a file that is dropp
   assert.equal(await page.title(), "Findings of Bindpose");
   // What an address names is asked for each time.
   await host.start();
+  const named = page.waitForResponse(/theirs\.m3d/);
   await page.goto(`${host.address}${QUERY}&src=web/theirs.m3d`);
-  await page.waitForSelector("#notice:not([hidden]), [data-mirror]", { state: "attached" });
-  assert.ok(host.asked.includes("web/theirs.m3d"));
+  await (await named).finished();
   assert.deepEqual(Object.values(await kept(page)).flat().filter((name) => name.includes("theirs")), []);
+});
+
+test("a newer build says so, is taken by a click and leaves the pages of the older one whole", {}, async (page, host) => {
+  await visit(page, host);
+  const one = await buildOf(page);
+  const before = (await keptWhole(page, one))[`bindpose-${one}`];
+  const other = await page.context().newPage();
+  await other.setViewportSize(page.viewportSize());
+  await visit(other, host);
+  assert.equal(await page.isHidden("#newer"), true);
+
+  // A page that stays open hears of it, and so does the other.
+  host.build = "two";
+  host.asked.length = 0;
+  await page.evaluate(async () => (await navigator.serviceWorker.ready).update());
+  for (const each of [page, other]) await each.waitForSelector("#newer:not([hidden])");
+  assert.equal(await page.textContent("#spoken"), "A newer Bindpose is here: reload the page to have it now.");
+  assert.deepEqual(host.asked.filter((name) => name.endsWith(".wasm")), [], "what both builds have is not fetched again");
+  await other.click("#newer-close");
+  assert.equal(await other.isHidden("#newer"), true);
+  await keepChip(page);
+  await page.click("#newer-take");
+  await page.waitForFunction((one) => document.querySelector("meta[name=build]")?.content !== one, one);
+  await shows(page);
+  const two = await buildOf(page);
+  const after = (await keptWhole(page, two))[`bindpose-${two}`];
+  const names = await used(page);
+  assert.ok(names.length > 10 && names.every((name) => after.includes(name)), `of build two alone: ${names}`);
+  assert.ok(names.some((name) => !before.includes(name)));
+  assert.equal(await page.isHidden("#newer"), true);
+
+  // The older page goes on with its own files, which the host no longer has.
+  const gone = before.find((name) => name.startsWith("web/sample/figure.") && !after.includes(name));
+  host.asked.length = 0;
+  const { model } = await other.evaluate(async () => JSON.parse(JSON.stringify(await bindpose.reset())));
+  assert.equal(model.name, "figure.m3d");
+  assert.ok((await used(other)).includes(gone) && !host.asked.includes(gone));
+  assert.ok(`bindpose-${one}` in (await kept(page)));
+  await other.close();
+  await host.stop();
+  await visit(page, host);
+  await page.waitForFunction(async () => (await caches.keys()).length === 1);
+  assert.equal(await buildOf(page), two);
+});
+
+/** Looks at the chip in both themes, and on a narrow window. */
+async function keepChip(page) {
+  if (!process.env.KEEP) return;
+  const size = page.viewportSize();
+  for (const [width, height, where] of [[size.width, size.height, "wide"], [390, 844, "narrow"]]) {
+    await page.setViewportSize({ width, height });
+    for (const colorScheme of ["dark", "light"]) {
+      await page.emulateMedia({ colorScheme });
+      await page.waitForTimeout(2000);
+      await keep(page, `newer-${where}-${colorScheme}`);
+    }
+  }
+  await page.setViewportSize(size);
+}
+
+test("a build that does not arrive whole is left alone, and the one before it opens without a network", {}, async (page, host) => {
+  await visit(page, host);
+  const one = await buildOf(page);
+  await keptWhole(page, one);
+  host.lacks = "web/fault.";
+  host.build = "two";
+  const outcome = await page.evaluate(async () => {
+    const registration = await navigator.serviceWorker.ready;
+    const found = new Promise((done) => registration.addEventListener("updatefound", () => done(registration.installing)));
+    registration.update();
+    const worker = await found;
+    return new Promise((done) => worker.addEventListener("statechange", () => done(worker.state)));
+  });
+  assert.equal(outcome, "redundant");
+  assert.deepEqual(Object.keys(await kept(page)), [`bindpose-${one}`]);
+  assert.equal(await page.isHidden("#newer"), true);
+  await host.stop();
+  await visit(page, host);
+  assert.equal(await buildOf(page), one);
+});
+
+test("a file that the system opens with the page is a drop, and R reads it again", {
+  prepare: (page) =>
+    page.addInitScript(() => {
+      const launchQueue = { setConsumer: (consumer) => (globalThis.launch = consumer) };
+      Object.defineProperty(globalThis, "launchQueue", { value: launchQueue });
+    }),
+}, async (page, host) => {
+  await visit(page, host);
+  const launch = (text, targetURL) =>
+    page.evaluate(([text, targetURL]) => {
+      const handle = { name: "theirs.m3d", getFile: async () => new File([globalThis.text], "theirs.m3d") };
+      globalThis.text = text ?? globalThis.text;
+      globalThis.launch({ files: text ? [handle] : [], targetURL });
+    }, [text, targetURL]);
+  await launch(readFileSync(OTHER, "utf8"), host.address);
+  await shows(page, "theirs.m3d");
+  const { counts } = (await state(page)).model;
+  await page.evaluate(async (text) => (globalThis.text = text), readFileSync(SAMPLE, "utf8"));
+  await page.mouse.click(520, 300);
+  await page.keyboard.press("r");
+  await until(page, ({ model }) => model?.name === "theirs.m3d" && model.counts.vertices !== counts.vertices);
+  // The page's own icon leaves it as it is, a shortcut does not.
+  await launch(null, host.address);
+  assert.equal((await state(page)).model.name, "theirs.m3d");
+  await launch(null, `${host.address}${QUERY}&crowd=2`);
+  await page.waitForURL(/crowd=2$/, { waitUntil: "commit" });
+});
+
+test("what another program shares goes through the worker, opens as a drop and is kept no longer", {}, async (page, host) => {
+  await visit(page, host);
+  await keptWhole(page, await buildOf(page));
+  const address = await page.evaluate(async (text) => {
+    const form = new FormData();
+    form.append("files", new File([text], "shared.m3d", { type: "text/plain" }));
+    return (await fetch("share", { method: "POST", body: form })).url;
+  }, readFileSync(OTHER, "utf8"));
+  assert.ok(!host.asked.includes("share"), "the host never sees it");
+  await page.goto(address);
+  await until(page, ({ model }) => model?.name === "shared.m3d");
+  assert.equal(page.url(), host.address, "a reload does not ask for it again");
+  assert.deepEqual(Object.entries(await kept(page)).find(([name]) => name === "shared")[1], []);
+  await page.goto(address);
+  await page.waitForSelector("#notice:not([hidden])");
+  assert.match(await page.textContent("#notice-words"), /What was shared with Bindpose did not arrive/);
 });
