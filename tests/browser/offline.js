@@ -143,18 +143,26 @@ test("a build that does not arrive whole is left alone, and the one before it op
   await visit(page, host);
   const one = await buildOf(page);
   await keptWhole(page, one);
-  host.lacks = "web/fault.";
   host.build = "two";
-  const outcome = await page.evaluate(async () => {
-    const registration = await navigator.serviceWorker.ready;
-    const found = new Promise((done) => registration.addEventListener("updatefound", () => done(registration.installing)));
-    registration.update();
-    const worker = await found;
-    return new Promise((done) => worker.addEventListener("statechange", () => done(worker.state)));
-  });
-  assert.equal(outcome, "redundant");
-  assert.deepEqual(Object.keys(await kept(page)), [`bindpose-${one}`]);
-  assert.equal(await page.isHidden("#newer"), true);
+  const devtools = await page.context().newCDPSession(page);
+  const hinder = {
+    "a file is missing": () => (host.lacks = "web/fault."),
+    "there is no room": () => devtools.send("Storage.overrideQuotaForOrigin", { origin: new URL(host.address).origin, quotaSize: 1 }),
+  };
+  for (const [why, begin] of Object.entries(hinder)) {
+    host.lacks = null;
+    await begin();
+    const outcome = await page.evaluate(async () => {
+      const registration = await navigator.serviceWorker.ready;
+      const found = new Promise((done) => registration.addEventListener("updatefound", () => done(registration.installing), { once: true }));
+      registration.update();
+      const worker = await found;
+      return new Promise((done) => worker.addEventListener("statechange", () => done(worker.state)));
+    });
+    assert.equal(outcome, "redundant", why);
+    assert.deepEqual(Object.keys(await kept(page)), [`bindpose-${one}`], why);
+    assert.equal(await page.isHidden("#newer"), true, why);
+  }
   await host.stop();
   await visit(page, host);
   assert.equal(await buildOf(page), one);
@@ -186,6 +194,25 @@ test("a file that the system opens with the page is a drop, and R reads it again
   assert.equal((await state(page)).model.name, "theirs.m3d");
   await launch(null, `${host.address}${QUERY}&crowd=2`);
   await page.waitForURL(/crowd=2$/, { waitUntil: "commit" });
+});
+
+test("the manifest is sound, and what it names is there", {}, async (page, host) => {
+  await page.goto(host.address);
+  const devtools = await page.context().newCDPSession(page);
+  const { url, data, errors } = await devtools.send("Page.getAppManifest");
+  assert.deepEqual(errors, []);
+  const { icons, screenshots, shortcuts } = JSON.parse(data);
+  const pictures = [icons, screenshots, ...shortcuts.map((shortcut) => shortcut.icons)].flat();
+  const sizes = await page.evaluate(
+    (addresses) =>
+      Promise.all(addresses.map(async (src) => {
+        const image = Object.assign(new Image(), { src });
+        await image.decode();
+        return `${image.naturalWidth}x${image.naturalHeight}`;
+      })),
+    pictures.map(({ src }) => new URL(src, url).href),
+  );
+  for (const [index, { sizes: told }] of pictures.entries()) assert.ok([sizes[index], "any"].includes(told), `${told} is ${sizes[index]}`);
 });
 
 test("what another program shares goes through the worker, opens as a drop and is kept no longer", {}, async (page, host) => {

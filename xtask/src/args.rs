@@ -25,7 +25,8 @@ Bindpose's own commands. Each does its set-up itself.
         --only      of these the tests whose name fits a regular expression
 
     cargo xtask pictures
-        The README's pictures, drawn by the page in Chromium: assets/page/ and, beside three.js, assets/beside/.
+        The README's pictures and those of the manifest, drawn by the page in Chromium: assets/page/, web/install/ and,
+        beside three.js, assets/beside/.
 
     cargo xtask dist
         The static site in dist/: smallest download, hashed names, .br and .gz beside each file.

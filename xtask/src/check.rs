@@ -73,7 +73,7 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     second_tries::judge(&second_tries.read()?)
 }
 
-/// Draws the README's pictures, and those beside three.js.
+/// Draws the README's pictures, those of the manifest, and those beside three.js.
 pub(crate) fn pictures() -> Result<(), Failure> {
     let mut steps = Steps::new();
     steps.step("What the pictures are drawn with", prerequisites::ensure)?;
@@ -82,6 +82,7 @@ pub(crate) fn pictures() -> Result<(), Failure> {
     let page = served(&mut steps, site)?;
     let draw = |tests| node(run, None, tests, &page).run();
     steps.step("The pictures", || draw("tests/browser/readme.js"))?;
+    steps.step("What a system shows of the page", || draw("tests/browser/install.js"))?;
     steps.step("The same beside three.js", || draw("tests/browser/beside.js"))
 }
 
