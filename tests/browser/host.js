@@ -2,6 +2,7 @@
 
 import { createServer } from "node:http";
 import { readFile } from "node:fs/promises";
+import { gzipSync } from "node:zlib";
 
 /** The builds that `cargo xtask test` has written: `one` and `two`. */
 const { BUILDS } = process.env;
@@ -23,7 +24,9 @@ export async function hostOf(build) {
     try {
       if (!pathname.startsWith(folder) || (host.lacks && name.startsWith(host.lacks))) throw new Error("not of the site");
       const bytes = await readFile(`${BUILDS}/${host.build}/${name}`);
-      response.writeHead(200, { "Content-Type": TYPES[name.split(".").pop()] ?? "application/octet-stream" }).end(bytes);
+      const type = TYPES[name.split(".").pop()] ?? "application/octet-stream";
+      if (type.startsWith("text/")) response.writeHead(200, { "Content-Type": type, "Content-Encoding": "gzip" }).end(gzipSync(bytes));
+      else response.writeHead(200, { "Content-Type": type }).end(bytes);
     } catch {
       // Many hosts answer so for what they do not have.
       response.writeHead(200, { "Content-Type": "text/html" }).end("<!doctype html><title>Nothing is here</title>");

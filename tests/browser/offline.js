@@ -81,12 +81,17 @@ test("after one visit the page opens without a network, and a file that is dropp
   assert.deepEqual(Object.values(await kept(page)).flat().filter((name) => name.includes("theirs")), []);
 });
 
+eachTest("the page as it is served while one develops has no worker", {}, async (page) => {
+  assert.deepEqual(await page.evaluate(async () => [(await navigator.serviceWorker.getRegistrations()).length, globalThis.caches && (await caches.keys())]), [0, []]);
+});
+
 test("a newer build says so, is taken by a click and leaves the pages of the older one whole", {}, async (page, host) => {
   await visit(page, host);
   const one = await buildOf(page);
   const before = (await keptWhole(page, one))[`bindpose-${one}`];
   const other = await page.context().newPage();
   await other.setViewportSize(page.viewportSize());
+  await other.emulateMedia({ reducedMotion: "reduce" });
   await visit(other, host);
   assert.equal(await page.isHidden("#newer"), true);
 
@@ -95,11 +100,11 @@ test("a newer build says so, is taken by a click and leaves the pages of the old
   host.asked.length = 0;
   await page.evaluate(async () => (await navigator.serviceWorker.ready).update());
   for (const each of [page, other]) await each.waitForSelector("#newer:not([hidden])");
-  assert.equal(await page.textContent("#spoken"), "A newer Bindpose is here: reload the page to have it now.");
+  await page.waitForFunction(() => document.getElementById("spoken").textContent.includes("A newer Bindpose is here: reload the page to have it now."));
   assert.deepEqual(host.asked.filter((name) => name.endsWith(".wasm")), [], "what both builds have is not fetched again");
   await other.click("#newer-close");
   assert.equal(await other.isHidden("#newer"), true);
-  await keepChip(page);
+  await keepCard(page);
   await page.click("#newer-take");
   await page.waitForFunction((one) => document.querySelector("meta[name=build]")?.content !== one, one);
   await shows(page);
@@ -124,8 +129,8 @@ test("a newer build says so, is taken by a click and leaves the pages of the old
   assert.equal(await buildOf(page), two);
 });
 
-/** Looks at the chip in both themes, and on a narrow window. */
-async function keepChip(page) {
+/** Looks at the card in both themes, and on a narrow window. */
+async function keepCard(page) {
   if (!process.env.KEEP) return;
   const size = page.viewportSize();
   for (const [width, height, where] of [[size.width, size.height, "wide"], [390, 844, "narrow"]]) {
