@@ -44,6 +44,7 @@ let handing = 0; // How much of it is being opened.
 let replaced = []; // Names of what was dropped before something else, and gave way to it.
 let received = false; // Whether the person opened anything, readable or not.
 const sources = rememberSources();
+const programs = []; // The names of those that this visit took.
 let choices = null; // Of the person, as they were when the visit began.
 
 /** Resets the page to how a visit begins, without loading the program again. Resolves with the new state. */
@@ -165,6 +166,7 @@ async function start(program, wanted, displaySecs) {
   try {
     loaded = await program;
     viewer = new loaded.module.Viewer({ ...kept(), renderScale: addressedScale(), quality: addressedQuality(), samples: addressedSamples(), displaySecs: displaySecs() }, onEvent);
+    programs.push(loaded.name);
     watchBattery(viewer);
     choices = choicesNow();
   } catch (error) {
@@ -191,7 +193,7 @@ async function start(program, wanted, displaySecs) {
       showGpuLoss(error, gpu);
     },
   });
-  await onCanvas.start().then(() => keepPage(loaded.name, say), (error) => {
+  await onCanvas.start().then(() => keepPage(programs, say), (error) => {
     if (error.name === "WebGl2Missing") {
       // Nothing is open yet, nor drawn.
       console.info(wordsOf(error));

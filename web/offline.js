@@ -15,12 +15,12 @@ const address = location.href;
 // As long as the page lives, the worker keeps the files of its build.
 if (worker) navigator.locks?.request(`bindpose-${build}`, { mode: "shared" }, () => new Promise(() => {}));
 
-/** Keeps the page for visits without a network, with the program that it runs; `say(words)` has a newer build spoken of, which the page shows. */
-export async function keepPage(program, say) {
+/** Keeps the page for visits without a network, with the programs that it took; `say(words)` has a newer build spoken of, which the page shows. */
+export async function keepPage(programs, say) {
   if (!worker) return;
   element("newer-take").addEventListener("click", () => location.reload());
   element("newer-close").addEventListener("click", () => (element("newer").hidden = true));
-  const tell = () => worker.controller?.postMessage({ program });
+  const tell = () => worker.controller?.postMessage({ programs });
   worker.addEventListener("message", ({ data }) => data.build === build || showNewer(say));
   worker.addEventListener("controllerchange", tell);
   tell();

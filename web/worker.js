@@ -24,7 +24,7 @@ addEventListener("activate", (event) => event.waitUntil(Promise.all([clients.cla
 addEventListener("message", (event) => {
   event.source.postMessage({ build: BUILD });
   // Where there is no room for it, visits go on as they did.
-  event.waitUntil(keep(FILES[event.data.program] ?? []).catch(() => {}));
+  event.waitUntil(keep(filesOf(event.data.programs)).catch(() => {}));
 });
 addEventListener("fetch", (event) => {
   const { request } = event;
@@ -44,14 +44,15 @@ addEventListener("fetch", (event) => {
 /** All or nothing: until the last file is there, the build before this one stays. */
 async function install() {
   try {
-    const programs = await usedPrograms();
-    await keep([FILES.shell, ...programs.map((program) => FILES[program])].flat());
+    await keep([...FILES.shell, ...filesOf(await usedPrograms())]);
   } catch (error) {
     await caches.delete(KEPT);
     throw error;
   }
   await skipWaiting();
 }
+
+const filesOf = (programs) => programs.flatMap((program) => FILES[program] ?? []);
 
 /** The programs that are kept of other builds. */
 async function usedPrograms() {

@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { BACKEND, FIXTURES, SAMPLE, dropAndWait, keep, state, test as eachTest, until } from "./harness.js";
 import { hostOf } from "./host.js";
+import { pretendGpu } from "./programs.js";
 
 const QUERY = `?backend=${BACKEND}&quality=full&scale=0.2`;
 const OTHER = `${FIXTURES}good/d3d12_skinned.m3d`;
@@ -44,11 +45,12 @@ const kept = (page) =>
     return builds;
   });
 
-/** Waits until a build and its program are kept; gives all that is. */
-async function keptWhole(page, build) {
+/** Waits until a build and so many programs are kept; gives all that is. */
+async function keptWhole(page, build, programs = 1) {
   for (const deadline = Date.now() + 30_000; ; await new Promise((done) => setTimeout(done, 50))) {
     const builds = await kept(page).catch(() => ({}));
-    if (builds[`bindpose-${build}`]?.some((name) => name.endsWith(".wasm"))) return builds;
+    const names = builds[`bindpose-${build}`] ?? [];
+    if (names.filter((name) => name.startsWith("pkg/")).length === 2 * programs) return builds;
     assert.ok(Date.now() < deadline, JSON.stringify(builds));
   }
 }
@@ -79,6 +81,19 @@ test("after one visit the page opens without a network, and a file that is dropp
   await page.goto(`${host.address}${QUERY}&src=web/theirs.m3d`);
   await (await named).finished();
   assert.deepEqual(Object.values(await kept(page)).flat().filter((name) => name.includes("theirs")), []);
+});
+
+const onWebGpu = BACKEND === "webgpu" ? test : () => {};
+onWebGpu("a visit that took both programs opens without a network too", { prepare: pretendGpu({ device: "refused" }) }, async (page, host) => {
+  const open = async () => {
+    await page.goto(`${host.address}?quality=full&scale=0.2`);
+    await until(page, ({ backend, model }) => backend === "webgl2" && model?.name === "figure.m3d");
+  };
+  await open();
+  const names = (await keptWhole(page, await buildOf(page), 2))[`bindpose-${await buildOf(page)}`];
+  assert.equal(names.filter((name) => name.startsWith("pkg/")).length, 4);
+  await host.stop();
+  await open();
 });
 
 eachTest("the page as it is served while one develops has no worker", {}, async (page) => {
