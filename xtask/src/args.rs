@@ -29,7 +29,8 @@ Bindpose's own commands. Each does its set-up itself.
         beside three.js, assets/beside/.
 
     cargo xtask dist
-        The static site in dist/: smallest download, hashed names, .br and .gz beside each file.
+        The static site in dist/: smallest download, hashed names, .br and .gz beside each file, the worker that keeps it
+        for visits without a network, _headers for hosts that read it.
 
     cargo xtask bench [--counts] [--browser [--dist] [--model FILE]]
         What speed is: one of these at least.
