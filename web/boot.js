@@ -9,6 +9,7 @@ import {
 import { greeting, keep, kept } from "./kept.js";
 import { embedding, keepLink } from "./link.js";
 import { mirrorOf } from "./mirror.js";
+import { keepPage, takeLaunches } from "./offline.js";
 import { backend, fetchProgram, first, options } from "./program.js";
 import { keepOnCanvas } from "./restart.js";
 import { fetchFrom, fetchOwn, readAgain, rememberSources } from "./sources.js";
@@ -44,6 +45,7 @@ let handing = 0; // How much of it is being opened.
 let replaced = []; // Names of what was dropped before something else, and gave way to it.
 let received = false; // Whether the person opened anything, readable or not.
 const sources = rememberSources();
+const programs = []; // The names of those that this visit took.
 let choices = null; // Of the person, as they were when the visit began.
 
 const link = keepLink({
@@ -141,6 +143,7 @@ const gaveWay = (name) => {
 const pick = takeChoices({ files: element("files"), folder: element("folder"), clips: element("clips") }, { receive, refuse });
 // The page has one viewer, so all of it is the viewer's.
 takeDrops(globalThis, { receive, refuse, gaveWay, openModel: () => openName, show: showDrop });
+takeLaunches(receive, refuse);
 takeUnclaimedKeys();
 printView(bindpose, () => view.querySelector("canvas"));
 element("open-files").addEventListener("click", () => pick("files"));
@@ -188,6 +191,7 @@ async function start(program, wanted, displaySecs) {
   try {
     loaded = await program;
     viewer = new loaded.module.Viewer({ ...kept(), renderScale: addressedScale(), quality: addressedQuality(), samples: addressedSamples(), ui: options.get("ui") ?? undefined, displaySecs: displaySecs() }, onEvent);
+    programs.push(loaded.name);
     watchBattery(viewer);
     choices = choicesNow();
   } catch (error) {
@@ -214,7 +218,7 @@ async function start(program, wanted, displaySecs) {
       showGpuLoss(error, gpu);
     },
   });
-  await onCanvas.start().catch((error) => {
+  await onCanvas.start().then(() => keepPage(programs, say), (error) => {
     if (error.name === "WebGl2Missing") {
       // Nothing is open yet, nor drawn.
       console.info(wordsOf(error));

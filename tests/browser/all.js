@@ -19,3 +19,4 @@ import "./lasting.js";
 import "./visits.js";
 import "./link.js";
 import "./programs.js";
+import "./offline.js";

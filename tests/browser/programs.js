@@ -11,7 +11,7 @@ const { full, webgpu } = FOLDERS;
 const COARSE = "quality=full&scale=0.2";
 
 /** For `prepare`: the GPU of software says that it is another one. What is asked of the adapter can be written anew. */
-const pretendGpu = ({ name = "", isFallbackAdapter = false, adapter = "real", device = "real" } = {}) => (page) =>
+export const pretendGpu = ({ name = "", isFallbackAdapter = false, adapter = "real", device = "real" } = {}) => (page) =>
   page.addInitScript(({ name, isFallbackAdapter, adapter, device }) => {
     for (const [key, value] of Object.entries({ description: name, isFallbackAdapter })) {
       Object.defineProperty(GPUAdapterInfo.prototype, key, { get: () => value });

@@ -25,10 +25,13 @@ Bindpose's own commands. Each does its set-up itself.
         --only      of these the tests whose name fits a regular expression
 
     cargo xtask pictures
-        The README's pictures, drawn by the page in Chromium: assets/page/ and, beside three.js, assets/beside/.
+        The README's pictures and those of the manifest, drawn by the page in Chromium: assets/page/, web/install/ and,
+        beside three.js, assets/beside/.
 
     cargo xtask dist
-        The static site in dist/: smallest download, hashed names, .br and .gz beside each file, and the licences of all.
+        The static site in dist/: smallest download, hashed names, .br and .gz beside each file, the worker that keeps it
+        for visits without a network, _headers for hosts that read it, and the licences of
+        all.
 
     cargo xtask licenses TARGET
         What the command `bindpose` is made of when it is built for TARGET, and the licences of it, for whoever passes it on.

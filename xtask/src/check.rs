@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use crate::absent;
 use crate::args::{BenchOptions, TestOptions};
 use crate::browsers::{Browser, BrowserRun, RUNS};
+use crate::dist;
 use crate::failure::Failure;
 use crate::fuzz::{self, FuzzOptions};
 use crate::list::List;
@@ -37,7 +38,9 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     if !options.browser_alone {
         native(&mut steps, &absent, options.long)?;
     }
-    let page = page(&mut steps, Profile::Dev, &options.browsers)?;
+    let site = site(&mut steps, Profile::Dev, &options.browsers)?;
+    steps.step("Two builds as hosts have them", || dist::write_for_tests(&site))?;
+    let page = served(&mut steps, site)?;
     if !options.browser_alone {
         steps.step("The page's scripts alone", || {
             Line::new("node")
@@ -70,14 +73,16 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     second_tries::judge(&second_tries.read()?)
 }
 
-/// Draws the README's pictures, and those beside three.js.
+/// Draws the README's pictures, those of the manifest, and those beside three.js.
 pub(crate) fn pictures() -> Result<(), Failure> {
     let mut steps = Steps::new();
     steps.step("What the pictures are drawn with", prerequisites::ensure)?;
     let run = RUNS[1];
-    let page = page(&mut steps, Profile::Dev, &[run])?;
+    let site = site(&mut steps, Profile::Dev, &[run])?;
+    let page = served(&mut steps, site)?;
     let draw = |tests| node(run, None, tests, &page).run();
     steps.step("The pictures", || draw("tests/browser/readme.js"))?;
+    steps.step("What a system shows of the page", || draw("tests/browser/install.js"))?;
     steps.step("The same beside three.js", || draw("tests/browser/beside.js"))
 }
 
@@ -92,7 +97,8 @@ pub(crate) fn bench(options: &BenchOptions) -> Result<(), Failure> {
     }
     steps.step("What the page is measured with", prerequisites::ensure)?;
     let profile = if options.dist { Profile::Dist } else { Profile::Release };
-    let page = page(&mut steps, profile, &RUNS)?;
+    let site = site(&mut steps, profile, &RUNS)?;
+    let page = served(&mut steps, site)?;
     steps.step("The page in numbers", || {
         // Both backends in one run: the script starts itself for each.
         Line::new("node")
@@ -114,8 +120,8 @@ fn counts(steps: &mut Steps) -> Result<(), Failure> {
     })
 }
 
-/// Builds the page for these runs, serves it and brings what drives the browsers. Gives its address.
-fn page(steps: &mut Steps, profile: Profile, runs: &[BrowserRun]) -> Result<String, Failure> {
+/// Builds the page for these runs.
+fn site(steps: &mut Steps, profile: Profile, runs: &[BrowserRun]) -> Result<Site, Failure> {
     let full = steps.step("The wasm", || wasm::build(profile, Program::Full))?;
     if profile == Profile::Dev {
         steps.step("How large it is", || sizes::of_development(&full))?;
@@ -123,7 +129,11 @@ fn page(steps: &mut Steps, profile: Profile, runs: &[BrowserRun]) -> Result<Stri
     let on_web_gpu = runs.iter().any(|run| run.backend == "webgpu");
     let build = || wasm::build(profile, Program::WebGpu);
     let web_gpu = on_web_gpu.then(|| steps.step("The wasm for WebGPU alone", build));
-    let site = Site::new(full, web_gpu.transpose()?);
+    Ok(Site::new(full, web_gpu.transpose()?))
+}
+
+/// Serves the page and brings what drives the browsers. Gives its address.
+fn served(steps: &mut Steps, site: Site) -> Result<String, Failure> {
     let page = format!("http://{}/", serve::start(serve::listen(0)?, site)?);
     steps.step("What drives the browsers", || {
         Line::new(prerequisites::NPM)
@@ -212,6 +222,7 @@ fn node(run: BrowserRun, only: Option<&str>, tests: &str, page: &str) -> Line {
         .env("PROGRAM", prerequisites::program(run.browser).unwrap_or_default())
         .env("PAGE", page)
         .env("BACKEND", run.backend)
+        .env("BUILDS", dist::builds_for_tests())
 }
 
 /// Drives the first browser, and meanwhile the others one after the other: a page that software draws waits for its frames more than it

@@ -1,7 +1,8 @@
 //! `cargo xtask dist`: the site as static files that a host may keep for ever.
 //!
-//! Each file but the pages and the licences has a part of its content's hash in its name, and every reference to it is rewritten. A file
-//! is named after those it refers to, so a change below changes the names above it.
+//! Each file has a part of its content's hash in its name, and every reference to it is rewritten. A file is named after those it refers to, so a
+//! change below changes the names above it. Pages, the licences, the manifest and the worker keep their
+//! names.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -9,10 +10,12 @@ use std::path::{Path, PathBuf};
 
 use crate::compress::{Coding, Effort};
 use crate::failure::{Doing as _, Failure};
+use crate::headers;
 use crate::licenses;
 use crate::site::Site;
 use crate::sizes::{self, Size};
 use crate::wasm::{self, Profile, Program};
+use crate::worker;
 
 /// The viewer's page. Others lead back to it, so it comes last; pages keep their names, and so do the licences.
 const PAGE: &str = "index.html";
@@ -24,22 +27,17 @@ const REFERRING: [&str; 4] = [".html", ".js", ".css", ".webmanifest"];
 pub(crate) fn run() -> Result<(), Failure> {
     let program = |program| wasm::build(Profile::Dist, program);
     let site = Site::new(program(Program::Full)?, Some(program(Program::WebGpu)?));
-    let mut sources = BTreeMap::new();
-    for address in site.addresses()? {
-        if let Some(path) = site.locate(&address) {
-            let bytes = site.read(&address, &path)?;
-            sources.insert(address, bytes);
-        }
-    }
+    let mut sources = sources(&site)?;
     sources.insert(licenses::NAME.to_owned(), licenses::of_the_page()?.into_bytes());
+    let files = made(sources)?;
     let dist = crate::root().join("dist");
     if dist.exists() {
         fs::remove_dir_all(&dist).doing("removing dist/")?;
     }
     println!("{:>10} {:>10} {:>10}  dist/", "raw", "gzip", "brotli");
     let (mut totals, mut made) = ([0; 3], Vec::new());
-    for (name, bytes) in hashed(&sources)? {
-        let sizes = write(&dist, &name, &bytes)?;
+    for (name, bytes) in &files {
+        let sizes = write(&dist, name, bytes)?;
         println!(
             "{:>10} {:>10} {:>10}  {name}",
             grouped(sizes[0]),
@@ -49,7 +47,7 @@ pub(crate) fn run() -> Result<(), Failure> {
         for (total, size) in totals.iter_mut().zip(sizes) {
             *total += size;
         }
-        made.push(Size::new(&name, sizes[0], sizes[2]));
+        made.push(Size::new(name, sizes[0], sizes[2]));
     }
     println!(
         "{:>10} {:>10} {:>10}  in all",
@@ -57,23 +55,73 @@ pub(crate) fn run() -> Result<(), Failure> {
         grouped(totals[1]),
         grouped(totals[2])
     );
+    write_file(&dist, headers::NAME, headers::made(&files).as_bytes())?;
+    println!("\n{}", headers::ADVICE);
     sizes::compare(Profile::Dist, &made)
+}
+
+/// Where [`write_for_tests`] writes.
+pub(crate) fn builds_for_tests() -> PathBuf {
+    crate::target_dir().join("tmp/builds")
+}
+
+/// Writes two builds of a site as hosts have them, `one` and `two`, which differ in a script and in the sample.
+pub(crate) fn write_for_tests(site: &Site) -> Result<(), Failure> {
+    let folder = builds_for_tests();
+    if folder.exists() {
+        fs::remove_dir_all(&folder).doing(format!("removing {}", folder.display()))?;
+    }
+    for build in ["one", "two"] {
+        let mut sources = sources(site)?;
+        for address in ["web/fault.js", "web/sample/figure.m3d"] {
+            let file = sources.get_mut(address).filter(|_| build == "two");
+            file.into_iter().for_each(|bytes| bytes.push(b'\n'));
+        }
+        for (name, bytes) in made(sources)? {
+            write_file(&folder.join(build), &name, &bytes)?;
+        }
+    }
+    Ok(())
+}
+
+/// The files of a site by their addresses.
+fn sources(site: &Site) -> Result<BTreeMap<String, Vec<u8>>, Failure> {
+    let mut sources = BTreeMap::new();
+    for address in site.addresses()? {
+        if let Some(path) = site.locate(&address) {
+            let bytes = site.read(&address, &path)?;
+            sources.insert(address, bytes);
+        }
+    }
+    Ok(sources)
+}
+
+/// The same as a host gets them: under hashed names, with the worker that keeps them.
+fn made(mut sources: BTreeMap<String, Vec<u8>>) -> Result<BTreeMap<String, Vec<u8>>, Failure> {
+    let template = sources.remove(worker::TEMPLATE).unwrap_or_default();
+    let mut files = hashed(&sources)?;
+    worker::join(&mut files, &String::from_utf8_lossy(&template))?;
+    Ok(files)
+}
+
+fn write_file(dir: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, Failure> {
+    let path = dir.join(name);
+    if let Some(dir) = path.parent() {
+        fs::create_dir_all(dir).doing(format!("making {}", dir.display()))?;
+    }
+    fs::write(&path, bytes).doing(format!("writing {}", path.display()))?;
+    Ok(path)
 }
 
 /// Writes a file and its compressed twins; gives the three sizes.
 fn write(dist: &Path, name: &str, bytes: &[u8]) -> Result<[usize; 3], Failure> {
-    let path = dist.join(name);
-    if let Some(dir) = path.parent() {
-        fs::create_dir_all(dir).doing(format!("making {}", dir.display()))?;
-    }
     let twins = [
         (".gz", Coding::Gzip.encode(bytes, Effort::Best)),
         (".br", Coding::Brotli.encode(bytes, Effort::Best)),
     ];
-    fs::write(&path, bytes).doing(format!("writing {}", path.display()))?;
+    write_file(dist, name, bytes)?;
     for (suffix, twin) in &twins {
-        let path = PathBuf::from(format!("{}{suffix}", path.display()));
-        fs::write(&path, twin).doing(format!("writing {}", path.display()))?;
+        write_file(dist, &format!("{name}{suffix}"), twin)?;
     }
     Ok([bytes.len(), twins[0].1.len(), twins[1].1.len()])
 }
@@ -117,7 +165,7 @@ impl Naming<'_> {
         let bytes = self.rewritten(address)?;
         self.open.pop();
         let name = match (address, address.rsplit_once('.')) {
-            (licenses::NAME, _) | (_, None | Some((_, "html"))) => address.to_owned(),
+            (licenses::NAME, _) | (_, None | Some((_, "html" | "webmanifest"))) => address.to_owned(),
             (_, Some((stem, extension))) => format!("{stem}.{:016x}.{extension}", fnv1a(&bytes)),
         };
         self.names.insert(address.to_owned(), name.clone());
@@ -176,7 +224,7 @@ fn resolved(folder: &str, reference: &str) -> Option<String> {
 }
 
 /// FNV-1a, 64 bits: enough to tell versions of one file apart. It guards against nothing else.
-fn fnv1a(bytes: &[u8]) -> u64 {
+pub(crate) fn fnv1a(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
     })
@@ -220,7 +268,7 @@ fn page() -> BTreeMap<String, Vec<u8>> {
 /// The same under the names that `dist` gives them.
 #[cfg(test)]
 pub(crate) fn of_the_page() -> BTreeMap<String, Vec<u8>> {
-    hashed(&page()).expect("no circle")
+    made(page()).expect("no circle")
 }
 
 #[cfg(test)]
@@ -272,8 +320,7 @@ mod tests {
 
     #[test]
     fn no_file_of_the_real_page_refers_to_a_name_that_is_gone() {
-        let files = page();
-        let built = hashed(&files).expect("no circle");
+        let (files, built) = (page(), of_the_page());
         assert_eq!(built.len(), files.len());
         assert!(
             built.contains_key(licenses::NAME),
@@ -291,7 +338,7 @@ mod tests {
             .filter(|(name, _)| REFERRING.iter().any(|end| name.ends_with(end)))
         {
             let text = std::str::from_utf8(bytes).expect("text");
-            for gone in files.keys().filter(|address| !address.ends_with(".html")) {
+            for gone in files.keys().filter(|address| !built.contains_key(*address)) {
                 let (folder, file) = gone.rsplit_once('/').unwrap_or(("", gone));
                 assert!(!text.contains(&format!("/{file}\"")), "{name} still refers to {gone}");
                 // A bare name is a reference only to a neighbour; elsewhere it is a name to show.

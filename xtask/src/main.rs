@@ -20,6 +20,8 @@
 //! | [`packages`] | which packages a program is made of |
 //! | [`licenses`] | what they are passed on under: `licenses.txt` |
 //! | `published`, for tests | what the library's package holds |
+//! | [`worker`] | what keeps that site for visits without a network |
+//! | [`headers`] | what its host is to say of each file |
 //! | [`sizes`] | the most bytes that files of the site may have: `xtask/sizes.txt` |
 //! | [`fuzz`] | files that a fuzzer makes up, read and written |
 
@@ -31,6 +33,7 @@ mod compress;
 mod dist;
 mod failure;
 mod fuzz;
+mod headers;
 mod http;
 mod licenses;
 mod list;
@@ -45,6 +48,7 @@ mod site;
 mod sizes;
 mod wasm;
 mod watch;
+mod worker;
 
 use std::path::PathBuf;
 use std::process::ExitCode;

@@ -22,15 +22,24 @@ pub(crate) struct Size {
 impl Size {
     /// Of a file by its address; the hash that `dist` puts into names is left out.
     pub(crate) fn new(name: &str, raw: usize, brotli: usize) -> Self {
-        let is_hash = |part: &str| part.len() == 16 && part.bytes().all(|byte| byte.is_ascii_hexdigit());
-        let parts: Vec<&str> = name.split('.').collect();
-        let address = match parts[..] {
-            [ref stem @ .., hash, extension] if !stem.is_empty() && is_hash(hash) => {
-                format!("{}.{extension}", stem.join("."))
-            }
-            _ => name.to_owned(),
-        };
+        let address = without_hash(name).unwrap_or_else(|| name.to_owned());
         Self { address, raw, brotli }
+    }
+}
+
+/// Whether a name has the hash that `dist` puts into it.
+pub(crate) fn is_hashed(name: &str) -> bool {
+    without_hash(name).is_some()
+}
+
+fn without_hash(name: &str) -> Option<String> {
+    let is_hash = |part: &str| part.len() == 16 && part.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let parts: Vec<&str> = name.split('.').collect();
+    match parts[..] {
+        [ref stem @ .., hash, extension] if !stem.is_empty() && is_hash(hash) => {
+            Some(format!("{}.{extension}", stem.join(".")))
+        }
+        _ => None,
     }
 }
 
