@@ -16,7 +16,7 @@ dist/ is complete: any folder of any host over HTTPS will do. Netlify and Cloudf
   - names with a hash may be kept for ever:        Cache-Control: public, max-age=31536000, immutable
   - pages, sw.js and the manifest are asked for:   Cache-Control: no-cache
   - .wasm is application/wasm, and .m3d is text, which hosts compress; .br and .gz lie beside each file
-  - who may frame the page only a header can say:  Content-Security-Policy: frame-ancestors 'self'";
+  - who may frame the page only a header can say:  Content-Security-Policy: frame-ancestors *";
 
 /// Its text. Where two rules hold, these hosts join their values, so each field is in one of them.
 pub(crate) fn made(files: &BTreeMap<String, Vec<u8>>) -> String {
@@ -56,7 +56,14 @@ mod tests {
                 .map(str::trim)
                 .collect::<Vec<_>>()
         };
-        for asked in ["", "index.html", "web/codes.html", "sw.js", "web/bindpose.webmanifest"] {
+        for asked in [
+            "",
+            "index.html",
+            "web/codes.html",
+            "licenses.txt",
+            "sw.js",
+            "web/bindpose.webmanifest",
+        ] {
             assert_eq!(rule(asked)[1], "Cache-Control: no-cache", "{asked}");
         }
         assert_eq!(rule("sw.js")[0], "Content-Type: text/javascript; charset=utf-8");
@@ -68,8 +75,8 @@ mod tests {
             }
             hashed += 1;
         }
-        assert_eq!(hashed + 4, files.len());
+        assert_eq!(hashed + 5, files.len());
         assert!(text.starts_with("/*\n  Content-Security-Policy: default-src 'self'; "));
-        assert!(text.contains("; form-action 'none'; frame-ancestors 'self'\n"));
+        assert!(text.contains("; form-action 'none'; frame-ancestors *\n"));
     }
 }

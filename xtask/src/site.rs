@@ -13,8 +13,8 @@ pub(crate) const CONTENT_SECURITY_POLICY: &str = "default-src 'self'; script-src
      style-src 'self'; img-src 'self' blob: data:; connect-src 'self' blob: https: http://localhost:* http://127.0.0.1:*; worker-src 'self' blob:; base-uri 'none'; \
      object-src 'none'; form-action 'none'";
 
-/// Who may show the page in a frame. Only a header can say it.
-pub(crate) const FRAME_ANCESTORS: &str = "frame-ancestors 'self'";
+/// Who may show the page in a frame: everyone, since people copy such frames from it. Only a header can say it.
+pub(crate) const FRAME_ANCESTORS: &str = "frame-ancestors *";
 
 /// The site as it lies on the disk.
 #[derive(Clone, Debug)]
