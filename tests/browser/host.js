@@ -33,6 +33,9 @@ export async function hostOf(build) {
     }
   });
 
+  // One that comes while it stops would be waited for.
+  server.on("connection", (socket) => server.listening || socket.destroy());
+
   async function start() {
     await new Promise((done) => server.listen(port, "127.0.0.1", done));
     ({ port } = server.address());

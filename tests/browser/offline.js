@@ -6,7 +6,7 @@ import { BACKEND, FIXTURES, SAMPLE, dropAndWait, keep, state, test as eachTest, 
 import { hostOf } from "./host.js";
 import { pretendGpu } from "./programs.js";
 
-const QUERY = `?backend=${BACKEND}&quality=full&scale=0.2`;
+const QUERY = `?backend=${BACKEND}&quality=low&scale=0.2`;
 const OTHER = `${FIXTURES}good/d3d12_skinned.m3d`;
 
 /** A test with a host of its own, which serves the first build: so it has a worker and caches of its own too. Without a network a page logs errors. */
@@ -86,7 +86,7 @@ test("after one visit the page opens without a network, and a file that is dropp
 const onWebGpu = BACKEND === "webgpu" ? test : () => {};
 onWebGpu("a visit that took both programs opens without a network too", { prepare: pretendGpu({ device: "refused" }) }, async (page, host) => {
   const open = async () => {
-    await page.goto(`${host.address}?quality=full&scale=0.2`);
+    await page.goto(`${host.address}?quality=low&scale=0.2`);
     await until(page, ({ backend, model }) => backend === "webgl2" && model?.name === "figure.m3d");
   };
   await open();
@@ -235,7 +235,10 @@ test("the manifest is sound, and what it names is there", {}, async (page, host)
   for (const [index, { sizes: told }] of pictures.entries()) assert.ok([sizes[index], "any"].includes(told), `${told} is ${sizes[index]}`);
 });
 
-test("what another program shares goes through the worker, opens as a drop and is kept no longer", {}, async (page, host) => {
+test("what another program shares goes through the worker, opens as a drop and is kept no longer", {
+  // Its address says nothing else.
+  prepare: (page) => page.addInitScript(() => localStorage.setItem("bindpose.kept", JSON.stringify({ greeted: true, quality: "low" }))),
+}, async (page, host) => {
   await visit(page, host);
   await keptWhole(page, await buildOf(page));
   // A page of the host that forbids no forms stands in for the system.
