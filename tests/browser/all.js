@@ -18,5 +18,6 @@ import "./slices.js";
 import "./lasting.js";
 import "./visits.js";
 import "./link.js";
+import "./elsewhere.js";
 import "./programs.js";
 import "./offline.js";

@@ -296,6 +296,13 @@ export function state(page) {
   return page.evaluate(() => JSON.parse(JSON.stringify(globalThis.bindpose.state())));
 }
 
+/** Keeps all that a screen reader is given from the beginning, in `heard`. */
+export const listen = (page) => page.addInitScript(() => {
+  globalThis.heard = [];
+  const note = () => globalThis.heard.push(document.getElementById("spoken")?.textContent);
+  new MutationObserver(note).observe(document, { subtree: true, childList: true, characterData: true });
+});
+
 /** Calls a method of `globalThis.bindpose`. */
 export function call(page, name, ...values) {
   return page.evaluate(([name, values]) => void globalThis.bindpose[name](...values), [name, values]);

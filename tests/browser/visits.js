@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { hide } from "./away.js";
-import { BACKEND, SAMPLE, call, dropAndWait, running, settled, state, test, until, withViewer } from "./harness.js";
+import { BACKEND, SAMPLE, call, dropAndWait, listen, running, settled, state, test, until, withViewer } from "./harness.js";
 
 /** A button by the start of its name. */
 const control = (page, start) => page.getByRole("button", { name: new RegExp(`^${start}`) }).first();
@@ -37,13 +37,6 @@ async function greeted(page, count) {
     assert.ok(Date.now() < deadline, `${await greeting(page)} greetings, not ${count}`);
   }
 }
-
-/** Keeps all that a screen reader is given from the beginning. */
-const listen = (page) => page.addInitScript(() => {
-  globalThis.heard = [];
-  const note = () => globalThis.heard.push(document.getElementById("spoken")?.textContent);
-  new MutationObserver(note).observe(document, { subtree: true, childList: true, characterData: true });
-});
 
 test("the first visit says what the page is for, until something is dropped", { own: true, firstVisit: true, prepare: listen }, async (page) => {
   await greeted(page, 1);

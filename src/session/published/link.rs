@@ -68,7 +68,7 @@ enum Form {
 const FIELDS: &[Field] = &[
     ("clip", "/view/playback/clip", Form::Text),
     ("t", TIME, Form::Number),
-    ("play", "/view/playback/playing", Form::Flag),
+    (PLAYING, "/view/playback/playing", Form::Flag),
     ("back", "/view/playback/backward", Form::Flag),
     ("speed", "/view/playback/speed", Form::Number),
     ("loop", "/view/playback/loopMode", Form::Text),
@@ -115,6 +115,9 @@ const FIELDS: &[Field] = &[
     ("panel", "/panels", Form::List),
 ];
 
+/// Whether time moves.
+const PLAYING: &str = "play";
+
 /// A time without which a link means the start of its clip.
 const TIME: &str = "/view/playback/timeSecs";
 
@@ -128,7 +131,12 @@ const ENCODED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'_').remove(b'
 impl Session {
     /// The link to what this session shows with these panels open. It is at most `max_len` bytes long: the longest fields are left out then.
     pub fn link(&self, panels: Vec<String>, max_len: usize) -> Link {
-        let first = self.first_visit();
+        if self.open_model().is_none() {
+            return Link::default();
+        }
+        let mut first = self.first_visit();
+        // For everyone, also where motion is reduced.
+        first.view.playback.playing = self.content.clip_count() > 0;
         let now = Linked {
             view: self.view_state(),
             quality: self.quality.mode(),
@@ -171,12 +179,12 @@ impl Session {
         (linked, left_out.into_iter().collect())
     }
 
-    /// What somebody sees who opens this model with nothing chosen before. Where motion is reduced it stands still, but plays in no other way.
+    /// What somebody sees who opens this model with nothing chosen before.
     fn first_visit(&self) -> Linked {
         let mut view = ViewState::default();
         if let Some(clip) = self.content.clips().first() {
             view.playback.clip = Some(clip.name.clone());
-            view.playback.playing = true;
+            view.playback.playing = !self.reduced_motion;
             view.playback.time_secs = clip.start_secs;
         }
         // As it is framed then, wherever that is in this window.
@@ -205,6 +213,14 @@ impl Session {
             }
         }
         fields.extend(self.written_camera().map(|text| (CAMERA, text)));
+        if self.reduced_motion {
+            // Here it stands still at first, and elsewhere it plays.
+            if now.view.playback.playing {
+                fields.push((PLAYING, "1".to_owned()));
+            } else if matches!(fields[..], [(PLAYING, _)]) {
+                fields.clear();
+            }
+        }
         fields
     }
 

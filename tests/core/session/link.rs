@@ -34,8 +34,15 @@ fn a_first_visit_has_an_empty_link() {
         for reduced_motion in [false, true] {
             let mut session = Session::new(reduced_motion);
             session.apply(bindpose::session::FileCommand::Add(vec![file.clone()]));
-            let still_moves = reduced_motion && session.clip().is_some();
-            assert_eq!(text(&session), if still_moves { "play=0" } else { "" }, "{}", file.path);
+            assert_eq!(text(&session), "", "{}", file.path);
+            if reduced_motion && session.clip().is_some() {
+                session.apply(PlayCommand::Seek { time_secs: 0.5 });
+                assert_eq!(text(&session), "t=0.5&play=0", "elsewhere it would play on");
+                session.apply(PlayCommand::Play);
+                assert!(text(&session).contains("play=1"), "{}", text(&session));
+                follow(&mut session, "t=0.25");
+                assert!(!session.playback().is_playing(), "nothing moves here unasked");
+            }
         }
     }
 }

@@ -1,0 +1,110 @@
+// `?src=`: files of other servers, and what is told of a server that does not give them.
+
+import assert from "node:assert/strict";
+import { createServer } from "node:http";
+import { readFile } from "node:fs/promises";
+import { BACKEND, PAGE, SAMPLE, state, test, until } from "./harness.js";
+
+/** A triangle whose bytes lie in a file beside it, and one that a third server would have. */
+const SCENE = JSON.stringify({
+  asset: { version: "2.0" },
+  buffers: [{ uri: "data/a%20triangle.bin", byteLength: 36 }],
+  bufferViews: [{ buffer: 0, byteLength: 36 }],
+  accessors: [{ bufferView: 0, componentType: 5126, count: 3, type: "VEC3", min: [0, 0, 0], max: [1, 1, 0] }],
+  images: [{ uri: "http://127.0.0.1:9/secret.png" }],
+  meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }],
+  nodes: [{ mesh: 0 }],
+  scenes: [{ nodes: [0] }],
+});
+const TRIANGLE = Buffer.from(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]).buffer);
+
+/** Answers like other people's servers; `/slow/` until the asker goes. */
+async function serving(body) {
+  const model = await readFile(SAMPLE);
+  const asked = [];
+  let gone = 0;
+  const server = createServer((request, response) => {
+    const { url, headers } = request;
+    asked.push({ url, cookie: headers.cookie, referer: headers.referer });
+    const allows = url.startsWith("/closed/") ? {} : { "Access-Control-Allow-Origin": "*" };
+    const send = (status, bytes, length = bytes.length) => response.writeHead(status, { ...allows, "Content-Length": length }).end(bytes);
+    if (url.endsWith(".gltf")) return send(200, SCENE);
+    if (url.endsWith(".bin")) return send(200, TRIANGLE);
+    if (url.startsWith("/broken/")) {
+      response.writeHead(200, { ...allows, "Content-Length": model.length });
+      response.write(model.subarray(0, 1000), () => setTimeout(() => response.destroy(), 100));
+      return;
+    }
+    if (url.startsWith("/slow/")) {
+      response.writeHead(200, { ...allows, "Content-Length": model.length });
+      let at = 0;
+      const timer = setInterval(() => response.write(model.subarray(at, (at += 50_000))), 100);
+      response.on("close", () => {
+        clearInterval(timer);
+        gone += 1;
+      });
+      return;
+    }
+    if (url.startsWith("/failing/")) return send(503, "");
+    if (url.startsWith("/text/")) return send(200, "Dear reader,\n");
+    return url.endsWith("/figure.m3d") ? send(200, model) : send(404, "");
+  });
+  await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  try {
+    await body(`http://127.0.0.1:${server.address().port}`, asked, () => gone);
+  } finally {
+    server.closeAllConnections();
+    server.close();
+  }
+}
+
+/** Opens the page with files of these addresses. */
+const visit = (page, ...addresses) =>
+  page.goto(`${PAGE}?backend=${BACKEND}&scale=0.2&${addresses.map((address) => `src=${encodeURIComponent(address)}`).join("&")}`);
+
+/** Waits until the card says this. */
+const refused = (page, words) =>
+  page.waitForFunction((words) => document.getElementById("notice-words").textContent.includes(words), words, { polling: 30 });
+
+test("a model of another server opens, and so does what a .gltf names beside itself", { bare: true, expectErrors: true }, (page) =>
+  serving(async (server, asked) => {
+    await visit(page, `${server}/models/figure.m3d`);
+    assert.equal((await until(page, (now) => now.model)).model.name, "figure.m3d");
+    assert.deepEqual(asked, [{ url: "/models/figure.m3d", cookie: undefined, referer: undefined }]);
+    await visit(page, `${server}/models/scene.gltf`);
+    const { model, error } = await until(page, (now) => now.model || now.error);
+    assert.deepEqual([error, model?.name, model?.counts.triangles], [null, "scene.gltf", 1]);
+    assert.deepEqual(asked.slice(1).map(({ url }) => url), ["/models/scene.gltf", "/models/data/a%20triangle.bin"]);
+  }));
+
+test("what a server does not give is told by what happened", { bare: true, expectErrors: true }, (page) =>
+  serving(async (server) => {
+    const host = server.replace("http://", "");
+    for (const [address, words] of [
+      [`${server}/closed/figure.m3d`, `${host} does not let other pages read /closed/figure.m3d`],
+      [`${server}/models/other.m3d`, `${host} has no /models/other.m3d`],
+      [`${server}/failing/figure.m3d`, `${host} answered 503 for /failing/figure.m3d`],
+      [`${server}/broken/figure.m3d`, `${host} broke off after 1000 of `],
+      ["http://127.0.0.1:9/figure.m3d", "127.0.0.1:9 did not answer"],
+      ["http://example.com/figure.m3d", "http://example.com/figure.m3d is not asked for"],
+      ["absent.m3d", "has no "],
+    ]) {
+      await visit(page, address);
+      await refused(page, words);
+      assert.equal((await state(page)).model, null, address);
+    }
+    await visit(page, `${server}/text/letter.txt`);
+    assert.equal((await until(page, (now) => now.error)).error.code.length > 0, true, "it is no model");
+  }));
+
+test("a slow server is waited for, with the part that has come, and Esc gives it up", { bare: true, expectErrors: true }, (page) =>
+  serving(async (server, _, gone) => {
+    await visit(page, `${server}/slow/figure.m3d`);
+    const { opening } = await until(page, (now) => now.opening?.percent > 0);
+    assert.deepEqual([opening.name, opening.stage], ["figure.m3d", "fetching"]);
+    await page.locator("#view canvas").focus();
+    await page.keyboard.press("Escape");
+    await until(page, (now) => now.opening === null);
+    for (const deadline = Date.now() + 10_000; gone() === 0; await page.waitForTimeout(50)) assert.ok(Date.now() < deadline, "the server is still asked");
+    assert.deepEqual([(await state(page)).model, await page.isHidden("#notice")], [null, true]);
+  }));
