@@ -48,7 +48,8 @@ export function keepLink({ viewer, changed, followed, ask, refuse }) {
   let opensOwn = false; // Whether it does so now.
   let model = { opening: null, path: null, sha: "" }; // On screen.
   let wanted = null; // A link that waits for its model.
-  let last = null; // The link that was told last.
+  let seen = null; // The link when it was looked at last.
+  let last = null; // The one that was told last.
   let timer = 0;
   let writtenAt = -EVERY_MS;
 
@@ -65,13 +66,28 @@ export function keepLink({ viewer, changed, followed, ask, refuse }) {
     return { address, text: [start, text].filter(Boolean).join("&"), leftOut };
   };
 
+  /** Nothing is looked at any more. */
+  const rests = () => {
+    clearTimeout(timer);
+    timer = 0;
+  };
+
+  /** Looks at what is seen in a moment. */
+  const look = () => (timer ||= setTimeout(write, Math.max(RESTS_AFTER_MS, writtenAt + EVERY_MS - performance.now())));
+
   const write = () => {
+    timer = 0;
     // The address stays that of the link until the model is here that it is about.
-    if (!viewer() || (wanted && isOwn(model))) return;
+    if (!viewer() || model.path === null || (wanted && isOwn(model))) return;
     const { address, text } = read();
-    writtenAt = performance.now();
     if (text === last) return;
+    if (text !== seen) {
+      // It may go on changing.
+      seen = text;
+      return void look();
+    }
     last = text;
+    writtenAt = performance.now();
     if (text !== location.hash.slice(1)) history.replaceState(history.state, "", text ? `${address}#${text}` : address);
     changed(text);
   };
@@ -132,14 +148,12 @@ export function keepLink({ viewer, changed, followed, ask, refuse }) {
       model.sha = sha;
       // Of its own model the page has more to set first.
       if (wanted && !opensOwn && now.path !== null) showWanted();
-      this.settling();
+      look();
     },
     /** What is seen may be another. */
-    settling() {
-      clearTimeout(timer);
-      timer = setTimeout(write, Math.max(RESTS_AFTER_MS, writtenAt + EVERY_MS - performance.now()));
-    },
-    moving: () => clearTimeout(timer),
+    settling: look,
+    /** It changes by itself, or something is held. */
+    moving: rests,
     /** Follows a link that was clicked, or one of before. */
     hashChanged() {
       const text = location.hash.slice(1);

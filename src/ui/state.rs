@@ -228,7 +228,7 @@ impl UiState {
         } else {
             SidePage::Model
         };
-        self.skeleton.show_page(session, page);
+        self.skeleton.show_linked_page(session, page);
         self.diagnostics_open = has(FINDINGS);
         self.skeleton.explains = has(EXPLAINED);
         self.timeline.open_this_sheet(names);

@@ -34,7 +34,7 @@ const LINKS = [
   "t=0.5&play=0&bg=20262e&overlay=grid,wireframe",
   "t=0.5&play=0&bg=sky&exposure=0.5&env=90",
   "t=0.5&play=0&overlay=normals&lines=0.1&panel=findings,curves",
-  "t=0.5&play=0&green=1&ground=0.05",
+  "t=0.5&play=0&ground=0.05&green=1",
   "t=0.5&play=0&hand=right&cam=-160,12,6,0,1,0",
   "t=0.5&play=0&up=z&cam=30,5,7,0,1,0.5",
   "t=0.5&play=0&crowd=3&seed=7&instance=2&cam=0,20,12,0,1,0",

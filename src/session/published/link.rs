@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::view_state::{CameraState, ViewState};
+use crate::scene::Light;
 use crate::session::Session;
 use crate::session::look::quality::QualityMode;
 
@@ -101,7 +102,7 @@ const FIELDS: &[Field] = &[
     ("lines", "/view/appearance/lineLength", Form::Number),
     ("exposure", "/view/appearance/exposureStops", Form::Number),
     ("env", "/view/appearance/environmentTurnRadians", Form::Degrees),
-    ("lamps", "/view/appearance/bookLightsTurnRadians", Form::Degrees),
+    ("lamps", LAMPS, Form::Degrees),
     ("ground", "/view/appearance/groundOffset", Form::Number),
     ("green", "/view/appearance/normalGreenFlipped", Form::Flag),
     ("hand", "/view/appearance/handedness", Form::Text),
@@ -114,6 +115,9 @@ const FIELDS: &[Field] = &[
     ("quality", "/quality", Form::Text),
     ("panel", "/panels", Form::List),
 ];
+
+/// How far the book's lights have turned.
+const LAMPS: &str = "/view/appearance/bookLightsTurnRadians";
 
 /// Whether time moves.
 const PLAYING: &str = "play";
@@ -197,7 +201,15 @@ impl Session {
 
     /// The fields in which `now` differs from a first visit.
     fn fields(&self, now: &Linked, first: &Linked) -> Vec<(&'static str, String)> {
-        let [now_json, mut first_json] = [now, first].map(|linked| json!(linked));
+        let [mut now_json, mut first_json] = [now, first].map(|linked| json!(linked));
+        // They turn while a clip plays, whether they are seen or not.
+        let look = &now.view.appearance;
+        if look.light == Light::Studio
+            && look.split.is_none()
+            && let Some(turn) = now_json.pointer_mut(LAMPS)
+        {
+            *turn = json!(0.0);
+        }
         if let Some(start_secs) = self.start_secs(&now.view)
             && let Some(time) = first_json.pointer_mut(TIME)
         {

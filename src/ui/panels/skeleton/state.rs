@@ -112,6 +112,15 @@ impl SkeletonState {
         self.tree.reset();
     }
 
+    /// Shows a page as a link says, which also says whether bones are drawn.
+    pub(in crate::ui) fn show_linked_page(&mut self, session: &Session, page: SidePage) {
+        self.show_page(session, page);
+        self.bones = TreeBones {
+            tree: self.page == SidePage::Skeleton,
+            ..TreeBones::default()
+        };
+    }
+
     /// Whether a joint is being named in its row.
     pub(in crate::ui) fn is_naming(&self) -> bool {
         self.naming.of.is_some()
