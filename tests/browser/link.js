@@ -5,7 +5,7 @@ import { readFile } from "node:fs/promises";
 import { BACKEND, PAGE, SAMPLE, call, listen, running, settled, state, test, until } from "./harness.js";
 
 const QUERY = `?backend=${BACKEND}&scale=0.2`;
-const OWN = { own: true, query: QUERY };
+const OWN = { own: true, query: QUERY, passes: true };
 
 /** As people would write them, in the order in which the page writes. Each field stands in one of them at least. */
 const LINKS = [

@@ -2,7 +2,7 @@
 
 use glam::{Affine3A, Vec3};
 
-use crate::scene::{Camera, Insets, swept_about_y};
+use crate::scene::{Insets, swept_about_y};
 use crate::session::Session;
 
 /// Half the size of what is framed around a vertex, as a fraction of the model's radius: enough to see where on the model it is.
@@ -13,19 +13,6 @@ impl Session {
         let points = self.reached_points();
         self.view.frame_points(&points);
         self.view.framed = true;
-    }
-
-    /// The camera of a first visit: it frames the first clip of the model alone, in studio light and with perspective, and then has the
-    /// projection of now.
-    pub(in crate::session) fn first_framing(&self) -> Camera {
-        let mut view = self.view.clone();
-        view.camera = Camera::default();
-        let mut points = Vec::new();
-        let first = (self.content.clip_count() > 0).then_some(0);
-        self.add_reach(first, self.world_from_model(), &mut points);
-        view.frame_points(&points);
-        view.camera.set_projection(self.view.camera.projection);
-        view.camera
     }
 
     /// Frames the model so that all of it stays in the picture while the camera turns about its middle.

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::view_state::{CameraState, ViewState};
-use crate::scene::Light;
+use crate::scene::{Camera, Light};
 use crate::session::Session;
 use crate::session::look::quality::QualityMode;
 
@@ -125,8 +125,7 @@ const PLAYING: &str = "play";
 /// A time without which a link means the start of its clip.
 const TIME: &str = "/view/playback/timeSecs";
 
-/// Yaw and pitch in degrees; then, unless the model is framed as on a first visit, the distance and the target. Without a target it stays
-/// where it is.
+/// Yaw and pitch in degrees; then, unless the model is framed, the distance and the target. Without a target it stays where it is.
 const CAMERA: &str = "cam";
 
 /// Names of clips are readable as far as an address may have their characters.
@@ -191,7 +190,7 @@ impl Session {
             view.playback.playing = !self.reduced_motion;
             view.playback.time_secs = clip.start_secs;
         }
-        // As it is framed then, wherever that is in this window.
+        // Framed, wherever that is in this window.
         (view.camera.framed, view.camera.distance) = (true, 0.0);
         Linked {
             view,
@@ -236,22 +235,16 @@ impl Session {
         fields
     }
 
-    /// Nothing for the camera of a first visit.
+    /// Nothing for the camera of a first visit. A model that is framed is so in any window, so its distance is not written.
     fn written_camera(&self) -> Option<String> {
-        let (now, first) = (&self.view.camera, self.first_framing());
+        let (now, first) = (&self.view.camera, Camera::default());
         let [angles, first_angles] = [now, &first].map(|camera| [camera.yaw_radians, camera.pitch_radians]);
-        let length = now.distance.max(f32::MIN_POSITIVE);
-        let is_framed = self.view.framed
-            && (now.distance - first.distance).abs() <= 1e-5 * length
-            && now.target.distance(first.target) <= 1e-5 * length;
-        if is_framed && angles == first_angles {
-            return None;
-        }
         let mut numbers = angles.map(degrees).to_vec();
-        if !is_framed {
-            let lengths = [now.distance].into_iter().chain(now.target.to_array());
-            numbers.extend(lengths.map(|number| number.to_string()));
+        if self.view.framed {
+            return (angles != first_angles).then(|| numbers.join(","));
         }
+        let lengths = [now.distance].into_iter().chain(now.target.to_array());
+        numbers.extend(lengths.map(|number| number.to_string()));
         Some(numbers.join(","))
     }
 

@@ -42,8 +42,7 @@ impl Session {
         self.view.motion.set_turntable(state.camera.turntable);
         self.view.camera = state.camera.camera(state.appearance.light);
         if state.camera.framed && state.camera.distance == 0.0 {
-            let first = self.first_framing();
-            (self.view.camera.target, self.view.camera.distance) = (first.target, first.distance);
+            self.frame_model();
         }
         self.view.framed = state.camera.framed;
     }

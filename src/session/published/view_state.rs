@@ -33,7 +33,7 @@ pub struct ViewState {
 pub struct CameraState {
     /// Point looked at, world space.
     pub target: [f32; 3],
-    /// Distance from eye to target, world units, above 0. 0 for a model that is framed as on a first visit, wherever that is in this window.
+    /// Distance from eye to target, world units, above 0. 0 for a model that is framed, wherever that is in this window.
     pub distance: f32,
     /// Turn about y, radians.
     pub yaw_radians: f32,
