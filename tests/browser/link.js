@@ -48,11 +48,19 @@ const seen = ({ timings, cost, framesRendered, undo, redo, model, opening, look,
   look: { ...look, samples: null, lowered: null },
 });
 
-/** The picture, small. */
+/** The colours of a small picture. */
 const picture = (page) => page.evaluate(async () => {
-  const bytes = new Uint8Array(await (await bindpose.snapshot({ width: 96, height: 72, samples: 1 })).arrayBuffer());
-  return btoa(String.fromCharCode(...bytes));
+  const shown = await createImageBitmap(await bindpose.snapshot({ width: 96, height: 72, samples: 1 }));
+  const copy = new OffscreenCanvas(shown.width, shown.height).getContext("2d");
+  copy.drawImage(shown, 0, 0);
+  return [...copy.getImageData(0, 0, shown.width, shown.height).data];
 });
+
+/** The studio is made finer in idle moments: on average by no more than this, of 255. */
+const FINER = 0.5;
+const apart = (one, other) => one.map((byte, index) => Math.abs(byte - other[index]));
+const most = (numbers) => Math.max(...numbers);
+const mean = (numbers) => numbers.reduce((sum, number) => sum + number, 0) / numbers.length;
 
 const hash = (page) => page.evaluate(() => location.hash.slice(1));
 const notice = (page) => page.textContent("#notice");
@@ -82,22 +90,31 @@ async function visit(page, text) {
 test("links bring back what they say, in this page and in a new one", OWN, async (page) => {
   await until(page, (now) => now.model);
   const shown = [];
-  for (const text of LINKS) {
+  // The suite of WebGPU takes the longest: it looks at a third of them.
+  const links = LINKS.filter((_, index) => BACKEND === "webgl2" || index % 3 === 0);
+  for (const text of links) {
     await follow(page, text);
+    await settled(page); // The model is framed in what panels leave.
     shown.push([seen(await state(page)), await picture(page)]);
     assert.equal((await state(page)).undo, null, `${text} is no step`);
   }
-  const [paused, walk] = shown;
-  assert.deepEqual([paused[0].timeSecs, paused[0].playing, walk[0].clip], [0.5, false, "Walk"]);
-  assert.deepEqual([shown[12][0].skeleton.selected, shown[12][0].skeleton.skinView, shown[19][0].look.light], [9, "weight", "book"]);
-  assert.equal(new Set(shown.map(([, picture]) => picture)).size > 20, true, "most of them are seen");
+  const of = (text) => shown[links.indexOf(text)][0];
+  const [paused] = shown;
+  assert.deepEqual([of("t=0.5&play=0").timeSecs, of("clip=Wave&t=0.75&play=0&speed=0.25").clip], [0.5, "Wave"]);
+  const { skeleton } = of("t=0.5&play=0&bone=9&skin=weight");
+  assert.deepEqual([skeleton.selected, skeleton.skinView], [9, "weight"]);
+  assert.equal(of("t=0.5&play=0&view=normal&panel=keys").look.viewMode, "normal");
+  assert.ok(shown.filter(([, picture]) => most(apart(picture, paused[1])) > 20).length > 0.6 * shown.length, "most of them are seen");
   await follow(page, "");
   const fresh = (index) => index % 5 === 0;
-  for (const [index, text] of LINKS.entries()) {
+  for (const [index, text] of links.entries()) {
     if (fresh(index)) await visit(page, text);
     else await follow(page, "").then(() => follow(page, text));
     await until(page, (now) => now.link === text);
-    assert.deepEqual([seen(await state(page)), await picture(page)], shown[index], text);
+    await settled(page);
+    assert.deepEqual(seen(await state(page)), shown[index][0], text);
+    const off = mean(apart(await picture(page), shown[index][1]));
+    assert.ok(off <= FINER, `${text}: ${off}`);
   }
 });
 
