@@ -166,9 +166,10 @@ impl Set {
         } = self.radiances;
         let y = direction.y;
         let above = wall.lerp(ceiling, smoothstep(0.05, 0.9, y));
-        // The floor is lit from above: it darkens towards the walls, and where they meet is a line, which metal shows.
+        // The floor is lit from above: it darkens towards the walls, and where they meet is a line, which metal shows. It is so soft that a
+        // coarse cube has it too.
         let ground = (floor * 0.45).lerp(floor, smoothstep(-0.05, -0.6, y));
-        let room = ground.lerp(above, smoothstep(-0.06, -0.02, y));
+        let room = ground.lerp(above, smoothstep(-0.12, 0.02, y));
         self.panels
             .iter()
             .fold(room, |behind, panel| panel.over(behind, direction))

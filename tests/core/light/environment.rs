@@ -134,7 +134,7 @@ fn the_bright_studio_is_bright_all_round_and_brightest_above() {
     assert!(of_bright > 2.5 * of_dark, "{of_bright} beside {of_dark}");
     // Metal shows where floor and walls meet.
     for room in [&dark, &bright] {
-        let [wall, floor] = [0.02, -0.1].map(|y: f32| room.sample(Vec3::new(0.0, y, 1.0).normalize()).y);
+        let [wall, floor] = [0.04, -0.13].map(|y: f32| room.sample(Vec3::new(0.0, y, 1.0).normalize()).y);
         assert!(wall > 1.8 * floor, "{wall} over {floor}");
     }
     let average = bright.average();
