@@ -17,10 +17,10 @@ const COMMANDS = [
 ];
 
 /**
- * Makes the object that programs see, whose states say `linkText(state)` as their link, and what only the page may do: `give(files, how)` for what a person opens, `attach(viewer)` when it runs,
+ * Makes the object that programs see, whose states say `linkText(state)` as their link (without it the viewer's own, which names no model), and what only the page may do: `give(files, how)` for what a person opens, `attach(viewer)` when it runs,
  * `fail(error)` when it never will again, `emit(type, detail)`. After a failure the viewer is not called: `state().error` says why, promises are rejected.
  */
-export function createApi(linkText) {
+export function createApi(linkText = ({ link }) => link) {
   let viewer = null;
   let failure = null;
   let used = false;

@@ -31,7 +31,7 @@ test("a crowd is as scripts ask for it", {}, async (page) => {
   assert.deepEqual(reset.crowd, { count: 1, seed: 1, selected: 0 });
 });
 
-test("the address asks for a crowd", { query: `?backend=${BACKEND}&quality=full&scale=0.2&crowd=3#seed=7` }, async (page) => {
+test("the address asks for a crowd", { query: `?backend=${BACKEND}&quality=full&scale=0.2&crowd=3&seed=7` }, async (page) => {
   assert.deepEqual((await state(page)).crowd, { count: 3, seed: 7, selected: 0 });
   await page.evaluate(() => (bindpose.setCrowd({ count: 2, seed: 1 }), bindpose.reset()));
   assert.deepEqual((await state(page)).crowd, { count: 3, seed: 7, selected: 0 }, "and so does a page that begins anew");

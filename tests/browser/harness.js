@@ -296,6 +296,13 @@ export function state(page) {
   return page.evaluate(() => JSON.parse(JSON.stringify(globalThis.bindpose.state())));
 }
 
+/** Loads the page anew, as another visit that follows no link. */
+export async function visitAgain(page) {
+  await page.evaluate(() => history.replaceState(null, "", location.href.split("#")[0]));
+  await page.reload();
+  await running(page);
+}
+
 /** Keeps all that a screen reader is given from the beginning, in `heard`. */
 export const listen = (page) => page.addInitScript(() => {
   globalThis.heard = [];

@@ -1,7 +1,7 @@
 // Names that a person gives to bones: typed in the tree, kept by the browser, there again with the next visit.
 
 import assert from "node:assert/strict";
-import { atRest, keep, running, settled, test, until } from "./harness.js";
+import { atRest, keep, running, settled, test, until, visitAgain } from "./harness.js";
 import { decoded, difference } from "./picture.js";
 import { GROUND, bounds, place, click } from "./widgets.js";
 
@@ -47,8 +47,7 @@ test("names of bones are kept and are there after a reload", {}, async (page) =>
   assert.equal(text, "1 Hips\n");
   assert.deepEqual(others, []);
 
-  await page.reload();
-  await running(page);
+  await visitAgain(page);
   // The names follow with the first pass of the window.
   const { skeleton } = await until(page, ({ skeleton }) => skeleton.names[1]);
   assert.deepEqual(skeleton.names, { 1: "Hips" });

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { hide } from "./away.js";
-import { BACKEND, SAMPLE, call, dropAndWait, listen, running, settled, state, test, until, withViewer } from "./harness.js";
+import { BACKEND, SAMPLE, call, dropAndWait, listen, settled, state, test, until, visitAgain, withViewer } from "./harness.js";
 
 /** A button by the start of its name. */
 const control = (page, start) => page.getByRole("button", { name: new RegExp(`^${start}`) }).first();
@@ -44,14 +44,12 @@ test("the first visit says what the page is for, until something is dropped", { 
   await dropAndWait(page, [SAMPLE]);
   await settled(page);
   await greeted(page, 0);
-  await page.reload();
-  await running(page);
+  await visitAgain(page);
   await settled(page);
   await control(page, "Choose files to open").waitFor({ state: "attached" }); // Now it tells what was open.
   await page.waitForFunction(() => globalThis.heard.some((words) => /figure\.m3d was open: drop it again\./.test(words)));
   await press(page, "Close the welcome");
-  await page.reload();
-  await running(page);
+  await visitAgain(page);
   await settled(page);
   await control(page, "Help").waitFor({ state: "attached" }); // What is on the window is told as a whole.
   assert.equal(await greeting(page), 0);
@@ -63,8 +61,7 @@ test("what a person has chosen is there at the next visit", { own: true, query: 
   await page.keyboard.press("v");
   await call(page, "setQuality", "low");
   await until(page, ({ look, theme }) => look.light === "book" && theme === "light");
-  await page.reload();
-  await running(page);
+  await visitAgain(page);
   const { theme, light, quality, split } = await kept(page);
   assert.deepEqual({ theme, light, quality, split }, { theme: "light", light: "book", quality: "low", split: undefined });
   await settled(page);
