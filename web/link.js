@@ -7,9 +7,6 @@ const RESTS_AFTER_MS = 250;
 /** And no more often than this. */
 const EVERY_MS = 500;
 
-/** An address is longer than this nowhere that people write to each other. */
-const LONGEST = 2_000;
-
 /** A file is known by so many digits of its SHA-256. */
 const DIGITS = 12;
 
@@ -55,14 +52,13 @@ export function keepLink({ viewer, changed, followed, ask, refuse }) {
 
   const isOwn = ({ opening, path }) => opening === own?.opening && path === own?.path;
 
-  /** What is seen, with at most so many characters. */
+  /** What is seen as a text behind `#`, the address before that, and the names of what has no room. */
   const read = () => {
     const { opening, path } = model;
     const named = path && !isOwn({ opening, path }) ? [`model=${encodeURIComponent(path)}`, model.sha && `sha=${model.sha}`] : [];
     const start = named.filter(Boolean).join("&");
     const address = location.href.split("#")[0];
-    const room = LONGEST - address.length - start.length - 2;
-    const { text, leftOut } = viewer()?.link(Math.max(0, room)) ?? { text: "", leftOut: [] };
+    const { text, leftOut } = viewer()?.link(address.length + start.length + 2) ?? { text: "", leftOut: [] };
     return { address, text: [start, text].filter(Boolean).join("&"), leftOut };
   };
 

@@ -22,6 +22,9 @@ export async function fetchOwn(address, name) {
   return { name, bytes: await response.blob() };
 }
 
+/** The viewer opens no more bytes at once; a server that sends more is asked no longer. */
+const MOST_BYTES = 2 ** 29;
+
 /** This computer, which may be asked without encryption. */
 const LOCAL = ["localhost", "127.0.0.1"];
 
@@ -69,6 +72,7 @@ async function namedBy({ name, bytes }, url) {
  * ends when `signal` does. Throws in words that say what happened: no answer, not allowed, not found, broken off.
  */
 export async function fetchFrom(addresses, { began, got, signal }) {
+  let room = MOST_BYTES;
   const fetchOne = async ([name, url]) => {
     const response = await answerOf(url, signal);
     const length = response.headers.has("Content-Encoding") ? 0 : Number(response.headers.get("Content-Length"));
@@ -81,12 +85,18 @@ export async function fetchFrom(addresses, { began, got, signal }) {
         if (done) break;
         arrived += value.length;
         pieces.push(value);
+        room -= value.length;
+        if (room < 0) {
+          void reader.cancel();
+          break;
+        }
         got(value.length);
       }
     } catch (error) {
       if (signal.aborted) throw error;
       throw new Error(`${url.host} broke off after ${arrived}${length ? ` of ${length}` : ""} bytes of ${url.pathname}`);
     }
+    if (room < 0) throw new Error(`${url.host} sends more than ${MOST_BYTES >> 20} MiB, the most that can be opened at once`);
     return { name, bytes: new Blob(pieces) };
   };
   const asked = addresses.map(addressOf).map((url) => [decodeURIComponent(url.pathname.split("/").pop()), url]);

@@ -7,14 +7,14 @@ use super::object;
 use super::shared::Shared;
 use super::state::to_js;
 use super::viewer::Viewer;
-use crate::session::{Command, Link, QualityCommand};
+use crate::session::{Command, Link, MAX_LINK_LEN, QualityCommand};
 
 #[wasm_bindgen]
 impl Viewer {
-    /// What stands behind `#` in a link to what is seen, but for the model, as `{text, left_out}`: of a text that became longer than `most` bytes the
-    /// longest fields are left out, and named.
-    pub fn link(&self, most: usize) -> JsValue {
-        to_js(&self.shared.link(most))
+    /// What stands behind `#` in a link to what is seen, but for the model, as `{text, leftOut}`. So many bytes of the address are `taken` by what stands
+    /// before it; of what has no room then the longest fields are left out, and named.
+    pub fn link(&self, taken: usize) -> JsValue {
+        to_js(&self.shared.link(taken))
     }
 
     /// Shows of the open model what a link says; what it does not say is as at a first visit. It is no step to undo. Returns the names of what is damaged,
@@ -57,8 +57,8 @@ impl Viewer {
 }
 
 impl Shared {
-    pub(super) fn link(&self, most: usize) -> Link {
+    pub(super) fn link(&self, taken: usize) -> Link {
         let panels = self.ui.borrow().open_panels();
-        self.session.borrow().link(panels, most)
+        self.session.borrow().link(panels, MAX_LINK_LEN.saturating_sub(taken))
     }
 }

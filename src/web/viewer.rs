@@ -16,9 +16,7 @@ use super::shared::Shared;
 use super::{field, picture, promise, reduced_motion, state};
 use crate::scene::{Light, Theme};
 use crate::script;
-use crate::session::{
-    Command, HistoryCommand, LookCommand, MAX_LINK_LEN, QualityCommand, QualityMode, RenderScale, Session,
-};
+use crate::session::{Command, HistoryCommand, LookCommand, QualityCommand, QualityMode, RenderScale, Session};
 use crate::ui::Chrome;
 
 /// A viewer: what is open and how it is viewed, and the canvas that it is drawn on, if any.
@@ -195,7 +193,7 @@ impl Shared {
     pub(super) fn state(&self) -> JsValue {
         let running = self.running.borrow();
         let running = running.as_ref();
-        let link = self.link(MAX_LINK_LEN).text;
+        let link = self.link(0).text;
         state::to_js(&state::State::new(
             &self.session.borrow(),
             running.map(|running| running.backend),

@@ -12,7 +12,7 @@ use crate::scene::{Camera, Light};
 use crate::session::Session;
 use crate::session::look::quality::QualityMode;
 
-/// An address is longer than this nowhere that people write to each other.
+/// The most characters of an address with a link: some programs with which people send addresses cut longer ones off.
 pub const MAX_LINK_LEN: usize = 2_000;
 
 /// What a link says.
@@ -47,7 +47,7 @@ type Field = (&'static str, &'static str, Form);
 /// How a field is written.
 #[derive(Clone, Copy, PartialEq)]
 enum Form {
-    /// As it is. Nothing for none.
+    /// As it is. An empty text where there is no value.
     Text,
     /// 1 or 0.
     Flag,
@@ -102,7 +102,7 @@ const FIELDS: &[Field] = &[
     ("lines", "/view/appearance/lineLength", Form::Number),
     ("exposure", "/view/appearance/exposureStops", Form::Number),
     ("env", "/view/appearance/environmentTurnRadians", Form::Degrees),
-    ("lamps", LAMPS, Form::Degrees),
+    ("lamps", "/view/appearance/bookLightsTurnRadians", Form::Degrees),
     ("ground", "/view/appearance/groundOffset", Form::Number),
     ("green", "/view/appearance/normalGreenFlipped", Form::Flag),
     ("hand", "/view/appearance/handedness", Form::Text),
@@ -116,13 +116,10 @@ const FIELDS: &[Field] = &[
     ("panel", "/panels", Form::List),
 ];
 
-/// How far the book's lights have turned.
-const LAMPS: &str = "/view/appearance/bookLightsTurnRadians";
-
-/// Whether time moves.
+/// The name of the field that says whether time moves.
 const PLAYING: &str = "play";
 
-/// A time without which a link means the start of its clip.
+/// Where the time stands. A link without it is about the start of its clip.
 const TIME: &str = "/view/playback/timeSecs";
 
 /// Yaw and pitch in degrees; then, unless the model is framed, the distance and the target. Without a target it stays where it is.
@@ -137,14 +134,21 @@ impl Session {
         if self.open_model().is_none() {
             return Link::default();
         }
-        let mut first = self.first_visit();
-        // For everyone, also where motion is reduced.
-        first.view.playback.playing = self.content.clip_count() > 0;
-        let now = Linked {
+        let mut now = Linked {
             view: self.view_state(),
             quality: self.quality.mode(),
             panels,
         };
+        let look = &mut now.view.appearance;
+        if look.light == Light::Studio && look.split.is_none() {
+            // The book's lights turn while a clip plays, also where nobody sees them.
+            look.book_lights_turn_radians = 0.0;
+        }
+        let mut first = self.first_visit();
+        let playback = &mut first.view.playback;
+        playback.time_secs = self.start_secs(&now.view).unwrap_or(playback.time_secs);
+        // The link is for everyone, also where motion is not reduced.
+        playback.playing = self.content.clip_count() > 0;
         fitting(self.fields(&now, &first), max_len)
     }
 
@@ -154,6 +158,9 @@ impl Session {
         let mut left_out = BTreeSet::new();
         let mut camera = None;
         let mut has_time = false;
+        // No page writes one so long. Each field costs time.
+        let (text, rest) = text.split_at(text.floor_char_boundary(2 * MAX_LINK_LEN));
+        left_out.extend((!rest.is_empty()).then(|| format!("all behind {} characters", 2 * MAX_LINK_LEN)));
         for field in text.split('&').filter(|field| !field.is_empty()) {
             let (name, value) = field.split_once('=').unwrap_or((field, ""));
             let understood = match FIELDS.iter().find(|(known, ..)| *known == name) {
@@ -200,20 +207,7 @@ impl Session {
 
     /// The fields in which `now` differs from a first visit.
     fn fields(&self, now: &Linked, first: &Linked) -> Vec<(&'static str, String)> {
-        let [mut now_json, mut first_json] = [now, first].map(|linked| json!(linked));
-        // They turn while a clip plays, whether they are seen or not.
-        let look = &now.view.appearance;
-        if look.light == Light::Studio
-            && look.split.is_none()
-            && let Some(turn) = now_json.pointer_mut(LAMPS)
-        {
-            *turn = json!(0.0);
-        }
-        if let Some(start_secs) = self.start_secs(&now.view)
-            && let Some(time) = first_json.pointer_mut(TIME)
-        {
-            *time = json!(start_secs);
-        }
+        let [now_json, first_json] = [now, first].map(|linked| json!(linked));
         let mut fields = Vec::new();
         for (name, place, form) in FIELDS {
             let [now, first] = [&now_json, &first_json].map(|json| json.pointer(place).unwrap_or(&Value::Null));

@@ -108,13 +108,7 @@ pub(super) fn page_title(page: DrawerPage, state: &UiState) -> &'static str {
             Some(_) => side_label(state),
             None => "Inspector",
         },
-        DrawerPage::ViewMode => "View mode",
-        DrawerPage::Light => "Light and background",
-        DrawerPage::Overlays => "Lines over the model",
-        DrawerPage::ViewFrom => "View from",
-        DrawerPage::Picture => "Picture",
-        DrawerPage::Export => "Export",
-        DrawerPage::Timeline => "Timeline",
+        page => page.label(),
     }
 }
 

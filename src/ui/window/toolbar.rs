@@ -39,7 +39,6 @@ const COPIES: [(&str, Control, bool); 2] = [
     ("Copy link", Control::new("copy-link"), false),
     ("Copy embed", Control::new("copy-embed"), true),
 ];
-
 /// Width of the menus of view modes and directions.
 const MENU_WIDTH: f32 = 190.0;
 /// The least room for the program's name beside that of the file.
@@ -298,13 +297,13 @@ fn action_items(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
             ui.close();
         }
     }
-    let turns = MenuLine::Switch(actions::TURNTABLE.is_on(cx.session));
     for (label, control, embed) in COPIES {
         if named(menu_item(ui, label, MenuLine::Action), control).clicked() {
             cx.state.requests.push(Request::CopyLink { embed });
             ui.close();
         }
     }
+    let turns = MenuLine::Switch(actions::TURNTABLE.is_on(cx.session));
     for (action, line) in [(&actions::FRAME_MODEL, MenuLine::Action), (&actions::TURNTABLE, turns)] {
         if menu_item(ui, action.label, line).clicked() {
             cx.act(action);

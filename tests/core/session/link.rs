@@ -211,6 +211,22 @@ fn of_a_long_link_the_longest_fields_are_left_out() {
 }
 
 #[test]
+fn a_link_that_is_far_too_long_is_read_as_far_as_a_page_writes() {
+    let mut session = opened(moving("a.m3d"));
+    let text = format!("view=uv&{}&speed=2", "🦴=1&".repeat(500_000));
+    let left_out = follow(&mut session, &text);
+    assert!(
+        left_out.iter().any(|name| name.starts_with("all behind")),
+        "{left_out:?}"
+    );
+    let state = session.view_state();
+    assert_eq!(
+        (state.appearance.view_mode, state.playback.speed),
+        (ViewMode::TexCoords, 1.0)
+    );
+}
+
+#[test]
 fn names_with_any_character_come_back() {
     let mut session = opened(moving("a.m3d"));
     for name in ["Übergang & Lauf=2, #1 50%", "走る", "a+b c"] {
