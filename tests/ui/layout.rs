@@ -3,7 +3,7 @@
 use bindpose::anim::SkinView;
 use bindpose::model::JointIndex;
 use bindpose::session::{FileCommand, JointCommand, LookCommand, PlayCommand, SubmeshCommand};
-use bindpose::ui::DrawerPage;
+use bindpose::ui::{Chrome, DrawerPage};
 use egui::{Rect, Vec2, pos2, vec2};
 
 use crate::models::{self, broken, moving, still};
@@ -533,4 +533,50 @@ fn what_stands_over_the_view_of_a_phone_counts_when_the_model_is_framed() {
             }
         }
     }
+}
+
+/// Whether a control is shown whose name begins so.
+fn has(window: &Window, start: &str) -> bool {
+    !window.named(|name| name.starts_with(start)).is_empty()
+}
+
+#[test]
+fn on_another_page_there_is_the_timeline_or_nothing_and_no_button_without_use() {
+    for mut window in [window(WIDE, vec![moving("a.m3d")]), phone(vec![moving("a.m3d")])] {
+        for chrome in Chrome::ALL {
+            window.harness.state_mut().state.chrome = chrome;
+            window.pass_on();
+            let whole = chrome == Chrome::Full;
+            assert_eq!(has(&window, "Open files"), whole, "{chrome:?}");
+            assert_eq!(has(&window, "Play"), chrome != Chrome::None, "{chrome:?}");
+            assert_inside(&window, window.harness.ctx.content_rect().size());
+        }
+    }
+    let mut small = phone(vec![moving("a.m3d")]);
+    assert!(has(&small, "Dope sheet"));
+    small.harness.state_mut().state.chrome = Chrome::Transport;
+    small.pass_on();
+    assert!(!has(&small, "Dope sheet"), "there is no drawer for it");
+    small.harness.state_mut().state.chrome = Chrome::None;
+    small.apply(FileCommand::Add(vec![broken("b.m3d")]));
+    assert!(has(&small, "Dismiss"));
+}
+
+#[test]
+fn panels_that_are_open_are_opened_again_by_their_names() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    for names in [
+        vec!["skeleton", "keys"],
+        vec!["findings", "curves"],
+        vec!["explained", "sheet-light"],
+        vec![],
+    ] {
+        let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
+        let Page { session, state, .. } = window.harness.state_mut();
+        assert_eq!(state.open_these_panels(session, &names), [""; 0]);
+        window.pass_on();
+        assert_eq!(window.harness.state().state.open_panels(), names);
+    }
+    let Page { session, state, .. } = window.harness.state_mut();
+    assert_eq!(state.open_these_panels(session, &["newer".to_owned()]), ["newer"]);
 }

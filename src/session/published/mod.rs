@@ -1,6 +1,7 @@
 //! What programs, links and reports are told: facts of the model, verdicts of the books, the view as plain data.
 
 pub(super) mod link;
+pub(super) mod link_fields;
 pub(super) mod reporting;
 pub(super) mod restoring;
 pub(super) mod series;

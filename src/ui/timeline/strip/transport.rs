@@ -11,7 +11,7 @@ use crate::ui::cx::Cx;
 use crate::ui::kit::icons::Icon;
 use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};
 use crate::ui::kit::{action_button, control_size, focus_ring, icon_button, named, push_button, tell_open};
-use crate::ui::state::{DrawerPage, UiState};
+use crate::ui::state::{Chrome, DrawerPage, UiState};
 use crate::ui::timeline::sheet;
 use crate::ui::timeline::state::TimelineState;
 use crate::ui::window::panel::{mark_transport, popover_above};
@@ -99,7 +99,9 @@ pub(in crate::ui) fn narrow(ui: &mut Ui, cx: &mut Cx<'_, UiState>, low: bool) {
         if with_frames {
             controls::step_button(ui, cx, Step::Frame, Direction::Forward);
         }
-        let mut bar_width = ui.available_width() - button;
+        // A page that shows the timeline alone has no drawer for the sheet.
+        let has_sheet = cx.state.chrome == Chrome::Full;
+        let mut bar_width = ui.available_width() - if has_sheet { button } else { 0.0 };
         if low {
             let before = ui.available_width();
             clips::button(ui, cx, Rangef::new(CLIP_WIDTH_NARROW, 140.0));
@@ -110,7 +112,7 @@ pub(in crate::ui) fn narrow(ui: &mut Ui, cx: &mut Cx<'_, UiState>, low: bool) {
             ui.scope(|ui| end.show(ui, &mut cx.part(|state| &mut state.timeline), clip));
         }
         let open = cx.state.drawer == Some(DrawerPage::Timeline);
-        if sheet_button(ui, open) {
+        if has_sheet && sheet_button(ui, open) {
             cx.state.drawer = (!open).then_some(DrawerPage::Timeline);
         }
     });
