@@ -219,6 +219,11 @@ impl App {
         self.painter.samples()
     }
 
+    /// Whether what lights the model is as fine as it will be.
+    pub fn is_refined(&self) -> bool {
+        self.painter.is_refined()
+    }
+
     /// The longest side of a picture that this device can draw, in pixels.
     pub fn longest_picture_side(&self) -> u32 {
         self.painter.longest_side().min(ui::MAX_PICTURE_SIDE)

@@ -194,6 +194,11 @@ impl SessionPainter {
         self.at_rest.shown().map_or(1, Accumulator::count)
     }
 
+    /// Whether what lights the model is as fine as it will be.
+    pub fn is_refined(&self) -> bool {
+        self.renderer.is_refined()
+    }
+
     /// Adds some samples to the mean of a picture that rests.
     fn draw_samples(&mut self, session: &mut Session, size: [u32; 2], compositor: &mut Compositor) {
         if !self.is_sampling(session) {

@@ -13,7 +13,7 @@ use super::contrast::{ContrastWatch, contrast};
 use super::joint_names::JointNames;
 use super::picture::AppSlot;
 use super::saving::Saving;
-use super::shared::{Running, Shared};
+use super::shared::{Drawn, Running, Shared};
 use super::{coarse_pointer, next_task, now_secs, object, sleep, text_of};
 use crate::app::{App, AppOptions};
 use crate::render::device;
@@ -45,12 +45,12 @@ pub(super) async fn start(
         ("backend", running.backend.into()),
         ("adapter", (&*running.adapter).into()),
     ]);
-    let frames = Rc::clone(&running.drawn);
+    let drawn = Rc::clone(&running.drawn);
     running.ctx.request_repaint();
     shared.running.replace(Some(running));
     // In a hidden tab no frame comes. Elsewhere the page does not wait for it for ever.
     for _ in 0..100 {
-        if frames.get()[0] > 0 || is_hidden() {
+        if drawn.get().frames > 0 || is_hidden() {
             break;
         }
         sleep(20).await;
@@ -81,7 +81,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
         ..Default::default()
     };
     let app = Rc::new(RefCell::new(None));
-    let drawn = Rc::new(Cell::new([0, 1]));
+    let drawn = Rc::new(Cell::new(Drawn::NOTHING));
     let (tell_of_loss, loss) = mpsc::channel();
     let shell = Shell {
         canvas: canvas.clone(),
@@ -181,7 +181,7 @@ struct Shell {
     is_lost: bool,
     /// Whether tasks go on with an export.
     exports: Rc<Cell<bool>>,
-    drawn: Rc<Cell<[u64; 2]>>,
+    drawn: Rc<Cell<Drawn>>,
     names: JointNames,
     saving: Saving,
     /// Whether what is seen changed by itself, or something was held, in the frame before.
@@ -195,7 +195,7 @@ impl Shell {
         let is_busy = self.shared.session.borrow().is_moving() || ctx.input(|input| input.pointer.any_down());
         let was_busy = self.is_busy.replace(is_busy);
         // Frames that make the picture of a view at rest finer change nothing.
-        if !is_busy && self.drawn.get()[1] <= 1 {
+        if !is_busy && self.drawn.get().samples <= 1 {
             self.shared.emit("settling", &JsValue::UNDEFINED);
         } else if is_busy && !was_busy {
             self.shared.emit("moving", &JsValue::UNDEFINED);
@@ -250,8 +250,12 @@ impl eframe::App for Shell {
         if let Some(app) = self.app.borrow_mut().as_mut() {
             app.set_contrast(contrast());
             requests = app.ui(ui);
-            let drawn = [app.frames_rendered(), app.samples().into()];
-            if self.drawn.replace(drawn)[0] != drawn[0] {
+            let drawn = Drawn {
+                frames: app.frames_rendered(),
+                samples: app.samples(),
+                refined: app.is_refined(),
+            };
+            if self.drawn.replace(drawn).frames != drawn.frames {
                 self.shared.timings.note_drawn();
             }
         }

@@ -7,6 +7,7 @@ use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::{JsCast as _, JsValue};
 
+use super::shared::Drawn;
 use crate::scene::{Detail, FrameCost, Pass, Theme, TimedPass};
 use crate::session::summary::{self, Books, Finding};
 use crate::session::{
@@ -108,7 +109,9 @@ struct Look {
     render_scale: f32,
     quality: &'static str,
     /// Of how many pictures the one in the window is the mean.
-    samples: u64,
+    samples: u32,
+    /// Whether what lights the model is as fine as it will be.
+    refined: bool,
     /// What is less fine while the picture moves.
     lowered: Option<Lowered>,
 }
@@ -154,12 +157,12 @@ struct FileError<'a> {
 }
 
 impl<'a> State<'a> {
-    /// `backend` and `adapter` are those of the running viewer, and so are the number of frames, and that of the pictures whose mean is shown.
+    /// `backend` and `adapter` are those of the running viewer, and so is what was `drawn`.
     pub(super) fn new(
         session: &'a Session,
         backend: Option<&'a str>,
         adapter: Option<&'a str>,
-        [frames_rendered, samples]: [u64; 2],
+        drawn: Drawn,
         (theme, link): (Option<Theme>, String),
         timings: BTreeMap<&'static str, f64>,
     ) -> Self {
@@ -197,7 +200,7 @@ impl<'a> State<'a> {
                 orthographic: camera.orthographic,
             },
             grid_visible: session.grid_visible(),
-            look: look(&appearance, session.quality(), samples),
+            look: look(&appearance, session.quality(), drawn),
             skeleton: Skeleton {
                 selected: selection.bone,
                 vertex: selection.vertex,
@@ -213,7 +216,7 @@ impl<'a> State<'a> {
             cost: cost(session),
             undo: session.history().undo_label(),
             redo: session.history().redo_label(),
-            frames_rendered,
+            frames_rendered: drawn.frames,
             theme,
             link,
             notices: session.diagnostics().map(Finding::from).collect(),
@@ -252,7 +255,7 @@ impl From<PlaybackState> for Playback {
     }
 }
 
-fn look(look: &AppearanceState, quality: &Quality, samples: u64) -> Look {
+fn look(look: &AppearanceState, quality: &Quality, drawn: Drawn) -> Look {
     Look {
         light: look.light.name(),
         split: look.split,
@@ -263,7 +266,8 @@ fn look(look: &AppearanceState, quality: &Quality, samples: u64) -> Look {
         passes: Pass::ALL.map(|pass| (pass.name(), quality.state(pass).name())).into(),
         render_scale: quality.render_scale().fraction(),
         quality: quality.mode().name(),
-        samples,
+        samples: drawn.samples,
+        refined: drawn.refined,
         lowered: quality.lowered().map(|lowered| Lowered {
             scale: lowered.scale,
             occlusion: if lowered.without_occlusion {

@@ -12,7 +12,7 @@ use super::arguments::{checked, given};
 use super::backend::Preference;
 use super::picture::AppSlot;
 use super::run;
-use super::shared::Shared;
+use super::shared::{Drawn, Shared};
 use super::{field, picture, promise, reduced_motion, state};
 use crate::scene::{Light, Theme};
 use crate::script;
@@ -198,7 +198,7 @@ impl Shared {
             &self.session.borrow(),
             running.map(|running| running.backend),
             running.map(|running| running.adapter.as_str()),
-            running.map_or([0, 1], |running| running.drawn.get()),
+            running.map_or(Drawn::NOTHING, |running| running.drawn.get()),
             (self.ui.borrow().theme, link),
             self.timings.millis(),
         ))

@@ -236,7 +236,7 @@ export function test(name, options, body) {
   // Real input meets a page that a software GPU draws a few times a second: a press can come before what it is meant for.
   nodeTest(`${BACKEND}: ${name}`, { skip, timeout: 5 * PATIENCE_MS }, () =>
     attempt().catch((error) => {
-      const [why] = error.message.split("\n");
+      const why = error.message.replace(/\s+/g, " ").slice(0, 300);
       console.error(`${BACKEND}: ${name} is tried again after: ${error.stack}`);
       if (process.env.BINDPOSE_SECOND_TRIES) appendFileSync(process.env.BINDPOSE_SECOND_TRIES, `${BACKEND}: ${name}: ${why}\n`);
       return attempt();
@@ -373,16 +373,17 @@ export function settled(page) {
   return page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }
 
-/** Waits until the camera has come to rest after a drag and nothing more is drawn. The clip must be paused. */
+/**
+ * Waits until the camera has come to rest after a drag and nothing more is drawn: what idle moments make finer is there too. The clip must
+ * be paused.
+ */
 export async function atRest(page) {
-  let before;
-  let drawn = -1;
-  do {
-    before = drawn;
+  for (let before; ; ) {
     await settled(page);
-    drawn = (await state(page)).framesRendered;
-  } while (drawn !== before);
-  return state(page);
+    const now = await state(page);
+    if (now.framesRendered === before && now.look.refined) return now;
+    before = now.framesRendered;
+  }
 }
 
 /** The files directly in a folder whose names end as said; none when there is no such folder. */

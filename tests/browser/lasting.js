@@ -64,8 +64,12 @@ test(`the GPU comes back ${LOSSES} times in a row, and nothing of those before i
     // What is lost before its third frame, again and again, is another matter.
     for (let frame = 0; frame < 3; frame += 1) await settled(page);
     // The first starts find the high-water mark.
-    if (round === 3) first = await held(page);
+    if (round === 3) {
+      await atRest(page);
+      first = await held(page);
+    }
   }
+  await atRest(page);
   const { scriptMB, wasmMB, gpuMB, ...objects } = first;
   let last = await held(page);
   // The browser frees a lost context at its own pace. What is held by something stays however long one waits.

@@ -1,7 +1,7 @@
 // Time: it advances, it can be scrubbed, and the same time is the same picture.
 
 import assert from "node:assert/strict";
-import { call, drag, keep, settled, state, test, until } from "./harness.js";
+import { atRest, call, drag, keep, settled, state, test, until } from "./harness.js";
 import { difference, picture } from "./picture.js";
 import { bounds, place, click, timeBar } from "./widgets.js";
 
@@ -114,7 +114,7 @@ test("the ends of the range are dragged from frame to frame, and playing stays b
   await call(page, "pause");
   await call(page, "selectClip", "Walk");
   // The bar becomes another one.
-  await settled(page);
+  await atRest(page);
   const frames = 32;
   const onBar = await barOf(page);
   await drag(page, await place(page, "range-out"), onBar(20.2 / frames));

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { atRest, drag, keep, settled, test } from "./harness.js";
 import { decoded, difference, picture } from "./picture.js";
-import { CHEST, GROUND, INSPECTOR, place, click } from "./widgets.js";
+import { CHEST, GROUND, INSPECTOR, click, place, still } from "./widgets.js";
 
 /** The subset of the sample that is orange. */
 const TRIM = 1;
@@ -38,8 +38,7 @@ test("the eye of a subset hides it and shows it again", { draws: true }, async (
   const clickEye = async () => {
     await page.mouse.move(...(await place(page, "model")));
     await page.mouse.wheel(0, 1000);
-    // The list glides to its end.
-    for (let frames = 0; frames < 20; frames += 2) await settled(page);
+    await still(page, `hide-subset-${TRIM}`);
     await click(page, `hide-subset-${TRIM}`);
     await settled(page);
     await page.mouse.move(...GROUND);

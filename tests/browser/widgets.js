@@ -1,6 +1,8 @@
 // Where things are on the page. Its controls are asked by their stable names; what is only drawn has its place here, as points of a window
 // of 960 × 600 with the sample open.
 
+import { settled } from "./harness.js";
+
 /** A control of a page of Playwright, where the viewer has drawn it: left, top, width and height. */
 export async function bounds(page, control) {
   const element = page.locator(`[data-control="${control}"]`).first();
@@ -12,6 +14,16 @@ export async function bounds(page, control) {
 export async function place(page, control, fraction = 0.5) {
   const { x, y, width, height } = await bounds(page, control);
   return [x + fraction * width, y + height / 2];
+}
+
+/** Waits until a list has glided to its place: until a control stays where it is. */
+export async function still(page, control) {
+  for (let before; ; ) {
+    for (let frames = 0; frames < 6; frames += 2) await settled(page);
+    const now = JSON.stringify(await bounds(page, control));
+    if (now === before) return;
+    before = now;
+  }
 }
 
 /** Clicks a control with the mouse. */
