@@ -10,8 +10,14 @@ import { chromium } from "playwright-core";
 export const PAGE = required("PAGE");
 export const BACKEND = required("BACKEND");
 const PROGRAM = process.env.PROGRAM ?? "/usr/bin/chromium";
-/** Only the tests that draw: what does not is the same program on every backend. */
-const DRAWS_ONLY = process.env.TESTS === "draws";
+/** `all` tests; or those that draw and of the others a half: those whose names have an `odd` or an `even` number of letters. */
+const TESTS = process.env.TESTS ?? "all";
+
+/** Whether a test is one of those that are wanted. `only`: the one backend that it is for. */
+function isWanted(name, { draws = false, only }) {
+  if (only) return only === BACKEND;
+  return TESTS === "all" || draws || TESTS === (name.length % 2 ? "odd" : "even");
+}
 
 const path = (relative) => fileURLToPath(new URL(relative, import.meta.url));
 
@@ -174,7 +180,8 @@ async function sharedPage(device, options) {
 }
 
 /**
- * A test in the page. `draws`: it looks at pixels or at what the GPU does, and is run on both backends. `viewport` and `colorScheme` are the person's; `phone` gives a small screen under fingers, `sharp` that with two
+ * A test in the page. `draws`: it looks at pixels or at what the GPU does, and is run on both backends; the checks run another on one of
+ * them. `only`: the one backend that it is for. `viewport` and `colorScheme` are the person's; `phone` gives a small screen under fingers, `sharp` that with two
  * pixels to the point. A test is quicker without what it does not look at: `motion` lets the sample play and the camera coast, which
  * a person who prefers reduced motion does not have; `passes` draws all that a saved picture can have; `fine` draws every pixel of the
  * view and the panels. Tests share a page, which begins anew for each. A test has a page of its own with `own`, for one that leaves
@@ -183,7 +190,7 @@ async function sharedPage(device, options) {
  * `expectErrors` says that it may, and once it has failed twice; each second try is counted, and the checks let few through.
  */
 export function test(name, options, body) {
-  if (DRAWS_ONLY && !options.draws) return;
+  if (!isWanted(name, options)) return;
   const { query, prepare, expectErrors = false, skip, bare = false, phone = false, sharp = false, passes = false, fine = false, own = false, firstVisit = false, ...person } = options;
   const device = sharp ? "sharpPhone" : phone ? "coarsePhone" : fine ? "desk" : "coarseDesk";
   const alone = own || bare || query !== undefined || prepare !== undefined;

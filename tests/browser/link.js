@@ -2,7 +2,9 @@
 
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
-import { BACKEND, PAGE, SAMPLE, call, listen, running, settled, state, test, until } from "./harness.js";
+import { createServer } from "node:http";
+import { BACKEND, PAGE, SAMPLE, atRest, call, keep, listen, running, settled, state, test, until } from "./harness.js";
+import { coloursOnScreen } from "./picture.js";
 
 const QUERY = `?backend=${BACKEND}&scale=0.2`;
 const OWN = { own: true, query: QUERY, passes: true };
@@ -56,11 +58,8 @@ const picture = (page) => page.evaluate(async () => {
   return [...copy.getImageData(0, 0, shown.width, shown.height).data];
 });
 
-/** The studio is made finer in idle moments: on average by no more than this, of 255. */
-const FINER = 0.5;
 const apart = (one, other) => one.map((byte, index) => Math.abs(byte - other[index]));
 const most = (numbers) => Math.max(...numbers);
-const mean = (numbers) => numbers.reduce((sum, number) => sum + number, 0) / numbers.length;
 
 const hash = (page) => page.evaluate(() => location.hash.slice(1));
 const notice = (page) => page.textContent("#notice");
@@ -87,18 +86,16 @@ async function visit(page, text) {
   await running(page);
 }
 
-test("links bring back what they say, in this page and in a new one", OWN, async (page) => {
+test("links bring back what they say, in this page and in a new one", { ...OWN, draws: true }, async (page) => {
   await until(page, (now) => now.model);
   const shown = [];
-  // The suite of WebGPU takes the longest: it looks at a third of them.
-  const links = LINKS.filter((_, index) => BACKEND === "webgl2" || index % 3 === 0);
-  for (const text of links) {
+  for (const text of LINKS) {
     await follow(page, text);
-    await settled(page); // The model is framed in what panels leave.
+    await atRest(page); // The model is framed in what panels leave.
     shown.push([seen(await state(page)), await picture(page)]);
     assert.equal((await state(page)).undo, null, `${text} is no step`);
   }
-  const of = (text) => shown[links.indexOf(text)][0];
+  const of = (text) => shown[LINKS.indexOf(text)][0];
   const [paused] = shown;
   assert.deepEqual([of("t=0.5&play=0").timeSecs, of("clip=Wave&t=0.75&play=0&speed=0.25").clip], [0.5, "Wave"]);
   const { skeleton } = of("t=0.5&play=0&bone=9&skin=weight");
@@ -107,14 +104,13 @@ test("links bring back what they say, in this page and in a new one", OWN, async
   assert.ok(shown.filter(([, picture]) => most(apart(picture, paused[1])) > 20).length > 0.6 * shown.length, "most of them are seen");
   await follow(page, "");
   const fresh = (index) => index % 5 === 0;
-  for (const [index, text] of links.entries()) {
+  for (const [index, text] of LINKS.entries()) {
     if (fresh(index)) await visit(page, text);
     else await follow(page, "").then(() => follow(page, text));
     await until(page, (now) => now.link === text);
-    await settled(page);
+    await atRest(page);
     assert.deepEqual(seen(await state(page)), shown[index][0], text);
-    const off = mean(apart(await picture(page), shown[index][1]));
-    assert.ok(off <= FINER, `${text}: ${off}`);
+    assert.equal(most(apart(await picture(page), shown[index][1])), 0, text);
   }
 });
 
@@ -197,4 +193,25 @@ test("a link to a dropped file waits for it, by its name and by its bytes", { ..
     await until(page, (now) => now.model?.name === name && now.timeSecs === 0.75 && !now.playing);
     if (told) await hears(page, told);
   }
+});
+
+test("a page of notes frames a moment with its timeline, or the picture alone", OWN, async (page) => {
+  await until(page, (now) => now.model);
+  await follow(page, "clip=Walk&t=0.5&play=0");
+  const copied = await page.evaluate(async () => (await import("/web/link.js")).embedding(location.href, "A step"));
+  let notes;
+  const server = createServer((_, answer) => answer.setHeader("content-type", "text/html").end(`<!doctype html><title>Notes</title>${notes}`));
+  await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  const transport = ["timeline", "play", "time", "range-in", "range-out", "clips", "speed", "next-loop-mode"];
+  for (const [ui, html, wanted] of [["transport", copied, transport], ["none", copied.replace("ui=transport", "ui=none"), []]]) {
+    notes = html;
+    await page.goto(`http://127.0.0.1:${server.address().port}/`);
+    const frame = page.frames()[1];
+    await frame.waitForFunction(() => globalThis.bindpose?.state().timeSecs === 0.5 && document.getElementById("shell").hidden, null, { polling: 50, timeout: 30_000 });
+    const controls = await frame.evaluate(() => Array.from(document.querySelectorAll("[data-control]"), ({ dataset }) => dataset.control));
+    assert.deepEqual(controls, wanted);
+    assert.ok((await coloursOnScreen(page)) > 200, ui);
+    await keep(page, `framed-${ui}`);
+  }
+  server.close();
 });

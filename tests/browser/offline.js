@@ -83,8 +83,7 @@ test("after one visit the page opens without a network, and a file that is dropp
   assert.deepEqual(Object.values(await kept(page)).flat().filter((name) => name.includes("theirs")), []);
 });
 
-const onWebGpu = BACKEND === "webgpu" ? test : () => {};
-onWebGpu("a visit that took both programs opens without a network too", { prepare: pretendGpu({ device: "refused" }) }, async (page, host) => {
+test("a visit that took both programs opens without a network too", { only: "webgpu", prepare: pretendGpu({ device: "refused" }) }, async (page, host) => {
   const open = async () => {
     await page.goto(`${host.address}?quality=low&scale=0.2`);
     await until(page, ({ backend, model }) => backend === "webgl2" && model?.name === "figure.m3d");

@@ -2,11 +2,11 @@
 // full one stands in for the other.
 
 import assert from "node:assert/strict";
-import { BACKEND, FOLDERS, drop, keep, programs, settled, state, test as eachTest, until } from "./harness.js";
+import { FOLDERS, drop, keep, programs, settled, state, test as eachTest, until } from "./harness.js";
 import { copyOfSample } from "./opening.js";
 import { assertDrawn, coloursOnScreen, picture } from "./picture.js";
 
-const test = BACKEND === "webgpu" ? eachTest : () => {};
+const test = (name, options, body) => eachTest(name, { only: "webgpu", ...options }, body);
 const { full, webgpu } = FOLDERS;
 const COARSE = "quality=full&scale=0.2";
 

@@ -59,7 +59,6 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     let tests = BrowserTests {
         page: &page,
         only: options.only.as_deref(),
-        // What does not draw is the same program on both backends: the first run has all tests.
         all_on_each: options.long || options.browser_alone,
         absent: &absent,
         second_tries: &second_tries,
@@ -275,7 +274,7 @@ fn drive(
 struct BrowserTests<'a> {
     page: &'a str,
     only: Option<&'a str>,
-    /// Also tests that do not draw, on a backend that is not the first.
+    /// All tests, in place of a run's own.
     all_on_each: bool,
     absent: &'a List,
     second_tries: &'a List,
@@ -291,11 +290,7 @@ fn browser(run: BrowserRun, wanted: BrowserTests<'_>) -> Line {
     let line = node(run, only.as_deref(), tests, wanted.page)
         .env(absent::VARIABLE, wanted.absent.path())
         .env(second_tries::VARIABLE, wanted.second_tries.path());
-    if wanted.all_on_each || run.has_all_tests {
-        line
-    } else {
-        line.env("TESTS", "draws")
-    }
+    line.env("TESTS", if wanted.all_on_each { "all" } else { run.tests })
 }
 
 /// The page that was served here ends with this program, so node alone could not repeat what failed.
