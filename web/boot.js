@@ -10,8 +10,10 @@ import { greeting, keep, kept } from "./kept.js";
 import { embedding, keepLink } from "./link.js";
 import { mirrorOf } from "./mirror.js";
 import { keepPage, takeLaunches } from "./offline.js";
+import { printView } from "./printing.js";
 import { backend, fetchProgram, first, options } from "./program.js";
 import { keepOnCanvas } from "./restart.js";
+import { saveFile, savePicture } from "./saving.js";
 import { fetchFrom, fetchOwn, readAgain, rememberSources } from "./sources.js";
 
 /** The sample: the model, then its maps. Addresses may carry a hash, names never do. */
@@ -23,9 +25,6 @@ const SAMPLE = {
 
 /** "\0asm", version 1, and the type of a function that gives a vector of 128 bits: the least that needs SIMD. */
 const SIMD_PROGRAM = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123];
-
-/** The browser may take this long to begin a download. */
-const DOWNLOAD_KEPT_MS = 60_000;
 
 /** A region that speaks is empty for so long before other words come. */
 const SPOKEN_AFTER_MS = 60;
@@ -488,100 +487,4 @@ async function copyLink(embed) {
   } catch {
     showNotice("The link could not be copied", address);
   }
-}
-
-/** Saves a picture where the person chooses, or as a download. */
-async function savePicture({ name, bytes, choosesPlace }) {
-  if (!choosesPlace || !globalThis.showSaveFilePicker) return saveFile(name, bytes, "image/png");
-  try {
-    const types = [{ description: "PNG picture", accept: { "image/png": [".png"] } }];
-    const file = await (await showSaveFilePicker({ suggestedName: name, types })).createWritable();
-    await file.write(bytes);
-    await file.close();
-  } catch (error) {
-    if (error.name !== "AbortError") showNotice("The picture could not be saved", wordsOf(error));
-  }
-}
-
-/** Saves bytes or text as a file of this name, as a download. */
-function saveFile(name, contents, type) {
-  const address = URL.createObjectURL(new Blob([contents], { type }));
-  const link = document.createElement("a");
-  link.href = address;
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(address), DOWNLOAD_KEPT_MS);
-}
-
-/** Pixels. */
-const LONGEST_PRINTED_SIDE = 2400;
-
-/** Prints the view with a line of facts: for Ctrl+P a picture made for paper, for the browser's menu, which cannot wait, a copy of `canvas()`. */
-function printView(bindpose, canvas) {
-  const sheet = document.createElement("section");
-  sheet.id = "print";
-  const picture = new Image();
-  const copy = document.createElement("canvas");
-  const line = document.createElement("p");
-  sheet.append(picture, copy, line);
-  document.body.append(sheet);
-
-  let drawing = false;
-  addEventListener("keydown", (event) => {
-    const { key, ctrlKey, metaKey, shiftKey, altKey } = event;
-    if (key.toLowerCase() !== "p" || !(ctrlKey || metaKey) || shiftKey || altKey || !bindpose.state().model) return;
-    event.preventDefault();
-    event.stopPropagation();
-    if (event.repeat || drawing) return;
-    drawing = true;
-    drawPicture(bindpose, picture)
-      // Without a picture the print gets a copy of the view.
-      .catch(() => forget(picture))
-      .finally(() => {
-        drawing = false;
-        print();
-      });
-  }, true);
-  addEventListener("beforeprint", () => {
-    const state = bindpose.state();
-    line.textContent = facts(state);
-    copy.hidden = Boolean(picture.src) || !state.model;
-    if (!copy.hidden) copyView(canvas(), copy);
-  });
-  addEventListener("afterprint", () => {
-    copy.width = 0; // Its pixels are freed.
-    document.body.classList.remove("has-picture");
-    forget(picture);
-  });
-}
-
-async function drawPicture(bindpose, picture) {
-  const scale = LONGEST_PRINTED_SIDE / Math.max(innerWidth, innerHeight);
-  const [width, height] = [innerWidth, innerHeight].map((side) => Math.round(side * scale));
-  picture.src = URL.createObjectURL(await bindpose.snapshot({ width, height }));
-  await picture.decode();
-  document.body.classList.add("has-picture");
-}
-
-function forget(picture) {
-  URL.revokeObjectURL(picture.src);
-  picture.removeAttribute("src");
-}
-
-/** The viewer draws without its panels when its canvas hears of a print; it can be copied until the script ends. */
-function copyView(canvas, copy) {
-  canvas.dispatchEvent(new Event("beforeprint"));
-  [copy.width, copy.height] = [canvas.width, canvas.height];
-  copy.getContext("2d").drawImage(canvas, 0, 0);
-  document.body.classList.add("has-picture");
-}
-
-function facts({ model, clip, timeSecs }) {
-  if (!model) return "";
-  const { counts } = model;
-  // As the panels group them.
-  const count = (number, word) => `${String(number).replace(/\B(?=(\d{3})+$)/g, "\u2009")} ${word}`;
-  const size = [count(counts.vertices, "vertices"), count(counts.triangles, "triangles"), count(counts.bones, "bones")];
-  const time = clip ? [`${clip} at ${timeSecs.toFixed(3)} s`] : [];
-  return [model.name, ...time, size.join(", ")].join(" · ");
 }
