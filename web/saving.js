@@ -1,0 +1,29 @@
+// What a person saves: pictures, reports and models, as files.
+
+import { showNotice, wordsOf } from "./fault.js";
+
+/** The browser may take this long to begin a download. */
+const DOWNLOAD_KEPT_MS = 60_000;
+
+/** Saves a picture where the person chooses, or as a download. */
+export async function savePicture({ name, bytes, choosesPlace }) {
+  if (!choosesPlace || !globalThis.showSaveFilePicker) return saveFile(name, bytes, "image/png");
+  try {
+    const types = [{ description: "PNG picture", accept: { "image/png": [".png"] } }];
+    const file = await (await showSaveFilePicker({ suggestedName: name, types })).createWritable();
+    await file.write(bytes);
+    await file.close();
+  } catch (error) {
+    if (error.name !== "AbortError") showNotice("The picture could not be saved", wordsOf(error));
+  }
+}
+
+/** Saves bytes or text as a file of this name, as a download. */
+export function saveFile(name, contents, type) {
+  const address = URL.createObjectURL(new Blob([contents], { type }));
+  const link = document.createElement("a");
+  link.href = address;
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), DOWNLOAD_KEPT_MS);
+}
