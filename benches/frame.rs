@@ -1,5 +1,5 @@
 //! Frame time of the renderer on software GPUs, Vulkan's and GL's: with everything, with one pass left out at a time, under each
-//! light, split, as a property, still, and in a crowd; but for the still ones the pose moves, as while a clip plays. A software GPU draws
+//! light, split, as a property, still, with one sample a pixel, and in a crowd; but for the still ones the pose moves, as while a clip plays. A software GPU draws
 //! with the CPU, so only the ratios of one run tell something.
 //!
 //! criterion repeats too often for frames of a tenth of a second; this takes the ways in turn, so that what else the machine does
@@ -9,7 +9,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use bindpose::render::device::{self, Backend};
-use bindpose::render::{Renderer, Target};
+use bindpose::render::{Renderer, SampleCount, Target};
 use bindpose::scene::{
     Aabb, Crowd, CrowdInstance, FrameCost, FrameOptions, Light, Pass, Passes, RenderFrame, ViewMode,
 };
@@ -26,6 +26,8 @@ struct Way {
     is_still: bool,
     /// Instances of the model.
     count: usize,
+    /// One sample a pixel, as a slow device moves.
+    is_coarse: bool,
     options: FrameOptions,
     millis: Vec<f64>,
     cost: FrameCost,
@@ -91,6 +93,7 @@ fn ways(options: FrameOptions) -> Vec<Way> {
             name: name.to_owned(),
             is_still: false,
             count: 1,
+            is_coarse: false,
             options,
             millis: Vec::new(),
             cost: FrameCost::default(),
@@ -128,6 +131,10 @@ fn ways(options: FrameOptions) -> Vec<Way> {
                 ..way
             });
         }
+        ways.push(Way {
+            is_coarse: true,
+            ..way(&format!("{}, one sample", light.name()), &all)
+        });
         ways.push(Way {
             count: CROWD,
             ..way(&format!("{}, a crowd of {CROWD}", light.name()), &all)
@@ -186,6 +193,7 @@ fn measure(backend: Backend) {
     let map_count = images.iter().flatten().flatten().count();
     let [width, height] = SIZE;
     let mut target = Target::with_samples(&gpu.device, width, height, gpu.samples);
+    let mut coarse_target = Target::with_samples(&gpu.device, width, height, SampleCount::One);
 
     let others = Others::of(&mut session);
     let mut ways = ways(session.frame().options);
@@ -203,7 +211,8 @@ fn measure(backend: Backend) {
                 others.join(&mut frame, round);
             }
             let start = Instant::now();
-            way.cost = renderer.render(&frame, &mut target);
+            let target = if way.is_coarse { &mut coarse_target } else { &mut target };
+            way.cost = renderer.render(&frame, target);
             let done = gpu.device.poll(wgpu::PollType::wait_indefinitely());
             done.expect("the device is there");
             if round > 0 {
