@@ -3,6 +3,11 @@
 import { onlyJoins } from "./files.js";
 import { recordOf } from "./sources.js";
 
+/** The message of what was thrown, which need not be an `Error`. */
+export function wordsOf(error) {
+  return error?.message ?? String(error);
+}
+
 /** What `state()` says before there is a viewer to ask. */
 const EMPTY = { backend: null, model: null, models: [], opening: null, timings: {}, clip: null, timeSecs: 0, playing: false, undo: null, redo: null, framesRendered: 0, notices: [], book: null, link: "", error: null };
 

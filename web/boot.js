@@ -1,17 +1,18 @@
 // The page: its elements, and the one viewer on it. Starts the viewer on the canvas, hands it what the person opens, and shows what it cannot
 // say itself.
 
-import { createApi } from "./api.js";
+import { createApi, wordsOf } from "./api.js";
 import { takeChoices, takeDrops } from "./drop.js";
 import {
-  clearNotice, showDownloadFailure, showGpuFailure, showGpuLoss, showNotice, showOldBrowser, showPanic, showPutAside, wordsOf,
+  clearNotice, showDownloadFailure, showGpuFailure, showGpuLoss, showNotice, showOldBrowser, showPanic, showPutAside,
 } from "./fault.js";
 import { greeting, keep, kept } from "./kept.js";
+import { letScroll } from "./guest.js";
 import { embedding, keepLink } from "./link.js";
 import { mirrorOf } from "./mirror.js";
 import { keepPage, takeLaunches } from "./offline.js";
 import { printView } from "./printing.js";
-import { backend, fetchProgram, first, options } from "./program.js";
+import { backend, compile, fetchProgram, first, options } from "./program.js";
 import { keepOnCanvas } from "./restart.js";
 import { saveFile, savePicture } from "./saving.js";
 import { fetchFrom, fetchOwn, readAgain, rememberSources } from "./sources.js";
@@ -33,6 +34,10 @@ const element = (id) => document.getElementById(id);
 const view = element("view");
 const { bindpose, wasUsed, give, attach, fail, hasFailed, emit } = createApi(() => link.text());
 globalThis.bindpose = bindpose;
+
+/** Whether the page lies in another one, as "Copy embed" has it: the viewer has no panels there, and says nothing itself. */
+const isFramed = ["transport", "none"].includes(options.get("ui"));
+if (isFramed && parent !== window) letScroll(view);
 
 let viewer = null;
 let onCanvas = null; // Starts and restarts the viewer on the page's canvas.
@@ -56,9 +61,11 @@ const link = keepLink({
     choices = choicesNow();
   },
   ask(words) {
+    if (isFramed) return words ? tellOf(words) : clearNotice();
     viewer.greet(words ?? undefined);
     if (words) say(words);
   },
+  tell: (words) => tellOf(words),
   refuse: (names) => showNotice("The link is not shown in full", `Left out, since they are damaged, newer than this page or not of this model: ${names.join(", ")}`),
 });
 
@@ -78,6 +85,7 @@ bindpose.reset = async () => {
   return bindpose.state();
 };
 
+const tellOf = (words) => showNotice("About this link", words, false);
 const refuse = (words) => showNotice("Some files could not be read", words);
 /** Tells of a failed opening, but not of one that gave way to another. */
 const refuseError = (error) => error.name === "AbortError" || refuse(wordsOf(error));
@@ -261,23 +269,8 @@ function takeUnclaimedKeys() {
   });
 }
 
-/** Compiles a program while it arrives. */
 async function load(fetching) {
-  const program = await fetching;
-  const { module, response, total } = program;
-  let arrived = 0;
-  const counted = response.body.pipeThrough(
-    new TransformStream({
-      transform(chunk, controller) {
-        arrived += chunk.byteLength;
-        showProgress(arrived, total);
-        controller.enqueue(chunk);
-      },
-    }),
-  );
-  const headers = { "Content-Type": "application/wasm" };
-  await module.default({ module_or_path: new Response(counted, { headers }) });
-  return program;
+  return compile(await fetching, showProgress);
 }
 
 function showProgress(arrived, total) {
@@ -458,20 +451,24 @@ async function fetchOpening(program) {
 async function fetchNamed(addresses) {
   const stop = new AbortController();
   let fetching; // The number by which the viewer knows it.
-  const total = { name: "", bytes: 0 };
+  const before = [0, 0]; // What came and what was promised before the viewer was there.
+  const note = (bytes, promised) => {
+    before[0] += bytes;
+    before[1] += promised;
+    if (fetching !== undefined && !viewer.noteFetched(fetching, bytes, promised)) stop.abort();
+  };
+  bindpose.ready.then(() => {
+    if (stop.signal.aborted) return;
+    fetching = viewer.beginFetching(decodeURIComponent(addresses[0].split(/[?#]/)[0].split("/").pop()));
+    viewer.noteFetched(fetching, ...before);
+  }, () => {});
+  // A server that answers nothing is given up too.
+  const asking = setInterval(() => note(0, 0), 250);
   try {
-    return await fetchFrom(addresses, {
-      signal: stop.signal,
-      began(name, bytes) {
-        if (!total.name) total.name = name;
-        total.bytes += bytes;
-      },
-      got(bytes) {
-        fetching ??= viewer?.beginFetching(total.name, total.bytes);
-        if (fetching !== undefined && !viewer.noteFetched(fetching, bytes)) stop.abort();
-      },
-    });
+    return await fetchFrom(addresses, { signal: stop.signal, began: (_, promised) => note(0, promised), got: (bytes) => note(bytes, 0) });
   } finally {
+    clearInterval(asking);
+    stop.abort();
     if (fetching !== undefined) viewer.endFetching(fetching);
   }
 }

@@ -1,12 +1,15 @@
 // Pages and cards for what the viewer itself cannot say, because it does not run or never saw the file.
 
+import { wordsOf } from "./api.js";
+
 /** The ways to draw, by their names in the address. */
 const BACKENDS = { webgl2: "WebGL2", webgpu: "WebGPU" };
 
 const element = (id) => document.getElementById(id);
 
 /** A card over the view that stays until it is dismissed. */
-export function showNotice(title, words) {
+export function showNotice(title, words, isError = true) {
+  element("notice").classList.toggle("plain", !isError);
   element("notice-title").textContent = title;
   element("notice-words").textContent = words;
   element("notice").hidden = false;
@@ -91,11 +94,6 @@ export function showDownloadFailure(error) {
     wordsOf(error),
     [],
   );
-}
-
-/** The message of what was thrown, which need not be an `Error`. */
-export function wordsOf(error) {
-  return error?.message ?? String(error);
 }
 
 function backendLinks() {

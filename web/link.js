@@ -30,6 +30,8 @@ function parsed(text) {
   return { ...found, view: found.view.join("&") };
 }
 
+const asking = (name) => `This link is about ${baseName(name)}: open or drop it to see the same moment.`;
+
 /** The first digits of the SHA-256 of bytes; nothing where the page may not know it: it came without `https:`. */
 async function digestOf(bytes) {
   const digest = new Uint8Array((await globalThis.crypto?.subtle?.digest("SHA-256", bytes)) ?? []);
@@ -38,9 +40,9 @@ async function digestOf(bytes) {
 
 /**
  * Keeps the address and what is seen together. The page gives what it does otherwise: `viewer()`, or null while there is none; `changed(link)`
- * hears of another link, `followed()` of one that is shown, `ask(words)` asks for a file and `refuse(words)` tells what was left out.
+ * hears of another link, `followed()` of one that is shown, `ask(words)` asks for a file, `tell(words)` says what was opened in its place and `refuse(names)` what was left out.
  */
-export function keepLink({ viewer, changed, followed, ask, refuse }) {
+export function keepLink({ viewer, changed, followed, ask, tell, refuse }) {
   let own = null; // What the page opened by itself: its opening and path.
   let opensOwn = false; // Whether it does so now.
   let model = { opening: null, path: null, sha: "" }; // On screen.
@@ -92,7 +94,7 @@ export function keepLink({ viewer, changed, followed, ask, refuse }) {
     wanted = null;
     ask(null);
     const leftOut = viewer().followLink(view);
-    if (words) viewer().tell(words);
+    if (words) tell(words);
     if (leftOut.length) refuse(leftOut);
     followed();
   };
@@ -107,6 +109,7 @@ export function keepLink({ viewer, changed, followed, ask, refuse }) {
     if (isNamed && isSame !== false) return void show(wanted);
     if (isNamed) show(wanted, `${baseName(name)} has other bytes than the file that the link was made of`);
     else if (isSame) show(wanted, `${baseName(model.path)} is ${baseName(name)} of the link, under another name`);
+    else if (!isOwn(model)) ask(`${baseName(model.path)} is another file. ${asking(name)}`);
   };
 
   return {
@@ -132,7 +135,7 @@ export function keepLink({ viewer, changed, followed, ask, refuse }) {
       const { model: name } = link;
       if (model.path !== null && !opensOwn) showWanted();
       if (!wanted || name === undefined || viewer().openModel(name)) return;
-      ask(`This link is about ${baseName(name)}: drop it to see the same moment.`);
+      ask(asking(name));
     },
     /** Another model is on screen. */
     async loaded() {

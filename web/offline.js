@@ -1,7 +1,7 @@
 // The page as a program of the system: it opens without a network, takes files that the system opens with it or other programs share with it, and hears
 // of a newer build. Of this only a build for a host has the worker: the page names the build there.
 
-import { wordsOf } from "./fault.js";
+import { wordsOf } from "./api.js";
 
 /** How often a page that stays open asks for a newer build. */
 const ASKS_EVERY_MS = 3_600_000;

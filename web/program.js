@@ -1,7 +1,7 @@
 // Which program the page fetches: the smaller one draws on WebGPU alone. It begins before the rest of the page is here.
 
 /** How the page starts. What stands behind `#` is a link to what is seen: link.js. */
-export const options = new URLSearchParams(location.search);
+export const options = new URLSearchParams(globalThis.location?.search);
 const named = options.get("backend");
 /** The way to draw that it asks for. */
 export const backend = ["webgpu", "webgl2"].includes(named) ? named : "auto";
@@ -11,6 +11,9 @@ const PROGRAMS = {
   full: [() => import("../pkg/bindpose.js"), "../pkg/bindpose_bg.wasm"],
   webgpu: [() => import("../pkg/webgpu/bindpose.js"), "../pkg/webgpu/bindpose_bg.wasm"],
 };
+
+/** The page's own script element; on other people's pages there is none. */
+const own = globalThis.document?.getElementById("program");
 
 /** Whether WebGPU draws on hardware, as far as the browser tells. The program knows more software by its name, and then asks for the full one. */
 async function hasGpu() {
@@ -23,9 +26,29 @@ export async function fetchProgram(name) {
   const [script, address] = PROGRAMS[name];
   const [module, response] = await Promise.all([script(), fetch(new URL(address, import.meta.url))]);
   if (!response.ok) throw new Error(`The server answered ${response.status} for ${response.url}`);
-  return { name, module, response, total: Number(document.getElementById("program").dataset[name]) };
+  return { name, module, response, total: Number(own?.dataset[name]) };
 }
 
-const chosen = backend === "auto" ? hasGpu().catch(() => false) : Promise.resolve(backend === "webgpu");
-export const first = chosen.then((alone) => fetchProgram(alone ? "webgpu" : "full"));
-first.catch(() => {}); // boot.js reports it.
+/** The name of the program for a way to draw. */
+export const nameFor = async (wanted) => ((wanted === "auto" ? await hasGpu().catch(() => false) : wanted === "webgpu") ? "webgpu" : "full");
+
+/** Compiles a program while it arrives. `progress(arrived, total)` hears of bytes. */
+export async function compile(program, progress) {
+  const { module, response, total } = program;
+  let arrived = 0;
+  const counted = response.body.pipeThrough(
+    new TransformStream({
+      transform(chunk, controller) {
+        arrived += chunk.byteLength;
+        progress(arrived, total);
+        controller.enqueue(chunk);
+      },
+    }),
+  );
+  const headers = { "Content-Type": "application/wasm" };
+  await module.default({ module_or_path: new Response(counted, { headers }) });
+  return program;
+}
+
+export const first = own && nameFor(backend).then(fetchProgram);
+first?.catch(() => {}); // boot.js reports it.

@@ -1,6 +1,7 @@
 // What a person saves: pictures, reports and models, as files.
 
-import { showNotice, wordsOf } from "./fault.js";
+import { wordsOf } from "./api.js";
+import { showNotice } from "./fault.js";
 
 /** The browser may take this long to begin a download. */
 const DOWNLOAD_KEPT_MS = 60_000;

@@ -245,7 +245,7 @@ impl Coding {
                 let srgb = Srgb::tables();
                 append_bytes(data, texels, |texel| {
                     let [r, g, b] = srgb.bytes(texel / texel.w);
-                    let alpha = nearest(Vec4::splat(alpha_of(texel) * alpha_scale)).w;
+                    let alpha = nearest((texel - CLEAR_WEIGHT) / (1.0 - CLEAR_WEIGHT) * alpha_scale).w;
                     [r, g, b, alpha.to_bits() as u8]
                 });
             }

@@ -68,25 +68,23 @@ impl Viewer {
         self.shared.apply_to_listed("closeModel", path, FileCommand::Close)
     }
 
-    /// Learns that the page fetches files that it will open in place of what is open, this one first; `total` is 0 where servers do not say how many
-    /// bytes that will be. Returns the number by which the viewer knows it.
+    /// Learns that the page fetches files that it will open in place of what is open, this one first. Returns the number by which the viewer knows
+    /// it.
     #[wasm_bindgen(js_name = beginFetching)]
-    pub fn begin_fetching(&self, name: String, total: f64) -> f64 {
-        let mine = self
-            .shared
-            .session
-            .borrow_mut()
-            .begin_fetching(name, total as usize, true);
+    pub fn begin_fetching(&self, name: String) -> f64 {
+        let mine = self.shared.session.borrow_mut().begin_fetching(name, 0, true);
         self.shared.request_repaint();
         mine as f64
     }
 
-    /// Learns that so many bytes more have come. Returns whether they are still waited for.
+    /// Learns that so many bytes more have come, and that a server has promised so many. Returns whether they are still waited for.
     #[wasm_bindgen(js_name = noteFetched)]
-    pub fn note_fetched(&self, fetching: f64, bytes: f64) -> bool {
+    pub fn note_fetched(&self, fetching: f64, bytes: f64, promised: f64) -> bool {
         let is_wanted = self.shared.session.borrow().openings() as f64 == fetching;
         if is_wanted {
-            self.shared.session.borrow_mut().note_fetched(bytes as usize);
+            let mut session = self.shared.session.borrow_mut();
+            session.note_fetched(bytes as usize, promised as usize);
+            drop(session);
             self.shared.request_repaint();
         }
         is_wanted
@@ -240,7 +238,7 @@ impl Shared {
                 let piece = record.piece(bytes.len()).await?;
                 append(&mut bytes, &piece);
                 self.check_not_overtaken(openings)?;
-                self.session.borrow_mut().note_fetched(piece.length() as usize);
+                self.session.borrow_mut().note_fetched(piece.length() as usize, 0);
                 self.tell_progress(&mut told_secs);
             }
             files.push(File::new(&record.name, bytes));

@@ -19,5 +19,6 @@ import "./lasting.js";
 import "./visits.js";
 import "./link.js";
 import "./elsewhere.js";
+import "./element.js";
 import "./programs.js";
 import "./offline.js";

@@ -185,13 +185,13 @@ test("a link to a dropped file waits for it, by its name and by its bytes", { ..
     ["hero.m3d", true, "hero.m3d has other bytes than the file that the link was made of"],
   ]) {
     await visit(page, link);
-    await hears(page, "This link is about hero.m3d: drop it to see the same moment.");
+    await hears(page, "This link is about hero.m3d: open or drop it to see the same moment.");
     await page.getByRole("button", { name: /^Close the welcome/ }).waitFor({ state: "attached" });
     await page.waitForTimeout(600);
     assert.equal(await hash(page), link, "it stays until its model is here");
     await choose(name, changed ? Buffer.concat([bytes, Buffer.from("\n")]) : bytes);
     await until(page, (now) => now.model?.name === name && now.timeSecs === 0.75 && !now.playing);
-    if (told) await hears(page, told);
+    if (told) assert.ok((await notice(page)).includes(told), told);
   }
 });
 
@@ -200,7 +200,7 @@ test("a page of notes frames a moment with its timeline, or the picture alone", 
   await follow(page, "clip=Walk&t=0.5&play=0");
   const copied = await page.evaluate(async () => (await import("/web/link.js")).embedding(location.href, "A step"));
   let notes;
-  const server = createServer((_, answer) => answer.setHeader("content-type", "text/html").end(`<!doctype html><title>Notes</title>${notes}`));
+  const server = createServer((_, answer) => answer.setHeader("content-type", "text/html").end(`<!doctype html><title>Notes</title>${notes}<p style="height: 2000px">More</p>`));
   await new Promise((done) => server.listen(0, "127.0.0.1", done));
   const transport = ["timeline", "play", "time", "range-in", "range-out", "clips", "speed", "next-loop-mode"];
   for (const [ui, html, wanted] of [["transport", copied, transport], ["none", copied.replace("ui=transport", "ui=none"), []]]) {
@@ -212,6 +212,14 @@ test("a page of notes frames a moment with its timeline, or the picture alone", 
     assert.deepEqual(controls, wanted);
     assert.ok((await coloursOnScreen(page)) > 200, ui);
     await keep(page, `framed-${ui}`);
+    // The page scrolls over it.
+    await page.mouse.move(200, 200);
+    await page.mouse.wheel(0, 40);
+    await page.waitForFunction(() => scrollY === 40);
   }
+  // Of a file of one's own the frame says that it is missing.
+  notes = copied.replace("#clip", "#model=hero.m3d&amp;clip");
+  await page.goto(`http://127.0.0.1:${server.address().port}/`);
+  await page.frames()[1].waitForFunction(() => document.getElementById("notice-words")?.textContent.includes("This link is about hero.m3d"), null, { polling: 50 });
   server.close();
 });

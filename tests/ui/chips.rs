@@ -180,7 +180,7 @@ fn an_opening_that_is_read_and_then_made_keeps_its_chip() {
     let session = &mut window.harness.state_mut().session;
     session.open_in(&Slices::new(|| true));
     session.begin_fetching("b.m3d".to_owned(), 2_000_000, true);
-    session.note_fetched(500_000);
+    session.note_fetched(500_000, 0);
     window.wait(0.1);
     assert!(!window.shows("Cancel opening b.m3d"), "a short one is not told");
     window.wait(0.2);

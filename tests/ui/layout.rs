@@ -543,12 +543,14 @@ fn has(window: &Window, start: &str) -> bool {
 #[test]
 fn on_another_page_there_is_the_timeline_or_nothing_and_no_button_without_use() {
     for mut window in [window(WIDE, vec![moving("a.m3d")]), phone(vec![moving("a.m3d")])] {
+        window.apply(PlayCommand::SetSpeed(0.5));
         for chrome in Chrome::ALL {
             window.harness.state_mut().state.chrome = chrome;
             window.pass_on();
             let whole = chrome == Chrome::Full;
             assert_eq!(has(&window, "Open files"), whole, "{chrome:?}");
             assert_eq!(has(&window, "Play"), chrome != Chrome::None, "{chrome:?}");
+            assert_eq!(has(&window, "Speed 0.5"), whole, "{chrome:?}: a chip over the picture");
             assert_inside(&window, window.harness.ctx.content_rect().size());
         }
     }

@@ -1,7 +1,7 @@
 //! `cargo xtask dist`: the site as static files that a host may keep for ever.
 //!
 //! Each file has a part of its content's hash in its name, and every reference to it is rewritten. A file is named after those it refers to, so a
-//! change below changes the names above it. Pages, the licences, the manifest and the worker keep their
+//! change below changes the names above it. Pages, the element for other pages, the licences, the manifest and the worker keep their
 //! names.
 
 use std::collections::BTreeMap;
@@ -19,6 +19,9 @@ use crate::worker;
 
 /// The viewer's page. Others lead back to it, so it comes last; pages keep their names, and so do the licences.
 const PAGE: &str = "index.html";
+
+/// What other people's pages name.
+const ELEMENT: &str = "web/element.js";
 
 /// Files that are text and may refer to others.
 const REFERRING: [&str; 4] = [".html", ".js", ".css", ".webmanifest"];
@@ -73,6 +76,10 @@ pub(crate) fn write_for_tests(site: &Site) -> Result<(), Failure> {
     }
     for build in ["one", "two"] {
         let mut sources = sources(site)?;
+        sources.insert(
+            licenses::NAME.to_owned(),
+            b"As in dist/, though not all of them.\n".to_vec(),
+        );
         for address in ["web/fault.js", "web/sample/figure.m3d"] {
             let file = sources.get_mut(address).filter(|_| build == "two");
             file.into_iter().for_each(|bytes| bytes.push(b'\n'));
@@ -165,7 +172,7 @@ impl Naming<'_> {
         let bytes = self.rewritten(address)?;
         self.open.pop();
         let name = match (address, address.rsplit_once('.')) {
-            (licenses::NAME, _) | (_, None | Some((_, "html" | "webmanifest"))) => address.to_owned(),
+            (ELEMENT | licenses::NAME, _) | (_, None | Some((_, "html" | "webmanifest"))) => address.to_owned(),
             (_, Some((stem, extension))) => format!("{stem}.{:016x}.{extension}", fnv1a(&bytes)),
         };
         self.names.insert(address.to_owned(), name.clone());

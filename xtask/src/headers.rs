@@ -16,13 +16,14 @@ dist/ is complete: any folder of any host over HTTPS will do. Netlify and Cloudf
   - names with a hash may be kept for ever:        Cache-Control: public, max-age=31536000, immutable
   - pages, sw.js and the manifest are asked for:   Cache-Control: no-cache
   - .wasm is application/wasm, and .m3d is text, which hosts compress; .br and .gz lie beside each file
+  - pages of other sites take the element with:     Access-Control-Allow-Origin: *
   - who may frame the page only a header can say:  Content-Security-Policy: frame-ancestors *";
 
 /// Its text. Where two rules hold, these hosts join their values, so each field is in one of them.
 pub(crate) fn made(files: &BTreeMap<String, Vec<u8>>) -> String {
     let mut text = format!(
         "/*\n  Content-Security-Policy: {CONTENT_SECURITY_POLICY}; {FRAME_ANCESTORS}\n  X-Content-Type-Options: nosniff\n  \
-         Referrer-Policy: no-referrer\n  Cross-Origin-Opener-Policy: same-origin\n"
+         Referrer-Policy: no-referrer\n  Cross-Origin-Opener-Policy: same-origin\n  Access-Control-Allow-Origin: *\n"
     );
     let page = ("".to_owned(), "index.html");
     let all = files.keys().map(|name| (name.clone(), name.as_str()));

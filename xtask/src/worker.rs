@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::dist::fnv1a;
 use crate::failure::Failure;
+use crate::sizes::is_hashed;
 
 /// What the worker is made of, and its name at the root of the site: a worker serves what is below it.
 pub(crate) const TEMPLATE: &str = "web/worker.js";
@@ -51,9 +52,10 @@ enum Part {
     WebGpu,
 }
 
-/// `None` for what is used only while the page is installed.
+/// `None` for what no visit of the page uses: what a system shows, licences, the element for other pages. The worker knows a file for its own by the
+/// hash in its name, and a page by the build that it tells.
 fn part_of(name: &str) -> Option<Part> {
-    if name.ends_with(".webmanifest") || name.starts_with("web/install/") {
+    if name.starts_with("web/install/") || !(is_hashed(name) || name.ends_with(".html")) {
         return None;
     }
     Some(match name.strip_prefix("pkg/") {
@@ -93,13 +95,14 @@ mod tests {
     }
 
     #[test]
-    fn the_worker_keeps_every_file_of_the_real_page_but_what_only_installing_takes() {
+    fn the_worker_keeps_every_file_of_the_real_page_but_what_no_visit_takes() {
         let files = dist::of_the_page();
         let (id, lists) = read(&files);
         let mut kept: Vec<String> = lists.concat();
         kept.sort();
         let mut expected: Vec<String> = files.keys().filter(|name| *name != NAME).cloned().collect();
-        expected.retain(|name| name != "web/bindpose.webmanifest" && !name.starts_with("web/install/"));
+        let is_taken = |name: &str| is_hashed(name) || name == "index.html" || name == "web/codes.html";
+        expected.retain(|name| is_taken(name) && !name.starts_with("web/install/"));
         expected.retain(|name| name != "index.html");
         expected.push("./".to_owned());
         expected.sort();

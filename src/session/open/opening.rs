@@ -112,10 +112,11 @@ impl Session {
         self.revisions.openings
     }
 
-    /// Learns that so many bytes more are read.
-    pub fn note_fetched(&mut self, bytes: usize) {
-        if let Some((_, [done, _])) = &mut self.opening.fetching {
+    /// Learns that so many bytes more are read, and that so many more will be.
+    pub fn note_fetched(&mut self, bytes: usize, promised: usize) {
+        if let Some((_, [done, total])) = &mut self.opening.fetching {
             *done += bytes;
+            *total += promised;
         }
     }
 

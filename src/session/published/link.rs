@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::link_fields::{CAMERA, FIELDS, PLAYING, TIME, degrees, read_degrees, read_number};
 use super::view_state::{CameraState, ViewState};
-use crate::scene::{Camera, Light};
+use crate::scene::{Camera, Light, ViewPreset};
 use crate::session::Session;
 use crate::session::look::quality::QualityMode;
 
@@ -225,6 +225,13 @@ impl LinkedCamera {
 }
 
 fn read_camera(text: &str) -> Option<LinkedCamera> {
+    if let Some(preset) = ViewPreset::from_name(text) {
+        return Some(LinkedCamera {
+            angles_radians: preset.yaw_pitch_radians().into(),
+            distance: None,
+            target: None,
+        });
+    }
     let numbers: Vec<&str> = text.split(',').collect();
     let [yaw, pitch, rest @ ..] = numbers.as_slice() else {
         return None;

@@ -89,7 +89,7 @@ pub(super) const PLAYING: &str = "play";
 /// Where the time stands. A link without it is about the start of its clip.
 pub(super) const TIME: &str = "/view/playback/timeSecs";
 
-/// Yaw and pitch in degrees; then, unless the model is framed, the distance and the target. Without a target it stays where it is.
+/// A preset's name; or yaw and pitch in degrees, and then, unless the model is framed, the distance and the target. Without a target it stays where it is.
 pub(super) const CAMERA: &str = "cam";
 
 /// Names of clips are readable as far as an address may have their characters.

@@ -15,7 +15,7 @@ use crate::ui::kit::icons::{self, Icon};
 use crate::ui::kit::theme::{self, Tokens};
 use crate::ui::kit::wording::{grouped, shortened};
 use crate::ui::kit::{control_size, elided_name, focus_ring, is_touch};
-use crate::ui::state::UiState;
+use crate::ui::state::{Chrome, UiState};
 
 /// Height of a chip that is drawn. Its target is as high as a control.
 const HEIGHT: f32 = 24.0;
@@ -124,8 +124,15 @@ fn opening(session: &Session, state: &mut UiState, now_secs: f64) -> Option<Mode
     let StageProgress { stage, done, total, .. } = opened.progress;
     let mega = |bytes: usize| format!("{:.1}", bytes as f64 * 1e-6);
     let percent = opened.progress.percent();
-    // The number of the bar stands beside that of the stage.
+    // The number of the bar stands beside that of the stage, but for one that has numbers of its own.
+    let number = if stage == Stage::Fetching {
+        String::new()
+    } else {
+        format!(" · {percent} %")
+    };
     let stage = match stage {
+        Stage::Fetching if done == 0 => "waiting for its bytes".to_owned(),
+        Stage::Fetching if total < done => format!("{} MB", mega(done)),
         Stage::Fetching => format!("{} of {} MB", mega(done), mega(total)),
         Stage::Decoding => format!("picture {} of {total}", total.min(done + 1)),
         stage => words(stage).to_owned(),
@@ -135,7 +142,7 @@ fn opening(session: &Session, state: &mut UiState, now_secs: f64) -> Option<Mode
         name: format!("Cancel opening {name}"),
         done: Some(percent as f32 * 0.01),
         ..Mode::new(
-            format!("Opening {name}: {stage} · {percent} %"),
+            format!("Opening {name}: {stage}{number}"),
             None,
             FileCommand::CancelOpening,
         )
@@ -312,7 +319,8 @@ pub(in crate::ui) fn show(ui: &Ui, cx: &mut Cx<'_, UiState>, room: Rect, export_
     if room.width() < 2.0 * control_size(ui) {
         return None;
     }
-    let modes = if cx.session.open_model().is_some() {
+    // On other people's pages the transport says what there is to say of them, or nothing does.
+    let modes = if cx.session.open_model().is_some() && cx.state.chrome == Chrome::Full {
         modes(cx.session)
     } else {
         Vec::new()

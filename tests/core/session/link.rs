@@ -101,6 +101,8 @@ fn a_camera_is_framed_or_where_its_numbers_say() {
     assert!(follow(&mut session, "cam=70,12,4.2").is_empty());
     let near = session.view_state().camera;
     assert_eq!((near.distance, near.target, near.framed), (4.2, camera.target, false));
+    assert!(follow(&mut session, "cam=right").is_empty());
+    assert_eq!(text(&session), "cam=90,0");
     assert!(follow(&mut session, "cam=-10.5,3,7,1,-2,0.125").is_empty());
     assert_eq!(text(&session), "cam=-10.5,3,7,1,-2,0.125");
     session.apply(CameraCommand::Reset);

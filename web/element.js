@@ -1,0 +1,335 @@
+// <bindpose-viewer>: a viewer as an element of any page. It is a guest there: it changes nothing outside itself, and lets the page scroll over it
+// until somebody turns to it.
+
+import { createApi, wordsOf } from "./api.js";
+import { SHEET } from "./element_sheet.js";
+import { letScroll } from "./guest.js";
+import { Life, fieldsOf, textOf } from "./life.js";
+import { transportOf } from "./transport.js";
+
+/** Attributes that stand in links: their fields there. */
+const FIELDS = {
+  clip: "clip", "current-time": "t", speed: "speed", loop: "loop", camera: "cam", light: "light", background: "bg", "view-mode": "view",
+  bone: "bone", skeleton: "bones",
+};
+const OTHERS = ["src", "link", "ui", "alt", "poster", "interaction", "loading"];
+
+/** What shows is in sight when it is this near to the window. */
+const NEAR = "200px";
+
+const box = (className) => Object.assign(document.createElement("div"), { className });
+
+const prefersStill = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
+
+export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) {
+  static observedAttributes = [...Object.keys(FIELDS), ...OTHERS];
+
+  #life = null;
+  #kept = null;
+  #view;
+  #transport;
+  #over = {};
+  #error = null;
+  #camera = "";
+  #sight;
+  #isNear = false;
+  #resolveReady;
+
+  constructor() {
+    super();
+    const root = this.attachShadow({ mode: "open" });
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync(SHEET);
+    root.adoptedStyleSheets = [sheet];
+    const [frame, stage] = ["frame", "stage"].map(box);
+    this.#view = box("view");
+    const over = (name, fallback) => {
+      const slot = Object.assign(document.createElement("slot"), { name });
+      slot.append(fallback);
+      this.#over[name] = Object.assign(box(`over ${name}`), { hidden: true });
+      this.#over[name].append(slot);
+      return this.#over[name];
+    };
+    const [bar, words] = ["progress", "p"].map((tag) => document.createElement(tag));
+    bar.setAttribute("aria-label", "Loading");
+    words.setAttribute("role", "alert");
+    this.#transport = transportOf(this);
+    stage.append(this.#view, over("poster", new Image()), over("progress", bar), over("error", words));
+    frame.append(stage, this.#transport.bar);
+    root.append(frame);
+    this.#transport.bar.hidden = this.ui !== "transport";
+    this.#transport.update();
+    letScroll(this.#view);
+    this.#sight = globalThis.IntersectionObserver && new IntersectionObserver((entries) => this.#see(entries.at(-1).isIntersecting), { rootMargin: NEAR });
+  }
+
+  connectedCallback() {
+    this.#showPoster(true);
+    this.#sight?.observe(this);
+    if (this.loading !== "lazy" || this.#isNear) this.#begin();
+  }
+
+  disconnectedCallback() {
+    // Who is moved within the page is there again before this script ends.
+    queueMicrotask(() => {
+      if (this.isConnected) return;
+      this.#sight?.disconnect();
+      this.#isNear = false;
+      this.#kept = this.#life?.end() ?? this.#kept;
+      this.#life = null;
+    });
+  }
+
+  attributeChangedCallback(name, before, value) {
+    if (before === value) return;
+    if (name === "poster") this.#showPoster(!this.#over.poster.hidden);
+    if (name === "alt") this.nameCanvas();
+    if (name === "ui") this.#restart(before);
+    if (name === "src" && this.#life) {
+      this.#kept = null;
+      this.#error = null;
+      this.#over.error.hidden = true;
+      if (this.#life.viewer) void this.#life.show();
+    }
+    if (name in FIELDS || name === "link") this.#follow(name);
+  }
+
+  // As media elements have them.
+
+  play() {
+    this.#life?.api.bindpose.play();
+  }
+
+  pause() {
+    this.#life?.api.bindpose.pause();
+  }
+
+  get paused() {
+    return !this.state().playing;
+  }
+
+  get ended() {
+    return this.paused && this.duration > 0 && this.currentTime >= this.startTime + this.duration;
+  }
+
+  /** Seconds on the clip's own clock. */
+  get currentTime() {
+    return this.state().timeSecs;
+  }
+
+  set currentTime(secs) {
+    this.#life?.api.bindpose.seek(secs);
+  }
+
+  /** Where the clip begins, seconds. */
+  get startTime() {
+    return this.#clip?.startSecs ?? 0;
+  }
+
+  /** Seconds; not a number while there is no clip. */
+  get duration() {
+    const clip = this.#clip;
+    return clip ? clip.endSecs - clip.startSecs : NaN;
+  }
+
+  get playbackRate() {
+    return this.state().speed ?? 1;
+  }
+
+  set playbackRate(factor) {
+    this.#life?.api.bindpose.setSpeed(factor);
+  }
+
+  /** The name of the clip on show. */
+  get clip() {
+    return this.state().clip ?? null;
+  }
+
+  set clip(name) {
+    this.#life?.api.bindpose.selectClip(name);
+  }
+
+  /** The names of all clips. */
+  get clips() {
+    return this.state().model?.clips.map(({ name }) => name) ?? [];
+  }
+
+  get src() {
+    return this.getAttribute("src") ?? "";
+  }
+
+  set src(addresses) {
+    this.setAttribute("src", addresses);
+  }
+
+  get ui() {
+    const named = this.getAttribute("ui");
+    return ["none", "full"].includes(named) ? named : "transport";
+  }
+
+  set ui(name) {
+    this.setAttribute("ui", name);
+  }
+
+  /** How it draws: `auto`, `webgpu` or `webgl2`. Read when it starts. */
+  get backend() {
+    const named = this.getAttribute("backend");
+    return ["webgpu", "webgl2"].includes(named) ? named : "auto";
+  }
+
+  get loading() {
+    return this.getAttribute("loading") === "lazy" ? "lazy" : "auto";
+  }
+
+  set loading(name) {
+    this.setAttribute("loading", name);
+  }
+
+  get error() {
+    return this.#error;
+  }
+
+  /** As `bindpose.state()` of the page has it. */
+  state() {
+    return (this.#life?.api ?? NOTHING).bindpose.state();
+  }
+
+  /** Opens `File`s or `{name, bytes}` records in place of what `src` names. Resolves with the state after it. */
+  async open(files) {
+    if (!this.#life) this.#begin();
+    this.#life.fetching.abort();
+    this.#life.kept = null;
+    return this.#life.open(Array.from(files), this.moment);
+  }
+
+  /** A PNG of what is seen, as a `Blob`; the page's `snapshot` has the options. */
+  snapshot(options) {
+    return this.#life ? this.#life.api.bindpose.snapshot(options) : Promise.reject(new DOMException("the viewer is not in a page", "InvalidStateError"));
+  }
+
+  /** What a link to what the attributes ask for has behind its `#`. */
+  get moment() {
+    const fields = new Map();
+    for (const [attribute, field] of Object.entries(FIELDS)) {
+      const value = this.#valueOf(attribute);
+      if (value !== null) fields.set(field, value);
+    }
+    fields.set("play", Number(this.hasAttribute("autoplay") && !prefersStill()));
+    for (const [field, value] of fieldsOf((this.getAttribute("link") ?? "").replace(/^.*#/, ""))) fields.set(field, value);
+    return textOf(fields);
+  }
+
+  // For `Life`.
+
+  tell(type, detail) {
+    this.#transport.update();
+    this.dispatchEvent(new CustomEvent(type, { detail }));
+  }
+
+  tellProgress(part) {
+    const { progress } = this.#over;
+    progress.hidden = this.#life?.files !== undefined || part >= 1;
+    progress.querySelector("progress").value = part;
+    this.dispatchEvent(new CustomEvent("progress", { detail: { totalProgress: part } }));
+  }
+
+  tellLoad() {
+    this.#error = null;
+    this.#over.error.hidden = true;
+    this.#showPoster(false);
+    this.tellProgress(1);
+    this.nameCanvas();
+    this.tell("load");
+    if (!this.#isNear && this.#sight) this.#life.setInSight(false);
+  }
+
+  tellError(error) {
+    this.#error = error;
+    const words = this.#over.error.querySelector("p");
+    words.textContent = wordsOf(error);
+    this.#over.error.hidden = false;
+    this.#over.progress.hidden = true;
+    this.dispatchEvent(new CustomEvent("error", { detail: { message: wordsOf(error) } }));
+  }
+
+  tellCamera(camera) {
+    const now = JSON.stringify(camera);
+    if (now === this.#camera) return;
+    const isFirst = !this.#camera;
+    this.#camera = now;
+    if (!isFirst) this.dispatchEvent(new CustomEvent("camera-change", { detail: camera }));
+  }
+
+  nameCanvas() {
+    const canvas = this.#view.querySelector("canvas");
+    const name = this.state().model?.name;
+    canvas?.setAttribute("role", this.ui === "full" ? "application" : "img");
+    canvas?.setAttribute("aria-label", this.getAttribute("alt") ?? (name ? `3D view of ${name}` : "3D view"));
+  }
+
+  get #clip() {
+    const { model, clip } = this.state();
+    return model?.clips.find(({ name }) => name === clip);
+  }
+
+  #valueOf(attribute) {
+    const value = this.getAttribute(attribute);
+    if (attribute === "loop") return value === null ? "once" : value || "loop";
+    if (value === null) return null;
+    if (attribute === "skeleton") return 1;
+    const listed = attribute === "camera" ? value.trim().split(/[\s,]+/).join() : value;
+    return attribute === "camera" ? listed : encodeURIComponent(listed);
+  }
+
+  #begin() {
+    if (this.#life || !this.isConnected) return;
+    this.#life = new Life(this, this.#view, this.#kept);
+    this.#kept = null;
+    void this.#life.run();
+  }
+
+  /** Another interface starts anew, with the same files and moment. */
+  #restart(before) {
+    const isFull = (name) => name === "full";
+    this.#transport.bar.hidden = this.ui !== "transport";
+    if (!this.#life || isFull(before) === isFull(this.ui)) return;
+    this.#kept = this.#life.end();
+    this.#life = null;
+    this.#begin();
+  }
+
+  /** One attribute has changed: the rest of what is seen stays. */
+  #follow(name) {
+    const life = this.#life;
+    if (!life?.files || life.over) return;
+    const fields = fieldsOf(life.moment());
+    const changed = name === "link" ? fieldsOf((this.getAttribute("link") ?? "").replace(/^.*#/, "")) : [[FIELDS[name], this.#valueOf(name)]];
+    for (const [field, value] of changed) {
+      fields.delete(field);
+      if (value !== null) fields.set(field, value);
+    }
+    life.viewer.followLink(textOf(fields));
+    this.#transport.update();
+  }
+
+  #see(isNear) {
+    this.#isNear = isNear;
+    if (isNear) this.#begin();
+    this.#life?.setInSight(isNear);
+  }
+
+  #showPoster(isShown) {
+    const { poster } = this.#over;
+    const address = this.getAttribute("poster");
+    const image = poster.querySelector("img");
+    image.hidden = !address;
+    image.alt = "";
+    if (address) image.src = address;
+    poster.hidden = !isShown;
+  }
+}
+
+/** What a viewer says that is in no page. */
+const NOTHING = globalThis.EventTarget && createApi();
+
+if (globalThis.customElements && !customElements.get("bindpose-viewer")) customElements.define("bindpose-viewer", BindposeViewerElement);

@@ -1,0 +1,182 @@
+// A viewer from when its element comes into a page until it leaves it: its program, its canvas, its files.
+
+import { createApi } from "./api.js";
+import { mirrorOf } from "./mirror.js";
+import { compile, fetchProgram, nameFor } from "./program.js";
+import { keepOnCanvas } from "./restart.js";
+import { fetchFrom } from "./sources.js";
+
+/** Programs that are here or on their way, by name: the viewers of a page share them. */
+const programs = new Map();
+
+/** A compiled program. `progress(part)` hears how much of it has arrived, where that is known. */
+function programOf(name, progress) {
+  if (!programs.has(name)) {
+    const heard = new Set();
+    const tell = (arrived, total) => total > 0 && heard.forEach((hear) => hear(arrived / total));
+    const loading = fetchProgram(name).then((program) => compile(program, tell));
+    loading.catch(() => programs.delete(name)); // The next viewer tries again.
+    programs.set(name, { loading, heard });
+  }
+  const { loading, heard } = programs.get(name);
+  heard.add(progress);
+  return loading.finally(() => heard.delete(progress));
+}
+
+/** Viewers that live; a panic ends them all, since they share a memory. */
+const living = new Set();
+globalThis.addEventListener?.("error", ({ error }) => {
+  if (error?.name === "Panic" || error instanceof WebAssembly.RuntimeError) for (const life of living) life.fail(error);
+});
+
+/** The fields of a link, in order. */
+export const fieldsOf = (text) => new Map(text.split("&").filter(Boolean).map((field) => [field.split("=")[0], field.slice(field.indexOf("=") + 1)]));
+export const textOf = (fields) => [...fields].map(([name, value]) => `${name}=${value}`).join("&");
+
+/** A viewer from when its element came into a page until it leaves it: `host` is the element, `view` what its canvas lies in. */
+export class Life {
+  constructor(host, view, kept) {
+    Object.assign(this, { host, view, kept, api: createApi(), viewer: null, canvas: null, over: false, mirror: null, held: false, isShown: false });
+    this.fetching = new AbortController();
+    living.add(this);
+  }
+
+  /** Starts the viewer and shows what is to be shown. */
+  async run() {
+    try {
+      const { backend } = this.host;
+      await this.start(await nameFor(backend), backend);
+      if (!this.over) await this.show();
+    } catch (error) {
+      this.fail(error);
+    }
+  }
+
+  async start(name, backend) {
+    const { module } = await programOf(name, (part) => this.host.tellProgress(part / 2));
+    if (this.over) return;
+    this.viewer = new module.Viewer({ ui: this.host.ui === "full" ? "full" : "none" }, (type, detail) => this.hear(type, detail));
+    const canvas = document.createElement("canvas");
+    canvas.tabIndex = 0;
+    this.view.replaceChildren(canvas);
+    this.host.nameCanvas();
+    this.keeper = keepOnCanvas(this.viewer, {
+      canvas,
+      backend,
+      lastBackend: name === "full" ? "webgl2" : backend,
+      isOver: () => this.over,
+      onStart: () => {
+        this.view.classList.add("drawn");
+        this.host.nameCanvas();
+        this.api.attach(this.viewer);
+      },
+      onEnd: (error) => this.fail(error),
+    });
+    try {
+      await this.keeper.start();
+    } catch (error) {
+      if (this.over) return;
+      if (error.name !== "WebGl2Missing") throw error;
+      this.viewer.free();
+      await this.start("full", "webgl2");
+    }
+  }
+
+  /** Opens what was open before, or what the element names, and shows the moment that it names. A later call gives an earlier one up. */
+  async show() {
+    this.fetching.abort();
+    const { signal } = (this.fetching = new AbortController());
+    try {
+      const files = this.kept?.files ?? (await this.fetch(signal));
+      const moment = this.kept?.moment ?? this.host.moment;
+      this.kept = null;
+      if (signal.aborted || !files.length) return;
+      await this.open(files, moment);
+    } catch (error) {
+      if (!signal.aborted && error.name !== "AbortError") this.host.tellError(error);
+    }
+  }
+
+  async fetch(signal) {
+    const addresses = (this.host.getAttribute("src") ?? "").split(/\s+/).filter(Boolean);
+    let [wanted, arrived] = [0, 0];
+    return fetchFrom(addresses.map((address) => new URL(address, document.baseURI).href), {
+      signal,
+      began: (_, bytes) => (wanted += bytes),
+      got: (bytes) => {
+        arrived += bytes;
+        if (wanted) this.host.tellProgress(0.5 + Math.min(arrived / wanted, 1) / 2);
+      },
+    });
+  }
+
+  /** Opens files and goes to a moment in them. Resolves with the state, which has an `error` where they could not be opened. */
+  async open(files, moment) {
+    this.isShown = false;
+    const state = await this.api.give(files, "open");
+    if (state.error) {
+      this.host.tellError(new Error(state.error.message));
+      return state;
+    }
+    this.files = files;
+    this.viewer.followLink(moment);
+    this.isShown = true;
+    this.host.tellLoad();
+    return this.api.bindpose.state();
+  }
+
+  /** What the viewer tells. */
+  hear(type, detail) {
+    if (this.over) return;
+    if (type === "devicelost") return void this.keeper.restart(detail.reason);
+    if (type === "mirror" && this.host.ui === "full") {
+      if (detail.changes.fresh) {
+        this.mirror?.remove();
+        this.mirror = mirrorOf(this.viewer, this.view.querySelector("canvas"), () => {});
+      }
+      return this.mirror?.take(detail);
+    }
+    if (this.held || !this.isShown) return;
+    if (["play", "pause", "timeupdate"].includes(type)) this.host.tell(type);
+    if (type === "settling") this.host.tellCamera(this.viewer.state().camera);
+  }
+
+  /** Nothing moves while nobody sees it. */
+  setInSight(isInSight) {
+    if (!this.viewer || this.over || isInSight !== this.held) return;
+    if (this.held) {
+      this.viewer.play();
+      this.held = false;
+    } else if (this.viewer.state().playing) {
+      this.held = true;
+      this.viewer.pause();
+    }
+  }
+
+  fail(error) {
+    if (this.over) return;
+    this.api.fail(error);
+    this.end(false);
+    this.host.tellError(error);
+  }
+
+  /** Gives the GPU and the program's objects back. Returns what is open and seen, for another life. */
+  end(isSound = true) {
+    if (this.over) return null;
+    const moment = isSound && this.files ? this.moment() : null;
+    this.over = true;
+    this.fetching.abort();
+    living.delete(this);
+    this.mirror?.remove();
+    if (isSound) this.viewer?.free();
+    this.view.replaceChildren();
+    this.view.classList.remove("drawn");
+    return moment === null ? null : { files: this.files, moment };
+  }
+
+  /** The link to what is seen, with whether it plays. */
+  moment() {
+    const fields = fieldsOf(this.viewer.link(0).text);
+    return textOf(fields.set("play", Number(this.held || this.viewer.state().playing)));
+  }
+}
