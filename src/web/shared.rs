@@ -34,24 +34,6 @@ pub(super) struct Shared {
     pub(super) is_opening: Cell<bool>,
 }
 
-/// What was drawn on a canvas until now.
-#[derive(Clone, Copy)]
-pub(super) struct Drawn {
-    pub(super) frames: u64,
-    /// Of how many pictures the one in the window is the mean.
-    pub(super) samples: u32,
-    /// Whether what lights the model is as fine as it will be: idle moments see to that, and then it is drawn once more.
-    pub(super) refined: bool,
-}
-
-impl Drawn {
-    pub(super) const NOTHING: Self = Self {
-        frames: 0,
-        samples: 1,
-        refined: false,
-    };
-}
-
 /// What lives as long as a viewer has its canvas.
 pub(super) struct Running {
     pub(super) canvas: HtmlCanvasElement,

@@ -7,7 +7,6 @@ use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::{JsCast as _, JsValue};
 
-use super::shared::Drawn;
 use crate::scene::{Detail, FrameCost, Pass, Theme, TimedPass};
 use crate::session::summary::{self, Books, Finding};
 use crate::session::{
@@ -114,6 +113,24 @@ struct Look {
     refined: bool,
     /// What is less fine while the picture moves.
     lowered: Option<Lowered>,
+}
+
+/// What was drawn on a canvas until now.
+#[derive(Clone, Copy)]
+pub(super) struct Drawn {
+    pub(super) frames: u64,
+    /// Of how many pictures the one in the window is the mean.
+    pub(super) samples: u32,
+    /// Whether what lights the model is as fine as it will be: idle moments see to that, and then it is drawn once more.
+    pub(super) refined: bool,
+}
+
+impl Drawn {
+    pub(super) const NOTHING: Self = Self {
+        frames: 0,
+        samples: 1,
+        refined: false,
+    };
 }
 
 /// Fraction of the width and height that is drawn, what became of the rest, and how long frames took, milliseconds.

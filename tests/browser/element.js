@@ -13,7 +13,7 @@ const pageOf = (body, { first = "", policy = "", sheet = "" } = {}) => ({
   bare: true,
   prepare: async (page) => {
     const html = `<!doctype html><title>Notes</title>${policy && `<meta http-equiv="Content-Security-Policy" content="${policy}">`}${first}
-      <script type="module" src="/web/element.js"></script>${body.replaceAll("<bindpose-viewer", `<bindpose-viewer backend="${BACKEND}"`)}`;
+      <script type="module" src="/web/element/bindpose-viewer.js"></script>${body.replaceAll("<bindpose-viewer", `<bindpose-viewer backend="${BACKEND}"`)}`;
     await page.route("**/notes.html", (route) => route.fulfill({ contentType: "text/html", body: html }));
     await page.route("**/notes.css", (route) => route.fulfill({ contentType: "text/css", body: sheet }));
     await page.addInitScript(() => {

@@ -208,6 +208,7 @@ test("a page of notes frames a moment with its timeline, or the picture alone", 
     await page.goto(`http://127.0.0.1:${server.address().port}/`);
     const frame = page.frames()[1];
     await frame.waitForFunction(() => globalThis.bindpose?.state().timeSecs === 0.5 && document.getElementById("shell").hidden, null, { polling: 50, timeout: 30_000 });
+    await frame.waitForFunction((count) => document.querySelectorAll("[data-control]").length === count, wanted.length, { polling: 50 });
     const controls = await frame.evaluate(() => Array.from(document.querySelectorAll("[data-control]"), ({ dataset }) => dataset.control));
     assert.deepEqual(controls, wanted);
     assert.ok((await coloursOnScreen(page)) > 200, ui);

@@ -550,7 +550,11 @@ fn on_another_page_there_is_the_timeline_or_nothing_and_no_button_without_use() 
             let whole = chrome == Chrome::Full;
             assert_eq!(has(&window, "Open files"), whole, "{chrome:?}");
             assert_eq!(has(&window, "Play"), chrome != Chrome::None, "{chrome:?}");
-            assert_eq!(has(&window, "Speed 0.5"), whole, "{chrome:?}: a chip over the picture");
+            assert_eq!(
+                has(&window, "Leave speed 0.5"),
+                whole,
+                "{chrome:?}: a chip over the picture"
+            );
             assert_inside(&window, window.harness.ctx.content_rect().size());
         }
     }

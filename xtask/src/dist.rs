@@ -21,7 +21,7 @@ use crate::worker;
 const PAGE: &str = "index.html";
 
 /// What other people's pages name.
-const ELEMENT: &str = "web/element.js";
+const ELEMENT: &str = "web/element/bindpose-viewer.js";
 
 /// Files that are text and may refer to others.
 const REFERRING: [&str; 4] = [".html", ".js", ".css", ".webmanifest"];

@@ -62,6 +62,7 @@ mod tests {
             "index.html",
             "web/codes.html",
             "licenses.txt",
+            "web/element/bindpose-viewer.js",
             "sw.js",
             "web/bindpose.webmanifest",
         ] {
@@ -76,7 +77,7 @@ mod tests {
             }
             hashed += 1;
         }
-        assert_eq!(hashed + 5, files.len());
+        assert_eq!(hashed + 6, files.len());
         assert!(text.starts_with("/*\n  Content-Security-Policy: default-src 'self'; "));
         assert!(text.contains("; form-action 'none'; frame-ancestors *\n"));
     }

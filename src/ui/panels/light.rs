@@ -4,7 +4,7 @@ use egui::{FontId, Pos2, Response, RichText, Role, Ui, vec2};
 
 use super::cost::SteadyCost;
 use crate::actions::{self, Control};
-use crate::scene::{Background, Detail, Light, Pass, TimedPass};
+use crate::scene::{Background, Detail, Ground, Light, Pass, TimedPass};
 use crate::session::{
     FileCommand, LookCommand, Lowered, MAX_EXPOSURE_STOPS, MAX_GROUND_OFFSET, PassChoice, PassState, QualityCommand,
     QualityMode, Session,
@@ -101,7 +101,10 @@ fn exposure<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
 /// Where the ground lies: its height in the world, and how far it was moved.
 fn ground<S>(ui: &mut Ui, cx: &mut Cx<'_, S>) {
     let offset = cx.session.look().ground_offset;
-    let height = format!("y {}", measured(cx.session.ground().height));
+    let Ground { height, cell } = cx.session.ground();
+    // A rounding error of a sole is no height.
+    let height = if height.abs() < 1e-3 * cell { 0.0 } else { height };
+    let height = format!("y {}", measured(height));
     let slider = Slider::new(
         ("Ground", Control::new("ground")),
         offset,

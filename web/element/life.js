@@ -1,10 +1,10 @@
 // A viewer from when its element comes into a page until it leaves it: its program, its canvas, its files.
 
-import { createApi } from "./api.js";
-import { mirrorOf } from "./mirror.js";
-import { compile, fetchProgram, nameFor } from "./program.js";
-import { keepOnCanvas } from "./restart.js";
-import { fetchFrom } from "./sources.js";
+import { createApi } from "../api.js";
+import { mirrorOf } from "../mirror.js";
+import { compile, fetchProgram, nameFor } from "../program.js";
+import { keepOnCanvas } from "../restart.js";
+import { fetchFrom } from "../sources.js";
 
 /** Programs that are here or on their way, by name: the viewers of a page share them. */
 const programs = new Map();

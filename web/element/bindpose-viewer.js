@@ -1,9 +1,9 @@
 // <bindpose-viewer>: a viewer as an element of any page. It is a guest there: it changes nothing outside itself, and lets the page scroll over it
 // until somebody turns to it.
 
-import { createApi, wordsOf } from "./api.js";
-import { SHEET } from "./element_sheet.js";
-import { letScroll } from "./guest.js";
+import { createApi, wordsOf } from "../api.js";
+import { SHEET } from "./sheet.js";
+import { letScroll } from "../guest.js";
 import { Life, fieldsOf, textOf } from "./life.js";
 import { transportOf } from "./transport.js";
 
