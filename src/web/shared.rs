@@ -11,6 +11,7 @@ use super::canvas::{ContextWatch, lose_context};
 use super::contrast::ContrastWatch;
 use super::mirror::{self, MirrorLink};
 use super::picture::AppSlot;
+use super::state::Drawn;
 use super::timings::Timings;
 use super::{object, state};
 use crate::session::{ExportedFile, Session};
