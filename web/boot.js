@@ -37,7 +37,10 @@ globalThis.bindpose = bindpose;
 
 /** Whether the page lies in another one, as "Copy embed" has it: the viewer has no panels there, and says nothing itself. */
 const isFramed = ["transport", "none"].includes(options.get("ui"));
-if (isFramed && parent !== window) letScroll(view);
+if (isFramed && parent !== window) {
+  letScroll(view);
+  [document.documentElement, document.body].forEach(({ classList }) => classList.add("framed"));
+}
 
 let viewer = null;
 let onCanvas = null; // Starts and restarts the viewer on the page's canvas.
