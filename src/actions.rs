@@ -9,7 +9,9 @@ use glam::Vec2;
 
 use crate::anim::{Direction, SkinView};
 use crate::scene::{Overlay, Projection, ViewPreset};
-use crate::session::{CameraCommand, Command, HistoryCommand, LookCommand, PlayCommand, Session};
+use crate::session::{
+    CameraCommand, Command, HistoryCommand, JointCommand, LookCommand, PlayCommand, Session, SubmeshCommand,
+};
 
 /// A key turns the camera by 5 degrees: fine enough for one press, and held it goes half round the model in a second.
 const ORBIT_STEP_RADIANS: f32 = std::f32::consts::PI / 36.0;
@@ -230,6 +232,29 @@ pub fn keys_of(row: Row) -> String {
     let are_arrows = keys.len() == 4 && keys.iter().all(|key| "←↑→↓".contains(key));
     let keys = keys.join(if are_arrows { "" } else { " " });
     format!("{first_modifier} {keys}").trim().to_owned()
+}
+
+/// The action of a key that is pressed. `is_pressed` says whether the key is one of the table's, with Shift or without, whatever is held. Shift is
+/// ignored where it has no meaning of its own.
+pub fn of_key(shift: bool, is_pressed: impl Fn(&str, bool) -> bool) -> Option<&'static Action> {
+    let with = |shift| {
+        let mut all = ALL.iter();
+        all.find(|action| action.keys.iter().any(|words| is_pressed(words, shift)))
+    };
+    with(shift).or_else(|| with(false).filter(|action| shift && !action.without_shift))
+}
+
+/// Clears what was selected last: the vertex before the joint before the submesh.
+pub fn let_go(session: &Session) -> Option<Command> {
+    let joints = session.joints();
+    if joints.selected_vertex().is_some() {
+        Some(JointCommand::SelectVertex(None).into())
+    } else if joints.selected().is_some() {
+        Some(JointCommand::Select(None).into())
+    } else {
+        let submesh = session.submeshes().selected();
+        submesh.map(|_| SubmeshCommand::Select(None).into())
+    }
 }
 
 /// The key that asks for a command now; empty if none does.

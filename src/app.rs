@@ -11,17 +11,12 @@ use std::task::{Wake, Waker};
 
 use egui_wgpu::{CallbackResources, CallbackTrait, RenderState, wgpu};
 
-use crate::painter::{PainterOptions, SessionPainter};
-use crate::render::{Compositor, Picture, PictureError, device};
+use crate::painter::{NextPass, PainterOptions, SessionPainter};
+use crate::render::{Compositor, Picture, PictureError};
 use crate::scene::FrameOptions;
 use crate::session::{ExportedFile, Session};
 use crate::ui::{self, ContactSheetRequest, Contrast, Request, UiState};
 
-/// Longest step of time: a window that was asleep goes on where it was.
-const MAX_STEP_SECS: f32 = 0.25;
-
-/// Between two pipelines that are built while nothing moves, so that input comes first.
-const PREPARE_PAUSE_SECS: f32 = 0.05;
 /// What is exported goes on for so long at a time: at least this, for input and frames of a quick machine come in between, and at most
 /// this, so that a slow one still answers.
 const EXPORT_SECS: [f64; 2] = [0.008, 0.25];
@@ -36,13 +31,13 @@ pub struct AppOptions {
 
 /// The viewer in a window. The session and the state of the panels belong to whoever made them, so that they outlive a lost GPU.
 pub struct App {
+    ctx: egui::Context,
     session: Rc<RefCell<Session>>,
     state: Rc<RefCell<UiState>>,
     painter: SessionPainter,
     /// Has the compositor among what its callbacks use.
     gpu: RenderState,
     now_secs: fn() -> f64,
-    was_moving: bool,
     picture_alone: bool,
     /// When the last part of an export ended, if there is more of it.
     exported_secs: Option<f64>,
@@ -63,20 +58,14 @@ impl App {
             .write()
             .callback_resources
             .insert(Compositor::new(&gpu.device, gpu.target_format));
-        let of_painter = PainterOptions {
-            samples: device::sample_count(&gpu.adapter),
-            coarse_pointer: options.coarse_pointer,
-            draws_means: device::draws_means(&gpu.adapter),
-            now_secs: options.now_secs,
-        };
-        let waker = Waker::from(Arc::new(Repaint(ctx.clone())));
+        let of_painter = PainterOptions::new(&gpu.adapter, options.coarse_pointer, options.now_secs);
         Self {
+            ctx: ctx.clone(),
             session,
             state,
-            painter: SessionPainter::new(&gpu.device, &gpu.queue, of_painter, waker),
+            painter: SessionPainter::new(&gpu.device, &gpu.queue, of_painter, waker(ctx)),
             gpu: gpu.clone(),
             now_secs: options.now_secs,
-            was_moving: false,
             picture_alone: false,
             exported_secs: None,
         }
@@ -89,12 +78,7 @@ impl App {
         // All passes of a frame are at one time.
         if ui.ctx().current_pass_index() == 0 {
             let dt_secs = ui.input(|input| input.unstable_dt);
-            session.begin_pass(dt_secs);
-            session.advance(if self.was_moving {
-                dt_secs.min(MAX_STEP_SECS)
-            } else {
-                0.0
-            });
+            self.painter.begin_pass(&mut session, dt_secs);
         }
 
         let window = ui.max_rect();
@@ -121,33 +105,21 @@ impl App {
         }
         state.announce(&session);
         let requests = state.take_requests();
-        session.follow_motion();
         let size = window.size() * ui.pixels_per_point();
         let seen_by_panels = (session.model_revision(), session.error().is_some());
-        let cost = {
+        let had_input = ui.input(|input| !input.events.is_empty());
+        let pass = {
             let mut renderer = self.gpu.renderer.write();
             let compositor = renderer.callback_resources.get_mut::<Compositor>();
-            compositor.and_then(|compositor| self.painter.draw(&mut session, size.into(), compositor))
+            compositor.map(|shown| self.painter.end_pass(&mut session, size.into(), shown, had_input))
         };
-        let goes_on = cost.is_some_and(|cost| session.frame_drawn(cost));
-
-        self.was_moving = session.is_moving();
-        if goes_on
-            || self.was_moving
-            || !self.painter.is_current(&session)
-            // The GPU refused something: the panels of this pass do not tell of it yet.
-            || (session.model_revision(), session.error().is_some()) != seen_by_panels
-            || self.painter.is_sampling(&session)
-        {
-            ui.ctx().request_repaint();
-        } else if let Some(secs) = session.quality().rests_in_secs() {
-            ui.ctx().request_repaint_after_secs(secs);
-        } else {
-            // What is being opened will want other pipelines, and must not wait for these.
-            let is_idle = cost.is_none() && !session.is_opening() && ui.input(|input| input.events.is_empty());
-            if self.painter.prepares(&session, is_idle) {
-                ui.ctx().request_repaint_after_secs(PREPARE_PAUSE_SECS);
-            }
+        // The GPU refused something: the panels of this pass do not tell of it yet.
+        let refused = (session.model_revision(), session.error().is_some()) != seen_by_panels;
+        match pass.map(|pass| pass.next) {
+            _ if refused => ui.ctx().request_repaint(),
+            Some(NextPass::AtOnce) => ui.ctx().request_repaint(),
+            Some(NextPass::After { secs }) => ui.ctx().request_repaint_after_secs(secs),
+            Some(NextPass::WhenAsked) | None => {}
         }
         requests
     }
@@ -188,15 +160,15 @@ impl App {
     }
 
     /// Follows [`Session::start_over`]: every panel is as at first, and the GPU gets anew what it draws.
-    pub fn start_over(&mut self, ctx: &egui::Context) {
+    pub fn start_over(&mut self) {
         self.state.borrow_mut().start_over();
         self.painter.forget();
-        ctx.memory_mut(|memory| {
+        self.ctx.memory_mut(|memory| {
             let options = std::mem::take(&mut memory.options);
             *memory = egui::Memory::default();
             memory.options = options;
         });
-        ctx.set_theme(egui::ThemePreference::System);
+        self.ctx.set_theme(egui::ThemePreference::System);
     }
 
     /// Says that a picture of this size was saved under this name.
@@ -278,7 +250,11 @@ impl App {
     }
 }
 
-/// Asks for another pass of the window.
+/// Asks for another pass of the window when it is woken.
+pub fn waker(ctx: &egui::Context) -> Waker {
+    Waker::from(Arc::new(Repaint(ctx.clone())))
+}
+
 struct Repaint(egui::Context);
 
 impl Wake for Repaint {

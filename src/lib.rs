@@ -47,6 +47,7 @@ pub mod diagnostic;
 pub mod edit;
 pub mod export;
 pub mod format;
+pub mod gestures;
 pub mod gltf;
 pub mod image;
 pub mod import;
@@ -69,5 +70,5 @@ pub mod slices;
 #[cfg(feature = "viewer")]
 #[allow(missing_docs, reason = "used by this package alone, where a name says it")]
 pub mod ui;
-#[cfg(all(feature = "viewer", target_arch = "wasm32"))]
+#[cfg(all(feature = "element", target_arch = "wasm32"))]
 mod web;

@@ -2,6 +2,9 @@
 //! when it would differ. It knows no window and no interface; a lost GPU takes it along, and another one brings all of it back.
 
 mod at_rest;
+mod passes;
+
+pub use passes::{NextPass, Pass};
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -9,7 +12,7 @@ use std::task::{Context, Poll, Waker};
 
 use crate::render::{
     Accumulator, Compositor, GpuAnswer, Picture, PictureError, PictureTarget, Renderer, RendererOptions, SampleCount,
-    Target, UploadError, watched,
+    Target, UploadError, device, watched,
 };
 use crate::scene::{FrameCost, FrameOptions, RenderFrame};
 use crate::session::{Quality, Session};
@@ -43,13 +46,25 @@ struct Sizes {
 /// What a painter is told of where it runs.
 #[derive(Clone, Copy, Debug)]
 pub struct PainterOptions {
-    /// As many as [`device::sample_count`](crate::render::device::sample_count) says of the adapter.
+    /// As many as [`device::sample_count`] says of the adapter.
     pub samples: SampleCount,
     pub coarse_pointer: bool,
-    /// Whether the device can draw the mean of many pictures: see [`device::draws_means`](crate::render::device::draws_means).
+    /// Whether the device can draw the mean of many pictures: see [`device::draws_means`].
     pub draws_means: bool,
     /// Seconds since some moment.
     pub now_secs: fn() -> f64,
+}
+
+impl PainterOptions {
+    /// Those of an adapter.
+    pub fn new(adapter: &wgpu::Adapter, coarse_pointer: bool, now_secs: fn() -> f64) -> Self {
+        Self {
+            samples: device::sample_count(adapter),
+            coarse_pointer,
+            draws_means: device::draws_means(adapter),
+            now_secs,
+        }
+    }
 }
 
 /// Draws a session: the renderer, the targets, and the revisions of what was uploaded and drawn.
@@ -69,6 +84,8 @@ pub struct SessionPainter {
     sky: Option<u64>,
     drawn: Option<Drawn>,
     frames_rendered: u64,
+    /// Whether something moved when the last pass ended.
+    was_moving: bool,
     /// For what lights the model; they are over at this time.
     refining: (Slices, Rc<Cell<f64>>),
     /// Uploads that the GPU has not confirmed yet.
@@ -108,6 +125,7 @@ impl SessionPainter {
             sky: None,
             drawn: None,
             frames_rendered: 0,
+            was_moving: false,
             answers: Vec::new(),
             target_answer: None,
             waker,

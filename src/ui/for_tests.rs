@@ -16,4 +16,3 @@ pub use crate::ui::timeline::curves::value_axis::{ValueAxis, round_up};
 pub use crate::ui::timeline::sheet::rows::{FoldedBranch, FoldedBranches, RowKeys, sort_by_motion};
 pub use crate::ui::timeline::strip::typed::{Unit, number_and_unit, speed, time};
 pub use crate::ui::window::drawer::{Heights, Rest, settle as settle_drawer};
-pub use crate::ui::window::viewport::DragTrail;

@@ -6,7 +6,7 @@ use super::cx::Cx;
 use super::input::is_arrow;
 use super::state::{Request, UiState};
 use crate::actions::{self, Action, Ask};
-use crate::session::{Command, FileCommand, JointCommand, Session, SubmeshCommand};
+use crate::session::{Command, FileCommand, Session};
 use crate::ui::panels::export;
 use crate::ui::panels::findings;
 use crate::ui::window::viewport::{self, FLIGHT_KEYS};
@@ -52,27 +52,20 @@ fn is_flight_key(key: Key) -> bool {
     FLIGHT_KEYS.iter().any(|&(flight_key, _)| flight_key == key)
 }
 
-/// The action of a key that is pressed. Shift is ignored where it has no meaning of its own.
+/// The action of a key that is pressed.
 pub fn action_of(key: Key, modifiers: Modifiers) -> Option<&'static Action> {
     // The Mac's Command and Y are the browser's.
     if modifiers.mac_cmd && key == Key::Y {
         return None;
     }
-    let with = |shift: bool| {
+    actions::of_key(modifiers.shift, |words, shift| {
         let pressed = Shortcut {
             shift,
             ctrl: modifiers.command,
             alt: modifiers.alt,
             key,
         };
-        actions::ALL.iter().find(|action| {
-            let mut shortcuts = action.keys.iter().filter_map(|words| shortcut(words));
-            shortcuts.any(|shortcut| shortcut == pressed)
-        })
-    };
-    with(modifiers.shift).or_else(|| {
-        let ignores_shift = modifiers.shift;
-        with(false).filter(|action| ignores_shift && !action.without_shift)
+        shortcut(words) == Some(pressed)
     })
 }
 
@@ -147,7 +140,7 @@ fn on_top(ui: &Ui, session: &Session, state: &UiState) -> Option<OnTop> {
     } else if state.timeline.has_chosen_keys() {
         Some(OnTop::ChosenKeys)
     } else {
-        clears_selection(session).map(OnTop::Selection)
+        actions::let_go(session).map(OnTop::Selection)
     }
 }
 
@@ -167,19 +160,6 @@ fn escape(ui: &Ui, cx: &mut Cx<'_, UiState>) {
 /// Whether Esc would close a panel or clear a selection.
 pub(super) fn escape_shuts_panel(ui: &Ui, session: &Session, state: &UiState) -> bool {
     on_top(ui, session, state).is_some()
-}
-
-/// Clears what was selected last: the vertex before the joint before the submesh.
-fn clears_selection(session: &Session) -> Option<Command> {
-    let joints = session.joints();
-    if joints.selected_vertex().is_some() {
-        Some(JointCommand::SelectVertex(None).into())
-    } else if joints.selected().is_some() {
-        Some(JointCommand::Select(None).into())
-    } else {
-        let submesh = session.submeshes().selected();
-        submesh.map(|_| SubmeshCommand::Select(None).into())
-    }
 }
 
 /// Whether the viewer uses a key, so that the browser must not act on it too.

@@ -1,7 +1,6 @@
 //! WebGPU when it is there and draws right, else WebGL2, in a program that has it (feature `webgl`). The decision falls before the canvas is claimed, since a canvas
 //! that once had a WebGPU context can never have another.
 
-use egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew, WgpuSetupExisting};
 use wasm_bindgen::JsValue;
 
 use super::named_error;
@@ -32,9 +31,44 @@ impl Preference {
 /// A way to draw.
 pub(super) enum Chosen {
     /// A device that has drawn a known picture.
-    WebGpu(Box<WgpuSetupExisting>),
-    /// eframe makes the device together with the canvas's context.
+    WebGpu(Box<OpenGpu>),
+    /// Its device is made together with the canvas's context.
     WebGl2,
+}
+
+/// An adapter that is open.
+pub(super) struct OpenGpu {
+    pub(super) instance: wgpu::Instance,
+    pub(super) adapter: wgpu::Adapter,
+    pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
+}
+
+impl OpenGpu {
+    pub(super) async fn open(instance: wgpu::Instance, adapter: wgpu::Adapter) -> Result<Self, String> {
+        let opened = adapter.request_device(&device::descriptor(&adapter)).await;
+        let (device, queue) = opened.map_err(|error| error.to_string())?;
+        Ok(Self {
+            instance,
+            adapter,
+            device,
+            queue,
+        })
+    }
+}
+
+/// The adapter to draw with, on a surface where one is given.
+pub(super) async fn request_adapter(
+    instance: &wgpu::Instance,
+    surface: Option<&wgpu::Surface<'_>>,
+) -> Result<wgpu::Adapter, String> {
+    let options = wgpu::RequestAdapterOptions {
+        power_preference: wgpu::PowerPreference::HighPerformance,
+        compatible_surface: surface,
+        ..Default::default()
+    };
+    let adapter = instance.request_adapter(&options).await;
+    adapter.map_err(|error| error.to_string())
 }
 
 impl Chosen {
@@ -43,23 +77,6 @@ impl Chosen {
         match self {
             Self::WebGpu(_) => "webgpu",
             Self::WebGl2 => "webgl2",
-        }
-    }
-
-    /// For eframe.
-    pub(super) fn into_configuration(self) -> WgpuConfiguration {
-        let wgpu_setup = match self {
-            Self::WebGpu(existing) => WgpuSetup::Existing(*existing),
-            Self::WebGl2 => {
-                let mut setup = WgpuSetupCreateNew::without_display_handle();
-                setup.instance_descriptor.backends = wgpu::Backends::GL;
-                setup.device_descriptor = std::sync::Arc::new(device::descriptor);
-                WgpuSetup::CreateNew(setup)
-            }
-        };
-        WgpuConfiguration {
-            wgpu_setup,
-            ..Default::default()
         }
     }
 }
@@ -74,7 +91,7 @@ pub(super) async fn choose(preference: Preference) -> Result<Chosen, JsValue> {
         return web_gl2("it was asked for");
     }
     match web_gpu(preference == Preference::WebGpu).await {
-        Ok(setup) => Ok(Chosen::WebGpu(Box::new(setup))),
+        Ok(gpu) => Ok(Chosen::WebGpu(Box::new(gpu))),
         Err(reason) if preference == Preference::WebGpu => Err(named_error("Error", &format!("WebGPU: {reason}"))),
         Err(reason) => web_gl2(&format!("WebGPU is not to be had: {reason}")),
     }
@@ -89,37 +106,22 @@ fn web_gl2(reason: &str) -> Result<Chosen, JsValue> {
     Ok(Chosen::WebGl2)
 }
 
-async fn web_gpu(software_allowed: bool) -> Result<WgpuSetupExisting, String> {
+async fn web_gpu(software_allowed: bool) -> Result<OpenGpu, String> {
     if !web_sys::window().is_some_and(|window| window.is_secure_context()) {
         return Err("this page is not in a secure context (https or localhost)".to_owned());
     }
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = wgpu::Backends::BROWSER_WEBGPU;
     let instance = wgpu::util::new_instance_with_webgpu_detection(descriptor).await;
-    let options = wgpu::RequestAdapterOptions {
-        power_preference: wgpu::PowerPreference::HighPerformance,
-        ..Default::default()
-    };
-    let adapter = instance
-        .request_adapter(&options)
-        .await
-        .map_err(|error| error.to_string())?;
+    let adapter = request_adapter(&instance, None).await?;
     if device::is_software(&adapter.get_info()) && !software_allowed {
         return Err(format!("its adapter is software ({})", adapter_name(&adapter)));
     }
-    let (device, queue) = adapter
-        .request_device(&device::descriptor(&adapter))
-        .await
-        .map_err(|error| error.to_string())?;
-    crate::render::probe(&device, &queue, &device::probe_bones(), async || super::sleep(1).await)
-        .await
-        .map_err(|error| error.to_string())?;
-    Ok(WgpuSetupExisting {
-        instance,
-        adapter,
-        device,
-        queue,
-    })
+    let gpu = OpenGpu::open(instance, adapter).await?;
+    let pause = async || super::sleep(1).await;
+    let probed = device::probe(&gpu.device, &gpu.queue, &device::probe_bones(), pause).await;
+    probed.map_err(|error| error.to_string())?;
+    Ok(gpu)
 }
 
 /// A name for people. Browsers often do not tell it.

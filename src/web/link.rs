@@ -25,8 +25,8 @@ impl Viewer {
         self.shared.apply(QualityCommand::SetMode(linked.quality));
         self.shared.apply(Command::Restore(Box::new(linked.view)));
         let session = self.shared.session.borrow();
-        let unknown = self.shared.ui.borrow_mut().open_these_panels(&session, &linked.panels);
-        left_out.extend((!unknown.is_empty()).then(|| "panel".to_owned()));
+        let knows_all = self.shared.face.open_these_panels(&session, &linked.panels);
+        left_out.extend((!knows_all).then(|| "panel".to_owned()));
         left_out
     }
 
@@ -48,17 +48,11 @@ impl Viewer {
         let open = session.open_model()?;
         Some(Uint8Array::from(&open.file.bytes[..]))
     }
-
-    /// Shows a sentence over the view for a while, and has it spoken.
-    pub fn tell(&self, words: String) {
-        self.shared.ui.borrow_mut().messages.say(words);
-        self.shared.request_repaint();
-    }
 }
 
 impl Shared {
     pub(super) fn link(&self, taken: usize) -> Link {
-        let panels = self.ui.borrow().open_panels();
+        let panels = self.face.open_panels();
         self.session.borrow().link(panels, MAX_LINK_LEN.saturating_sub(taken))
     }
 }

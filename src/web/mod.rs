@@ -1,33 +1,38 @@
 //! The browser: viewers as handles, their interface for scripts, panics and lost devices. The only module with web code.
 //!
 //! A script makes a [`viewer::Viewer`], starts it on a canvas and calls its methods. A viewer owns what is open, and for each start its canvas'
-//! listeners and frames; several may run on one page. It knows no id of the page and adds listeners only to its canvas. eframe
-//! adds some to document and window, for drags, the clipboard and the colour scheme, and acts on those that are meant for its canvas or its hidden
-//! input. After a lost GPU the page gives the viewer a fresh canvas, which shows what was open.
+//! listeners and frames; several may run on one page. It knows no id of the page and adds listeners only to its canvas. After a lost GPU
+//! the page gives the viewer a fresh canvas, which shows what was open.
 //!
-//! Keys go to the viewer that has the focus. Drops go to the element under the pointer, or to the only viewer anywhere on its page.
+//! There are two rims, of which a program has one. [`page`] has the panels: eframe brings frames and input. It adds listeners to document and window too, for drags,
+//! the clipboard and the colour scheme, and acts on those that are meant for its canvas or its hidden input. [`element`] is without egui: scripts
+//! hand it the input. A rim gives an `App`, its `Frames`, a `Face` and `run`; what scripts call is one class over either.
 
 mod arguments;
 mod backend;
 mod canvas;
-mod contrast;
 mod drawing;
-mod exporting;
-mod joint_names;
+#[cfg(not(feature = "viewer"))]
+mod element;
 mod link;
-mod mirror;
 mod opening;
+#[cfg(feature = "viewer")]
+mod page;
 mod picture;
 mod playing;
-mod run;
-mod saving;
 mod shared;
+mod start;
 mod state;
 mod timings;
 mod viewer;
 
 use js_sys::{Object, Promise, Reflect};
 use wasm_bindgen::prelude::*;
+
+#[cfg(not(feature = "viewer"))]
+use element as rim;
+#[cfg(feature = "viewer")]
+use page as rim;
 
 /// The promise of what `work` gives.
 fn promise<E: Into<JsValue>>(work: impl Future<Output = Result<JsValue, E>> + 'static) -> Promise {

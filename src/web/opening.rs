@@ -207,7 +207,7 @@ impl Shared {
         if let Some(running) = &*self.running.borrow()
             && let Some(app) = running.app.borrow_mut().as_mut()
         {
-            app.start_over(&running.ctx);
+            app.start_over();
         }
     }
 

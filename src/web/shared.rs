@@ -3,50 +3,53 @@
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
-use js_sys::{Function, Uint8Array};
+use js_sys::Function;
 use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
 
 use super::canvas::{ContextWatch, lose_context};
-use super::contrast::ContrastWatch;
-use super::mirror::{self, MirrorLink};
-use super::picture::AppSlot;
-use super::state::Drawn;
+use super::picture::{AppSlot, Drawn};
+use super::rim::{Face, Frames};
 use super::timings::Timings;
 use super::{object, state};
-use crate::session::{ExportedFile, Session};
-use crate::ui::{UiState, view_in_words};
+use crate::session::Session;
 
 /// What a viewer shares with its callbacks.
 pub(super) struct Shared {
     pub(super) session: Rc<RefCell<Session>>,
-    pub(super) ui: Rc<RefCell<UiState>>,
+    pub(super) face: Face,
     pub(super) running: RefCell<Option<Running>>,
-    pub(super) mirror: MirrorLink,
     /// Counts starts and stops, so that events of an earlier start or its device are ignored.
     pub(super) starts: Cell<u32>,
     /// Hears of events until the viewer is dropped.
     listener: RefCell<Option<Function>>,
-    /// Other names were kept for a model elsewhere; the next frame reads them.
-    pub(super) names_changed: Cell<bool>,
     /// Of the last opening, and its slices.
     pub(super) timings: Rc<Timings>,
     /// Whether tasks go on with an opening.
     pub(super) is_opening: Cell<bool>,
+    /// Whether what is seen changed by itself, or something was held, in the frame before.
+    is_busy: Cell<bool>,
+}
+
+/// What a rim has started on a canvas.
+pub(super) struct Started {
+    pub(super) app: AppSlot,
+    pub(super) frames: Frames,
+    pub(super) adapter: wgpu::Adapter,
+    pub(super) device: wgpu::Device,
+    pub(super) drawn: Rc<Cell<Drawn>>,
 }
 
 /// What lives as long as a viewer has its canvas.
 pub(super) struct Running {
     pub(super) canvas: HtmlCanvasElement,
     pub(super) app: AppSlot,
-    pub(super) ctx: egui::Context,
+    pub(super) frames: Frames,
     pub(super) backend: &'static str,
     pub(super) adapter: String,
-    pub(super) drawn: Rc<Cell<Drawn>>,
     pub(super) device: wgpu::Device,
-    pub(super) runner: eframe::WebRunner,
+    pub(super) drawn: Rc<Cell<Drawn>>,
     pub(super) _context_watch: ContextWatch,
-    pub(super) _contrast_watch: ContrastWatch,
 }
 
 impl Running {
@@ -55,12 +58,12 @@ impl Running {
     /// It happens later: the caller may run within a frame, which borrows all of it.
     pub(super) fn give_back(self) {
         wasm_bindgen_futures::spawn_local(async move {
-            if self.runner.has_panicked() {
-                // A frame that panicked never ends its borrows. eframe has removed the listeners.
+            if self.frames.have_panicked() {
+                // A frame that panicked never ends its borrows.
                 std::mem::forget(self);
                 return;
             }
-            self.runner.destroy();
+            self.frames.end();
             self.app.take();
             // The browser would keep all of it until it next collects garbage.
             self.device.destroy();
@@ -70,32 +73,19 @@ impl Running {
 }
 
 impl Shared {
-    pub(super) fn new(mut session: Session, listener: Function) -> Self {
+    pub(super) fn new(mut session: Session, face: Face, listener: Function) -> Self {
         let timings = Rc::<Timings>::default();
         timings.give_to(&mut session);
         Self {
             timings,
             is_opening: Cell::default(),
-            mirror: MirrorLink::default(),
+            is_busy: Cell::default(),
             session: Rc::new(RefCell::new(session)),
+            face,
             running: RefCell::new(None),
-            ui: Rc::default(),
             starts: Cell::new(0),
             listener: RefCell::new(Some(listener)),
-            names_changed: Cell::default(),
         }
-    }
-
-    /// Hands a file, as text or bytes, to the page, which saves it.
-    pub(super) fn save_file(&self, name: &str, contents: JsValue, kind: &str) {
-        let file = [("name", name.into()), ("contents", contents), ("type", kind.into())];
-        self.emit("save", &object(file));
-    }
-
-    /// Hands a file that was exported to the page.
-    pub(super) fn save_export(&self, file: &ExportedFile) {
-        let bytes = Uint8Array::from(file.bytes.as_slice());
-        self.save_file(&file.name, bytes.into(), file.media_type());
     }
 
     pub(super) fn emit(&self, kind: &str, detail: &JsValue) {
@@ -115,19 +105,31 @@ impl Shared {
         }
     }
 
-    /// Tells the page what a frame has changed of the controls, once the frame has ended: called in its first pass.
-    pub(super) fn tell_mirror(self: &Rc<Self>, ctx: &egui::Context) {
-        if !self.mirror.tells() {
-            return;
+    /// Notes what was drawn, once a frame has ended.
+    pub(super) fn note_drawn(&self, noted: &Cell<Drawn>, drawn: Drawn) {
+        if noted.replace(drawn).frames != drawn.frames {
+            self.timings.note_drawn();
         }
-        let (shared, ctx) = (Rc::clone(self), ctx.clone());
-        wasm_bindgen_futures::spawn_local(async move {
-            if let Some(changes) = mirror::take_changes(&ctx) {
-                let view = view_in_words(&shared.session.borrow());
-                shared.emit("mirror", &object([("changes", changes), ("view", view.into())]));
-            }
-            shared.mirror.rest(&ctx).await;
-        });
+    }
+
+    /// Goes on after a frame: with what is opened, and with what the page hears. `is_held`: a pointer holds something.
+    pub(super) fn follow_frame(self: &Rc<Self>, drawn: Drawn, is_held: bool) {
+        self.tell_settling(drawn, is_held);
+        self.go_on_opening();
+        self.emit_events();
+    }
+
+    /// Tells the page after each frame that may have changed what is seen, and once when that goes on by itself or something is held: a
+    /// link to it waits until it rests.
+    fn tell_settling(&self, drawn: Drawn, is_held: bool) {
+        let is_busy = is_held || self.session.borrow().is_moving();
+        let was_busy = self.is_busy.replace(is_busy);
+        // Frames that make the picture of a view at rest finer change nothing.
+        if !is_busy && drawn.samples <= 1 {
+            self.emit("settling", &JsValue::UNDEFINED);
+        } else if is_busy && !was_busy {
+            self.emit("moving", &JsValue::UNDEFINED);
+        }
     }
 
     /// Tells of a lost device or context, unless it is that of an earlier start.

@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use js_sys::{Array, JSON, Object, Reflect};
+use js_sys::{Array, Object, Reflect};
 use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::{JsCast as _, JsValue};
 
+use super::picture::Drawn;
 use crate::scene::{Detail, FrameCost, Pass, Theme, TimedPass};
 use crate::session::summary::{self, Books, Finding};
 use crate::session::{
@@ -113,24 +114,6 @@ struct Look {
     refined: bool,
     /// What is less fine while the picture moves.
     lowered: Option<Lowered>,
-}
-
-/// What was drawn on a canvas until now.
-#[derive(Clone, Copy)]
-pub(super) struct Drawn {
-    pub(super) frames: u64,
-    /// Of how many pictures the one in the window is the mean.
-    pub(super) samples: u32,
-    /// Whether what lights the model is as fine as it will be: idle moments see to that, and then it is drawn once more.
-    pub(super) refined: bool,
-}
-
-impl Drawn {
-    pub(super) const NOTHING: Self = Self {
-        frames: 0,
-        samples: 1,
-        refined: false,
-    };
 }
 
 /// Fraction of the width and height that is drawn, what became of the rest, and how long frames took, milliseconds.
@@ -357,13 +340,6 @@ pub(super) fn to_js(value: &impl Serialize) -> JsValue {
     let value = value.serialize(&Serializer::json_compatible());
     // All of our values can be written.
     value.map_or(JsValue::NULL, with_camel_case_keys)
-}
-
-/// JSON with the keys as they are, with a new line for each.
-pub(super) fn json(value: &impl Serialize) -> Option<String> {
-    let value = value.serialize(&Serializer::json_compatible()).ok()?;
-    let text = JSON::stringify_with_replacer_and_space(&value, &JsValue::NULL, &2.into()).ok()?;
-    text.as_string()
 }
 
 fn with_camel_case_keys(value: JsValue) -> JsValue {

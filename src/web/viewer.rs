@@ -1,5 +1,5 @@
 //! The viewer as scripts have it: its life on a page. Every call acts on the session at once; the window draws it in its next frame. The
-//! calls about opening, playing and drawing are in files of their own.
+//! calls about opening, playing and drawing are in files of their own, and so are those of one rim alone.
 
 use std::rc::Rc;
 use std::sync::Once;
@@ -10,15 +10,13 @@ use web_sys::HtmlCanvasElement;
 
 use super::arguments::{checked, given};
 use super::backend::Preference;
-use super::picture::AppSlot;
-use super::run;
+use super::picture::{AppSlot, Drawn};
+use super::rim::Face;
 use super::shared::Shared;
-use super::state::Drawn;
-use super::{field, picture, promise, reduced_motion, state};
-use crate::scene::{Light, Theme};
+use super::{field, picture, promise, reduced_motion, start, state};
+use crate::scene::Light;
 use crate::script;
-use crate::session::{Command, HistoryCommand, LookCommand, QualityCommand, QualityMode, RenderScale, Session};
-use crate::ui::Chrome;
+use crate::session::{Command, LookCommand, QualityCommand, QualityMode, RenderScale, Session};
 
 /// A viewer: what is open and how it is viewed, and the canvas that it is drawn on, if any.
 ///
@@ -34,12 +32,17 @@ impl Viewer {
     /// Makes a viewer with nothing open and no canvas.
     ///
     /// `options`: `{renderScale: number, quality: "auto" | "full" | "low", samples: number, displaySecs: number}`, 1 and
-    /// `auto` where they are absent; `samples` is as `setQuality` takes it; `displaySecs` is how often the display shows a picture, 60 times a second where it is absent. `theme`, `light` and
-    /// `split` are as the state has them; `ui` is `none`, `transport` or `full`. `on_event(type, detail)` hears of `load`, `error`, `play`, `pause`, `timeupdate` and `playbackchange`; of `devicelost` (`{reason}`); and of what only the page
-    /// can do: `pickfiles`, `pickclips`, `readagain`, `picture` (`{name, bytes}`, and `choosesPlace` where the person asks where to save it),
-    /// `picturefailed` (`{message}`), `greetingclosed` after `greet`, `save` (`{name, contents, type}`: a file to save, as text or bytes), `explain` (`{code}`: its place on the page of codes), `copylink` (`{embed}`: whether as an element) and `announce` (`{text, assertive}`). It also tells of its controls, for
-    /// `web/mirror.js`: `mirror` (`{changes, view}`), and, for `web/link.js`, of frames after which a link may be another: `settling`, and `moving` once
-    /// while that goes on by itself or something is held. The callback may call any method but `free`.
+    /// `auto` where they are absent; `samples` is as `setQuality` takes it; `displaySecs` is how often the display shows a picture, 60 times a
+    /// second where it is absent. `theme`, `light` and `split` are as the state has them; `ui` is `none`, `transport` or `full`, in the program that has panels.
+    ///
+    /// `on_event(type, detail)` hears of `load`, `error`, `play`, `pause`, `timeupdate` and `playbackchange`; of `devicelost` (`{reason}`);
+    /// and of frames after which a link may be another: `settling`, and `moving` once while that goes on by itself or something is held.
+    /// The callback may call any method but `free`.
+    ///
+    /// The program with panels also tells of what only the page can do: `pickfiles`, `pickclips`, `readagain`, `picture` (`{name, bytes}`, and
+    /// `choosesPlace` where the person asks where to save it), `picturefailed` (`{message}`), `greetingclosed` after `greet`, `save`
+    /// (`{name, contents, type}`: a file to save, as text or bytes), `explain` (`{code}`: its place on the page of codes), `copylink`
+    /// (`{embed}`: whether as an element) and `announce` (`{text, assertive}`); and of its controls, for `web/mirror.js`: `mirror` (`{changes, view}`).
     #[wasm_bindgen(constructor)]
     pub fn new(options: &JsValue, on_event: Function) -> Self {
         report_panics();
@@ -59,37 +62,16 @@ impl Viewer {
             ));
         }
         session.apply(QualityCommand::SetSparing(reduced_motion()));
-        let named = |name| field(options, name).as_string();
-        if let Some(light) = named("light").and_then(|name| Light::from_name(&name)) {
+        let named = field(options, "light").as_string();
+        if let Some(light) = named.and_then(|name| Light::from_name(&name)) {
             session.apply(LookCommand::SetLight(light));
         }
         if let Some(split) = field(options, "split").as_f64() {
             session.apply(LookCommand::SetSplit(Some(split as f32)));
         }
-        let shared = Shared::new(session, on_event);
-        {
-            let mut ui = shared.ui.borrow_mut();
-            ui.theme = named("theme").and_then(|name| Theme::from_name(&name));
-            ui.chrome = named("ui")
-                .and_then(|name| Chrome::from_name(&name))
-                .unwrap_or_default();
-        }
         Self {
-            shared: Rc::new(shared),
+            shared: Rc::new(Shared::new(session, Face::new(options), on_event)),
         }
-    }
-
-    /// Shows a sentence above the timeline, with a button to open files and one that takes it away; without words takes it away.
-    pub fn greet(&self, words: Option<String>) {
-        self.shared.ui.borrow_mut().greeting = words;
-        self.shared.request_repaint();
-    }
-
-    /// Reads the names that are kept for the open model once more: they were changed on another page.
-    #[wasm_bindgen(js_name = readNames)]
-    pub fn read_names(&self) {
-        self.shared.names_changed.set(true);
-        self.shared.request_repaint();
     }
 
     /// Starts on a canvas that was never drawn on, instead of the canvas that it has. What is open stays.
@@ -99,7 +81,7 @@ impl Viewer {
     /// where WebGL2 would be next and this program is the one without it; the canvas was not drawn on then.
     pub fn start(&self, canvas: HtmlCanvasElement, options: &JsValue) -> Promise {
         let preference = Preference::from_name(&field(options, "backend").as_string().unwrap_or_default());
-        promise(run::start(Rc::clone(&self.shared), canvas, preference))
+        promise(start::start(Rc::clone(&self.shared), canvas, preference))
     }
 
     /// Gives the canvas back, also one on which a start is under way, with its listeners and frames. What is open stays.
@@ -111,28 +93,6 @@ impl Viewer {
     /// The session and what runs it, as one plain object.
     pub fn state(&self) -> JsValue {
         self.shared.state()
-    }
-
-    /// Does what a person did with an element of the mirror: `{node, action, value}`, where the action is `click`, `focus`, `setValue`,
-    /// `expand`, `collapse` or `scrollIntoView`; `{action: "blur"}` lets go of the focus within the viewer. From `{action: "hold"}` to
-    /// `{action: "release"}` what changes is one step to undo.
-    pub fn act(&self, asked: &JsValue) {
-        self.shared.mirror.act(asked);
-        self.shared.request_repaint();
-    }
-
-    /// Takes a `keydown` or `keyup` event of an element of the mirror. Returns whether the viewer uses the key, so that the browser must not.
-    pub fn press(&self, event: &JsValue) -> bool {
-        let used = self.shared.mirror.press(event);
-        self.shared.request_repaint();
-        used
-    }
-
-    /// Hears whether an element of the mirror has the focus of the page. Then the viewer has the keyboard.
-    #[wasm_bindgen(js_name = setMirrorFocused)]
-    pub fn set_mirror_focused(&self, focused: bool) {
-        self.shared.mirror.set_focused(focused);
-        self.shared.request_repaint();
     }
 
     /// A picture of the view without the interface, as the bytes of a PNG. `width` and `height` are those of the canvas where they are
@@ -148,30 +108,6 @@ impl Viewer {
             picture::snapshot(app, canvas_size, options).await
         })
     }
-
-    /// Many pictures on one, as the bytes of a PNG: of the clip or the range that plays, or with `turntable` from all sides, each with a label.
-    /// `columns` and `rows` are 4 and 3 where they are absent, `width` and `height`, of the whole sheet, those of the canvas; `transparent`
-    /// leaves out all grounds but those of labels. What is open plays on meanwhile. An `AbortSignal` as `signal` ends it.
-    ///
-    /// Rejects as [`Viewer::snapshot`] does, when another model is opened meanwhile, and with an `AbortError` after the signal.
-    #[wasm_bindgen(js_name = contactSheet)]
-    pub fn contact_sheet(&self, options: JsValue) -> Promise {
-        let running = self.shared.app_and_size();
-        promise(async {
-            let (app, canvas_size) = running.ok_or_else(picture::not_running)?;
-            picture::contact_sheet(app, canvas_size, options).await
-        })
-    }
-
-    /// Takes the last edit back. Returns whether there was one.
-    pub fn undo(&self) -> bool {
-        self.shared.step_in_history(HistoryCommand::Undo)
-    }
-
-    /// Does the edit again that was undone last. Returns whether there was one.
-    pub fn redo(&self) -> bool {
-        self.shared.step_in_history(HistoryCommand::Redo)
-    }
 }
 
 impl Drop for Viewer {
@@ -183,7 +119,7 @@ impl Drop for Viewer {
 
 impl Shared {
     /// The app while it runs, and the size of its canvas in pixels.
-    fn app_and_size(&self) -> Option<(AppSlot, [u32; 2])> {
+    pub(super) fn app_and_size(&self) -> Option<(AppSlot, [u32; 2])> {
         let running = self.running.borrow();
         let running = running.as_ref()?;
         let canvas = &running.canvas;
@@ -200,7 +136,7 @@ impl Shared {
             running.map(|running| running.backend),
             running.map(|running| running.adapter.as_str()),
             running.map_or(Drawn::NOTHING, |running| running.drawn.get()),
-            (self.ui.borrow().theme, link),
+            (self.face.theme(), link),
             self.timings.millis(),
         ))
     }
@@ -218,7 +154,7 @@ impl Shared {
 
     pub(super) fn request_repaint(&self) {
         if let Some(running) = &*self.running.borrow() {
-            running.ctx.request_repaint();
+            running.frames.request();
         }
     }
 
@@ -242,14 +178,6 @@ impl Shared {
             self.apply(command(value));
         }
         is_there
-    }
-
-    /// Undoes or redoes. Returns whether there was a step.
-    fn step_in_history(&self, command: HistoryCommand) -> bool {
-        let revision = || self.session.borrow().history().revision();
-        let before = revision();
-        self.apply(command);
-        revision() != before
     }
 }
 

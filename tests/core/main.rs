@@ -10,6 +10,7 @@ mod documents;
 mod edit;
 mod export;
 mod format;
+mod gestures;
 mod gltf;
 #[path = "../common/gltf.rs"]
 mod gltf_files;

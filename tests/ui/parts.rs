@@ -16,5 +16,4 @@ mod thumbnails;
 mod time_area;
 mod typed;
 mod value_axis;
-mod viewport;
 mod wording;

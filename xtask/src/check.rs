@@ -121,14 +121,21 @@ fn counts(steps: &mut Steps) -> Result<(), Failure> {
 
 /// Builds the page for these runs.
 fn site(steps: &mut Steps, profile: Profile, runs: &[BrowserRun]) -> Result<Site, Failure> {
-    let full = steps.step("The wasm", || wasm::build(profile, Program::Full))?;
+    let mut programs = vec![("The wasm", Program::Full)];
     if profile == Profile::Dev {
-        steps.step("How large it is", || sizes::of_development(&full))?;
+        programs.push(("The wasm without egui", Program::Element));
     }
-    let on_web_gpu = runs.iter().any(|run| run.backend == "webgpu");
-    let build = || wasm::build(profile, Program::WebGpu);
-    let web_gpu = on_web_gpu.then(|| steps.step("The wasm for WebGPU alone", build));
-    Ok(Site::new(full, web_gpu.transpose()?))
+    if runs.iter().any(|run| run.backend == "webgpu") {
+        programs.push(("The wasm for WebGPU alone", Program::WebGpu));
+    }
+    let mut built = Vec::new();
+    for (name, program) in programs {
+        built.push((program, steps.step(name, || wasm::build(profile, program))?));
+    }
+    if profile == Profile::Dev {
+        steps.step("How large they are", || sizes::of_development(&built))?;
+    }
+    Ok(Site::new(built))
 }
 
 /// Serves the page and brings what drives the browsers. Gives its address.
@@ -150,16 +157,21 @@ fn native(steps: &mut Steps, absent: &List, long: bool) -> Result<(), Failure> {
     steps.step("Lints: all that is native", || {
         clippy(&["--workspace", "--all-targets"])
     })?;
-    steps.step("Lints: the browser", || {
-        clippy(&[
-            "--lib",
-            "--target",
-            "wasm32-unknown-unknown",
-            "--no-default-features",
-            "--features",
-            Program::Full.features(),
-        ])
-    })?;
+    for (name, program) in [
+        ("Lints: the browser", Program::Full),
+        ("Lints: the browser, without egui", Program::Element),
+    ] {
+        steps.step(name, || {
+            clippy(&[
+                "--lib",
+                "--target",
+                "wasm32-unknown-unknown",
+                "--no-default-features",
+                "--features",
+                program.features(),
+            ])
+        })?;
+    }
     steps.step("Documentation", || {
         Line::cargo()
             .env("RUSTDOCFLAGS", "-D warnings")

@@ -28,8 +28,9 @@ const REFERRING: [&str; 4] = [".html", ".js", ".css", ".webmanifest"];
 
 /// Builds `dist/`, and fails where a file is larger than it may be: then `dist/` is there all the same, to be looked at.
 pub(crate) fn run() -> Result<(), Failure> {
-    let program = |program| wasm::build(Profile::Dist, program);
-    let site = Site::new(program(Program::Full)?, Some(program(Program::WebGpu)?));
+    let built = |program| Ok((program, wasm::build(Profile::Dist, program)?));
+    let programs: Result<Vec<_>, Failure> = Program::ALL.into_iter().map(built).collect();
+    let site = Site::new(programs?);
     let mut sources = sources(&site)?;
     sources.insert(licenses::NAME.to_owned(), licenses::of_the_page()?.into_bytes());
     let files = made(sources)?;
@@ -258,12 +259,14 @@ fn page() -> BTreeMap<String, Vec<u8>> {
         ("pkg/bindpose_bg.wasm", b"2".to_vec()),
         ("pkg/webgpu/bindpose.js", b"3".to_vec()),
         ("pkg/webgpu/bindpose_bg.wasm", b"4".to_vec()),
+        ("pkg/element/bindpose_bg.wasm", b"5".to_vec()),
+        ("pkg/element/webgpu/bindpose_bg.wasm", b"6".to_vec()),
     ];
     let mut files = BTreeMap::from(built.map(|(address, bytes)| (address.to_owned(), bytes)));
     let licenses = licenses::of_the_page().expect("cargo resolves the page");
     files.insert(licenses::NAME.to_owned(), licenses.into_bytes());
     // The folder of what is built: any other will do.
-    let site = Site::new(crate::root().join("web"), None);
+    let site = Site::new([(Program::Full, crate::root().join("web"))]);
     for address in site.addresses().expect("the site lists") {
         if let Some(path) = site.locate(&address).filter(|_| !address.starts_with("pkg/")) {
             files.insert(address, fs::read(path).expect("a listed file"));

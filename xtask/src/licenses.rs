@@ -45,7 +45,7 @@ pub(crate) fn print(target: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The file's text for the page. Of its two programs one has all that the other has.
+/// The file's text for the page. Of all programs one has all that the others have.
 pub(crate) fn of_the_page() -> Result<String, Failure> {
     text(Build {
         target: wasm::TARGET,

@@ -109,9 +109,9 @@ mod tests {
         ),
     ];
 
-    /// Every program that people get: the page's two, and what is native for each machine that the release is built for, with all features.
+    /// Every program that people get: those of pages, and what is native for each machine that the release is built for, with all features.
     static PROGRAMS: LazyLock<Vec<(Build<'static>, Vec<Package>)>> = LazyLock::new(|| {
-        let page = [Program::Full, Program::WebGpu].map(|program| Build {
+        let page = Program::ALL.map(|program| Build {
             target: wasm::TARGET,
             features: program.features(),
         });
@@ -122,7 +122,7 @@ mod tests {
             features: "viewer,cli",
         });
         let programs: Vec<Build<'_>> = page.into_iter().chain(native).collect();
-        assert_eq!(programs.len(), 6, "two of the page, and four machines");
+        assert_eq!(programs.len(), 8, "four of pages, and four machines");
         let packages = |build| (build, of(build).expect("cargo resolves it"));
         programs.into_iter().map(packages).collect()
     });

@@ -30,7 +30,7 @@ pub(crate) fn run(options: &ServeOptions) -> Result<(), Failure> {
     };
     let mut watch = Watch::new();
     // The full program at both addresses: one build shows a change on either way to draw.
-    let site = Site::new(wasm::build(profile, Program::Full)?, None);
+    let site = Site::new([(Program::Full, wasm::build(profile, Program::Full)?)]);
     let address = start(listener, site)?;
     let page = format!("http://{address}/");
     println!("\n  Bindpose is at {page}\n  Drop a .m3d on the page. Ctrl+C ends it.\n");
@@ -243,7 +243,7 @@ mod tests {
     #[test]
     fn a_file_is_sent_as_it_is_and_a_header_alone_has_its_length() {
         // No wasm is needed to look at the page, so any folder will do for it.
-        let site = Site::new(crate::root().join("web"), None);
+        let site = Site::new([(Program::Full, crate::root().join("web"))]);
         let address = start(listen(0).expect("a port"), site).expect("it serves");
         let file = fs::read(crate::root().join("web/sample/figure.m3d")).expect("the sample");
         let (got, sent) = asked(address, "GET /web/sample/figure.m3d");

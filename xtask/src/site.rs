@@ -1,12 +1,13 @@
 //! Which files make the site, what types they have and the policy they run under.
 //!
-//! The addresses are those of the repository: `index.html`, `web/…` and, out of the build folders, `pkg/…` for the full program and
-//! `pkg/webgpu/…` for the one that draws on WebGPU alone. All references are relative, so the site works under any path.
+//! The addresses are those of the repository: `index.html`, `web/…` and, out of the build folders, `pkg/…` for the full program, and folders in it
+//! for the others. All references are relative, so the site works under any path.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::failure::{Doing as _, Failure};
+use crate::wasm::Program;
 
 /// What the page may do. `index.html` carries the same words for hosts that cannot set headers.
 pub(crate) const CONTENT_SECURITY_POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; \
@@ -20,21 +21,26 @@ pub(crate) const FRAME_ANCESTORS: &str = "frame-ancestors *";
 #[derive(Clone, Debug)]
 pub(crate) struct Site {
     root: PathBuf,
-    /// The full program.
-    pkg: PathBuf,
-    /// The one for WebGPU alone.
-    web_gpu: PathBuf,
+    /// Where each bound program is.
+    programs: Vec<(Program, PathBuf)>,
 }
 
 impl Site {
-    /// The site of this repository with the bound programs from `pkg` and `web_gpu`. Without that one the full program stands in for it, which
-    /// draws on WebGPU too.
-    pub(crate) fn new(pkg: PathBuf, web_gpu: Option<PathBuf>) -> Self {
+    /// The site of this repository with bound programs and the folders that they are in. For one that draws on WebGPU alone the one that draws
+    /// on both stands in.
+    pub(crate) fn new(programs: impl Into<Vec<(Program, PathBuf)>>) -> Self {
         Self {
             root: crate::root(),
-            web_gpu: web_gpu.unwrap_or_else(|| pkg.clone()),
-            pkg,
+            programs: programs.into(),
         }
+    }
+
+    /// The folder of a program, or of what stands in for it.
+    fn pkg(&self, program: Program) -> Option<&Path> {
+        let of = |wanted| self.programs.iter().find(|(program, _)| *program == wanted);
+        of(program)
+            .or_else(|| of(program.on_both()))
+            .map(|(_, pkg)| pkg.as_path())
     }
 
     /// The file behind an address (without the leading slash), or `None` when it is no file of the site.
@@ -49,10 +55,11 @@ impl Site {
         let path = match address.split_once('/') {
             None if address == "index.html" => self.root.join(address),
             Some(("web", _)) => self.root.join(address),
-            Some(("pkg", name)) => match name.strip_prefix("webgpu/") {
-                Some(name) => self.web_gpu.join(name),
-                None => self.pkg.join(name),
-            },
+            Some(("pkg", name)) => {
+                let of = |program: Program| Some((program, name.strip_prefix(program.folder())?));
+                let (program, name) = Program::ALL.into_iter().find_map(of)?;
+                self.pkg(program)?.join(name)
+            }
             _ => return None,
         };
         path.is_file().then_some(path)
@@ -66,7 +73,8 @@ impl Site {
         }
         let mut page = String::from_utf8_lossy(&bytes).into_owned();
         // A compressed response does not say how long it will be, so the page is told.
-        for (name, pkg) in [("full", &self.pkg), ("webgpu", &self.web_gpu)] {
+        for (name, program) in [("full", Program::Full), ("webgpu", Program::WebGpu)] {
+            let Some(pkg) = self.pkg(program) else { continue };
             let wasm = pkg.join("bindpose_bg.wasm");
             let length = fs::metadata(&wasm).doing(format!("reading {}", wasm.display()))?.len();
             page = page.replacen(&format!("data-{name}=\"0\""), &format!("data-{name}=\"{length}\""), 1);
@@ -77,9 +85,12 @@ impl Site {
     /// Every address of the site, sorted.
     pub(crate) fn addresses(&self) -> Result<Vec<String>, Failure> {
         let mut addresses = vec!["index.html".to_owned()];
-        let web = self.root.join("web");
-        for (prefix, dir) in [("web", &web), ("pkg", &self.pkg), ("pkg/webgpu", &self.web_gpu)] {
-            list(prefix, dir, &mut addresses)?;
+        list("web", &self.root.join("web"), &mut addresses)?;
+        for program in Program::ALL {
+            if let Some(pkg) = self.pkg(program) {
+                let folder = format!("pkg/{}", program.folder());
+                list(folder.trim_end_matches('/'), pkg, &mut addresses)?;
+            }
         }
         addresses.sort();
         Ok(addresses)
@@ -126,7 +137,7 @@ mod tests {
 
     fn site() -> Site {
         // No wasm is needed to look at the page, so any folder will do for it.
-        Site::new(crate::root().join("web"), None)
+        Site::new([(Program::Full, crate::root().join("web"))])
     }
 
     #[test]
@@ -138,7 +149,7 @@ mod tests {
             fs::write(pkg.join("bindpose_bg.wasm"), bytes).expect("a file");
         }
         let [full, web_gpu] = pkgs;
-        let both = Site::new(full.clone(), Some(web_gpu.clone()));
+        let both = Site::new([(Program::Full, full.clone()), (Program::WebGpu, web_gpu.clone())]);
         let wasm = |folder: &str| format!("pkg/{folder}bindpose_bg.wasm");
         let located = |site: &Site, folder| site.locate(&wasm(folder)).expect("it is there");
         assert_eq!(located(&both, ""), full.join("bindpose_bg.wasm"));
@@ -150,11 +161,16 @@ mod tests {
         let index = both.locate("").expect("index.html");
         let page = String::from_utf8(both.read("", &index).expect("it reads")).expect("text");
         assert!(page.contains(r#" data-full="4" data-webgpu="3""#), "{page}");
-        let one = Site::new(full.clone(), None);
+        let one = Site::new([(Program::Full, full.clone())]);
         assert_eq!(
             located(&one, "webgpu/"),
             full.join("bindpose_bg.wasm"),
             "the full one stands in"
+        );
+        assert_eq!(
+            one.locate(&wasm("element/")),
+            None,
+            "but not for a program of another kind"
         );
     }
 

@@ -1,11 +1,11 @@
 //! The most bytes that files of the site may have: `xtask/sizes.txt`, whose head says how it reads.
 
 use std::fs;
-use std::path::Path;
+use std::path::PathBuf;
 
 use crate::dist::grouped;
 use crate::failure::{Doing as _, Failure};
-use crate::wasm::Profile;
+use crate::wasm::{Profile, Program};
 
 /// The limits and where they stand.
 const LIMITS: &str = include_str!("../sizes.txt");
@@ -70,12 +70,16 @@ pub(crate) fn compare(profile: Profile, files: &[Size]) -> Result<(), Failure> {
     Err(Failure::Site(faults.join("\n")))
 }
 
-/// Compares the development build in this folder: its wasm, which nobody fetches over a line.
-pub(crate) fn of_development(pkg: &Path) -> Result<(), Failure> {
-    let wasm = pkg.join("bindpose_bg.wasm");
-    let raw = fs::metadata(&wasm).doing(format!("reading {}", wasm.display()))?.len();
-    let size = Size::new("pkg/bindpose_bg.wasm", usize::try_from(raw).unwrap_or(usize::MAX), 0);
-    compare(Profile::Dev, &[size])
+/// Compares the development builds of programs in these folders: the wasm of those that draw on both backends, which nobody fetches over a line.
+pub(crate) fn of_development(built: &[(Program, PathBuf)]) -> Result<(), Failure> {
+    let mut sizes = Vec::new();
+    for (program, pkg) in built.iter().filter(|(program, _)| *program == program.on_both()) {
+        let wasm = pkg.join("bindpose_bg.wasm");
+        let raw = fs::metadata(&wasm).doing(format!("reading {}", wasm.display()))?.len();
+        let name = format!("pkg/{}bindpose_bg.wasm", program.folder());
+        sizes.push(Size::new(&name, usize::try_from(raw).unwrap_or(usize::MAX), 0));
+    }
+    compare(Profile::Dev, &sizes)
 }
 
 /// A line of the file.

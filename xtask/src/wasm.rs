@@ -1,4 +1,4 @@
-//! The library built for the browser and bound to JavaScript, as two programs: `bindpose.js` and `bindpose_bg.wasm` of each.
+//! The library built for the browser and bound to JavaScript, as several programs: `bindpose.js` and `bindpose_bg.wasm` of each.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -40,22 +40,39 @@ impl Profile {
     }
 }
 
-/// What the library is built into. The page chooses one before it fetches.
+/// What the library is built into. A page chooses one before it fetches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Program {
     /// Draws on WebGPU and on WebGL2.
     Full,
     /// Draws on WebGPU alone, and is smaller.
     WebGpu,
+    /// Without the interface, for other people's pages; on both.
+    Element,
+    /// The same on WebGPU alone.
+    ElementWebGpu,
 }
 
 impl Program {
+    /// One in a folder of another comes before it.
+    pub(crate) const ALL: [Self; 4] = [Self::ElementWebGpu, Self::Element, Self::WebGpu, Self::Full];
+
+    /// The program that does all that this one does, on both backends.
+    pub(crate) fn on_both(self) -> Self {
+        match self {
+            Self::Full | Self::WebGpu => Self::Full,
+            Self::Element | Self::ElementWebGpu => Self::Element,
+        }
+    }
+
     /// Where it is below `pkg/`, with a slash at the end, and below the folder that cargo builds into: a folder of its own, since programs of one name
     /// would be linked anew in turns.
     pub(crate) fn folder(self) -> &'static str {
         match self {
             Self::Full => "",
             Self::WebGpu => "webgpu/",
+            Self::Element => "element/",
+            Self::ElementWebGpu => "element/webgpu/",
         }
     }
 
@@ -63,6 +80,8 @@ impl Program {
         match self {
             Self::Full => "viewer,webgl",
             Self::WebGpu => "viewer",
+            Self::Element => "element,webgl",
+            Self::ElementWebGpu => "element",
         }
     }
 }
@@ -182,8 +201,19 @@ mod tests {
             );
             args[at + 1].split(',').collect::<Vec<_>>()
         };
-        assert_eq!(features(Program::Full), ["viewer", "webgl"]);
-        assert_eq!(features(Program::WebGpu), ["viewer"]);
-        assert_ne!(Program::Full.folder(), Program::WebGpu.folder());
+        for program in Program::ALL {
+            let both = features(program.on_both());
+            assert_eq!(both[1..], ["webgl"]);
+            let alone = if program == program.on_both() {
+                &both[..]
+            } else {
+                &both[..1]
+            };
+            assert_eq!(features(program), alone);
+        }
+        assert_eq!(features(Program::Full)[0], "viewer");
+        assert_eq!(features(Program::Element)[0], "element");
+        let folders: std::collections::BTreeSet<_> = Program::ALL.map(Program::folder).into();
+        assert_eq!(folders.len(), Program::ALL.len());
     }
 }

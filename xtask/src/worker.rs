@@ -55,7 +55,10 @@ enum Part {
 /// `None` for what no visit of the page uses: what a system shows, licences, the element for other pages. The worker knows a file for its own by the
 /// hash in its name, and a page by the build that it tells.
 fn part_of(name: &str) -> Option<Part> {
-    if name.starts_with("web/install/") || !(is_hashed(name) || name.ends_with(".html")) {
+    let is_others = ["web/install/", "web/element/", "pkg/element/"]
+        .iter()
+        .any(|folder| name.starts_with(folder));
+    if is_others || !(is_hashed(name) || name.ends_with(".html")) {
         return None;
     }
     Some(match name.strip_prefix("pkg/") {
@@ -103,6 +106,7 @@ mod tests {
         let mut expected: Vec<String> = files.keys().filter(|name| *name != NAME).cloned().collect();
         let is_taken = |name: &str| is_hashed(name) || name == "index.html" || name == "web/codes.html";
         expected.retain(|name| is_taken(name) && !name.starts_with("web/install/"));
+        expected.retain(|name| !name.starts_with("pkg/element/") && !name.starts_with("web/element/"));
         expected.retain(|name| name != "index.html");
         expected.push("./".to_owned());
         expected.sort();

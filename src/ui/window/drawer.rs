@@ -3,7 +3,7 @@
 use egui::{Context, Id, Response, Ui};
 use glam::Vec2;
 
-use super::viewport::DragTrail;
+use crate::gestures::DragTrail;
 use crate::ui::kit::arrow_steps;
 
 /// Heights of a page, as fractions of the window's: a look inside, half, and for keys over time a little more.

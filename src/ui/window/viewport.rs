@@ -5,20 +5,14 @@ use std::f32::consts::PI;
 use egui::{Id, Key, Modifiers, PointerButton, Pos2, Rect, Response, Role, Sense, Ui, WidgetInfo};
 use glam::{Vec2, Vec3};
 
-use crate::session::{CameraCommand, Command, JointCommand, LookCommand, SubmeshCommand};
+use crate::gestures::{self, Grab, ViewDrag};
+use crate::session::{CameraCommand, Command};
 use crate::ui::cx::Cx;
-
-/// Radians of orbit for a drag over the height of the view.
-const ORBIT_PER_HEIGHT: f32 = PI * 1.1;
-/// Radians that the environment turns for a drag over the height of the view.
-const ENVIRONMENT_TURN_PER_HEIGHT: f32 = PI;
-/// Distance factor of one point of wheel movement.
-const ZOOM_PER_POINT: f32 = 0.0025;
 
 #[derive(Debug, Default)]
 pub(in crate::ui) struct ViewHold {
     held: bool,
-    orbit: DragTrail,
+    drag: ViewDrag,
     flight: Flight,
 }
 
@@ -61,17 +55,10 @@ pub(in crate::ui) fn show(
         && rect.contains(touch.center_pos)
         && down
     {
-        cx.state.orbit.clear();
-        cx.push(CameraCommand::Pan {
-            drag: fractions(touch.translation_delta),
-        });
-        if touch.zoom_delta != 1.0 {
-            let pointer = fractions(touch.center_pos - rect.center());
-            cx.push(CameraCommand::Zoom {
-                factor: 1.0 / touch.zoom_delta,
-                pointer,
-            });
-        }
+        cx.state.drag.end();
+        let middle = fractions(touch.center_pos - rect.center());
+        let pinch = gestures::pinch(fractions(touch.translation_delta), touch.zoom_delta, middle);
+        cx.commands.extend(pinch);
         return false;
     }
     let flies = cx.state.flight.update(ui, &response, height, cx.commands);
@@ -82,24 +69,14 @@ pub(in crate::ui) fn show(
         && !popover_open
         && let Some(pointer) = response.interact_pointer_pos()
     {
-        let at = in_picture(rect, pointer);
-        cx.commands.push(if picks_bones {
-            JointCommand::SelectAt(at).into()
-        } else {
-            SubmeshCommand::SelectAt(at).into()
-        });
+        cx.push(gestures::click(in_picture(rect, pointer), picks_bones));
     }
     // egui lets the view have a pointer that is on a panel but near its edge.
     let on_view = |&pointer: &Pos2| ui.ctx().layer_id_at(pointer) == Some(ui.layer_id());
     if let Some(pointer) = response.hover_pos().filter(on_view) {
         let (wheel, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
-        let factor = (-wheel * ZOOM_PER_POINT).exp() / pinch;
-        if factor != 1.0 {
-            cx.push(CameraCommand::Zoom {
-                factor,
-                pointer: fractions(pointer - rect.center()),
-            });
-        }
+        let zoom = gestures::zoom(wheel, pinch, fractions(pointer - rect.center()));
+        cx.commands.extend(zoom);
     }
     response.clicked()
 }
@@ -107,44 +84,23 @@ pub(in crate::ui) fn show(
 /// A drag with one pointer moves the environment, the model or the eye.
 fn drag(ui: &Ui, response: &Response, fractions: &dyn Fn(egui::Vec2) -> Vec2, flies: bool, cx: &mut Cx<'_, ViewHold>) {
     let Modifiers { shift, alt, .. } = ui.input(|input| input.modifiers);
-    let moved = fractions(response.drag_delta());
     let now_secs = ui.input(|input| input.time);
-    let orbits = response.dragged_by(PointerButton::Primary) && !shift && !alt;
-    if orbits {
-        let turn = moved * ORBIT_PER_HEIGHT;
-        cx.state.orbit.add(now_secs, turn);
-        if turn != Vec2::ZERO {
-            cx.push(CameraCommand::Orbit {
-                yaw_radians: turn.x,
-                pitch_radians: turn.y,
-            });
-        }
-    } else if alt && response.dragged_by(PointerButton::Primary) {
-        let turn = moved.x * ENVIRONMENT_TURN_PER_HEIGHT;
-        if turn != 0.0 {
-            cx.push(LookCommand::TurnEnvironment(turn));
-        }
-    } else if response.dragged() && !flies {
-        cx.push(CameraCommand::Pan { drag: moved });
-    }
-    if response.drag_stopped() {
-        let rate = cx.state.orbit.rate_per_sec(now_secs);
-        if rate != Vec2::ZERO && !shift && !alt {
-            cx.push(CameraCommand::Fling {
-                yaw_radians_per_sec: rate.x,
-                pitch_radians_per_sec: rate.y,
-            });
-        }
-    }
-    if !orbits {
-        cx.state.orbit.clear();
+    let grab = Grab::of(response.dragged_by(PointerButton::Primary), shift, alt);
+    let ViewHold { drag, .. } = &mut *cx.state;
+    if response.dragged() && !(flies && grab == Grab::Pan) {
+        cx.commands
+            .extend(drag.drag(grab, fractions(response.drag_delta()), now_secs));
+    } else if response.drag_stopped() && !shift && !alt {
+        cx.commands.extend(drag.fling(now_secs));
+    } else {
+        drag.end();
     }
 }
 
 /// A point of the window in the picture: x right, y up, −1…1.
 pub(in crate::ui) fn in_picture(rect: Rect, at: Pos2) -> Vec2 {
-    let fraction = (at - rect.min) / rect.size();
-    Vec2::new(2.0 * fraction.x - 1.0, 1.0 - 2.0 * fraction.y)
+    let fractions = (at - rect.min) / rect.size();
+    gestures::in_picture(Vec2::new(fractions.x, fractions.y))
 }
 
 /// Radians that the head turns for a drag over the height of the view.
@@ -197,33 +153,4 @@ fn keys_held(ui: &Ui) -> Vec3 {
         let held = FLIGHT_KEYS.iter().filter(|(key, _)| input.key_down(*key));
         held.map(|&(_, direction)| direction).sum()
     })
-}
-
-/// Only this last part of a drag counts, in seconds. A person who slows down before the release wants to stop.
-const RECENT_SECS: f64 = 0.08;
-
-#[derive(Clone, Debug, Default)]
-pub struct DragTrail {
-    /// Times in seconds, and how far since the step before.
-    steps: Vec<(f64, Vec2)>,
-}
-
-impl DragTrail {
-    pub fn add(&mut self, now_secs: f64, moved: Vec2) {
-        self.steps.retain(|&(at_secs, _)| now_secs - at_secs <= RECENT_SECS);
-        self.steps.push((now_secs, moved));
-    }
-
-    pub fn clear(&mut self) {
-        self.steps.clear();
-    }
-
-    /// Movement a second over the recent part of the drag.
-    pub fn rate_per_sec(&self, now_secs: f64) -> Vec2 {
-        let recent = self
-            .steps
-            .iter()
-            .filter(|&&(at_secs, _)| now_secs - at_secs <= RECENT_SECS);
-        recent.map(|&(_, moved)| moved).sum::<Vec2>() / RECENT_SECS as f32
-    }
 }

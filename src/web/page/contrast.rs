@@ -3,8 +3,8 @@
 use wasm_bindgen::prelude::*;
 use web_sys::MediaQueryList;
 
-use super::{matches_media, media_query};
 use crate::ui::Contrast;
+use crate::web::{matches_media, media_query};
 
 const FORCED: &str = "(forced-colors: active)";
 const MORE: &str = "(prefers-contrast: more)";

@@ -3,12 +3,17 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use js_sys::{JSON, Uint8Array};
+use serde::Serialize;
+use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::prelude::*;
 
-use super::picture::AppSlot;
-use super::shared::Shared;
-use super::{field, object, picture, state};
+use super::pictures;
+use crate::session::ExportedFile;
 use crate::ui::{ContactSheetRequest, contact_sheet_name, picture_name, report_name};
+use crate::web::picture::AppSlot;
+use crate::web::shared::Shared;
+use crate::web::{field, object};
 
 /// Name and bytes of a picture, as fields of what the page is told.
 type SavedPicture = [(&'static str, JsValue); 2];
@@ -43,7 +48,7 @@ impl Saving {
         // The page is told when nothing is borrowed: its listener may call the viewer.
         let (name, text) = {
             let session = self.shared.session.borrow();
-            let text = session.sarif().and_then(|sarif| state::json(&sarif));
+            let text = session.sarif().and_then(|sarif| json(&sarif));
             (report_name(&session), text)
         };
         let Some(text) = text else { return };
@@ -57,14 +62,14 @@ impl Saving {
     pub(super) fn save_picture(&self, ctx: &egui::Context, size: [u32; 2], transparent: bool, aperture: f32) {
         // The name is made now: the clip and the time may change until the picture is drawn.
         let name = picture_name(&self.shared.session.borrow());
-        let drawn = picture::of_window(Rc::clone(&self.app), size, transparent, aperture);
+        let drawn = pictures::of_window(Rc::clone(&self.app), size, transparent, aperture);
         self.hand_over(ctx, name, async { drawn.await.map(Some) });
     }
 
     pub(super) fn save_contact_sheet(&self, ctx: &egui::Context, wanted: ContactSheetRequest) {
         let name = contact_sheet_name(&self.shared.session.borrow());
         let (app, repainted) = (Rc::clone(&self.app), ctx.clone());
-        let drawn = picture::contact_sheet_of_window(Rc::clone(&app), wanted, move || repainted.request_repaint());
+        let drawn = pictures::contact_sheet_of_window(Rc::clone(&app), wanted, move || repainted.request_repaint());
         self.hand_over(ctx, name, async move {
             let drawn = drawn.await;
             if let Some(app) = app.borrow_mut().as_mut() {
@@ -102,4 +107,25 @@ impl Saving {
             ctx.request_repaint();
         });
     }
+}
+
+impl Shared {
+    /// Hands a file, as text or bytes, to the page, which saves it.
+    fn save_file(&self, name: &str, contents: JsValue, kind: &str) {
+        let file = [("name", name.into()), ("contents", contents), ("type", kind.into())];
+        self.emit("save", &object(file));
+    }
+
+    /// Hands a file that was exported to the page.
+    pub(super) fn save_export(&self, file: &ExportedFile) {
+        let bytes = Uint8Array::from(file.bytes.as_slice());
+        self.save_file(&file.name, bytes.into(), file.media_type());
+    }
+}
+
+/// JSON with the keys as they are, with a new line for each.
+fn json(value: &impl Serialize) -> Option<String> {
+    let value = value.serialize(&Serializer::json_compatible()).ok()?;
+    let text = JSON::stringify_with_replacer_and_space(&value, &JsValue::NULL, &2.into()).ok()?;
+    text.as_string()
 }

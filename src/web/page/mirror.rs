@@ -9,8 +9,8 @@ use serde::Serialize as _;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::prelude::*;
 
-use super::{field, sleep};
 use crate::ui::{Mirror, MirrorAction, MirrorId, MirrorInput, owns_key};
+use crate::web::{field, sleep};
 
 /// Without input a tree is told no more often than this.
 const PERIOD_MS: i32 = 250;

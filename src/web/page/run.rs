@@ -1,81 +1,37 @@
-//! A viewer on a canvas: starting, frames, the loss of the GPU, and giving the canvas back.
+//! A viewer on a canvas: what eframe is told, its frames, and what the page hears of them.
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
-use std::sync::mpsc;
+use std::sync::{Arc, mpsc};
 
+use egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew, WgpuSetupExisting};
 use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
 
-use super::backend::{self, Chosen, Preference};
-use super::canvas::{ContextWatch, fit_canvas, focused_element, leave_focus, lose_context, watch_device};
+use super::canvas::{fit_canvas, focused_element, leave_focus};
 use super::contrast::{ContrastWatch, contrast};
+use super::frames::Frames;
 use super::joint_names::JointNames;
-use super::picture::AppSlot;
 use super::saving::Saving;
-use super::shared::{Running, Shared};
-use super::state::Drawn;
-use super::{coarse_pointer, next_task, now_secs, object, sleep, text_of};
-use crate::app::{App, AppOptions};
+use crate::app::{self, App, AppOptions};
 use crate::render::device;
-use crate::session::QualityCommand;
 use crate::ui::{Announcement, Request};
+use crate::web::backend::Chosen;
+use crate::web::canvas::watch_device;
+use crate::web::picture::{AppSlot, Drawn};
+use crate::web::shared::{Shared, Started};
+use crate::web::{coarse_pointer, next_task, now_secs, object, text_of};
 
-/// Why a start failed that was followed by another one, or by a stop.
-const OVERTAKEN: &str = "another start came after this one";
-
-/// Starts a viewer; see `Viewer::start`.
-pub(super) async fn start(
-    shared: Rc<Shared>,
+/// Starts on a canvas. `start` is the number of the start.
+pub(in crate::web) async fn run(
     canvas: HtmlCanvasElement,
-    preference: Preference,
-) -> Result<JsValue, JsValue> {
-    shared.stop();
-    let mine = shared.starts.get();
-    let is_overtaken = || shared.starts.get() != mine;
-    let chosen = backend::choose(preference).await?;
-    if is_overtaken() {
-        return Err(JsError::new(OVERTAKEN).into());
-    }
-    let running = run(canvas, chosen, &shared, mine).await?;
-    if is_overtaken() {
-        running.give_back();
-        return Err(JsError::new(OVERTAKEN).into());
-    }
-    let started = object([
-        ("backend", running.backend.into()),
-        ("adapter", (&*running.adapter).into()),
-    ]);
-    let drawn = Rc::clone(&running.drawn);
-    running.ctx.request_repaint();
-    shared.running.replace(Some(running));
-    // In a hidden tab no frame comes. Elsewhere the page does not wait for it for ever.
-    for _ in 0..100 {
-        if drawn.get().frames > 0 || is_hidden() {
-            break;
-        }
-        sleep(20).await;
-    }
-    Ok(started)
-}
-
-/// Whether the page is in a tab that is not shown.
-fn is_hidden() -> bool {
-    let document = web_sys::window().and_then(|window| window.document());
-    document.is_some_and(|document| document.hidden())
-}
-
-async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, start: u32) -> Result<Running, JsError> {
-    let backend = chosen.name();
-    let told = Rc::downgrade(shared);
-    let context_watch = ContextWatch::new(&canvas, move || {
-        if let Some(shared) = told.upgrade() {
-            shared.emit_loss(start, "the WebGL context was lost");
-        }
-    })?;
+    chosen: Chosen,
+    shared: &Rc<Shared>,
+    start: u32,
+) -> Result<Started, String> {
     let web_options = eframe::WebOptions {
         renderer: eframe::Renderer::Wgpu,
-        wgpu_options: chosen.into_configuration(),
+        wgpu_options: configuration(chosen),
         // The page's own listeners take drops; keys of the browser stay with the browser.
         should_stop_propagation: Box::new(|_| false),
         should_prevent_default: Box::new(owns_event),
@@ -94,7 +50,6 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
         exports: Rc::default(),
         drawn: Rc::clone(&drawn),
         names: JointNames::default(),
-        is_busy: Cell::default(),
         saving: Saving::new(Rc::clone(&app), Rc::clone(shared)),
     };
     let made = Rc::new(RefCell::new(None));
@@ -107,23 +62,17 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
             web_options,
             Box::new(move |creation| {
                 let gpu = creation.wgpu_render_state.clone().ok_or("the viewer needs wgpu")?;
-                watch_device(&gpu.device, &creation.egui_ctx, tell_of_loss);
-                shell.shared.mirror.begin();
-                let (session, state) = (Rc::clone(&shell.shared.session), Rc::clone(&shell.shared.ui));
+                watch_device(&gpu.device, app::waker(&creation.egui_ctx), tell_of_loss);
+                let face = &shell.shared.face;
+                face.mirror.begin();
+                let (session, state) = (Rc::clone(&shell.shared.session), Rc::clone(&face.ui));
                 let options = AppOptions {
                     coarse_pointer: coarse_pointer(),
                     now_secs,
                 };
                 let app = App::new(&creation.egui_ctx, &gpu, session, state, options);
                 shell.app.replace(Some(app));
-                let adapter = backend::adapter_name(&gpu.adapter);
-                let slow = device::is_software(&gpu.adapter.get_info());
-                shell
-                    .shared
-                    .session
-                    .borrow_mut()
-                    .apply(QualityCommand::SetSlowDevice(slow));
-                *made_out.borrow_mut() = Some((creation.egui_ctx.clone(), adapter, gpu.device));
+                *made_out.borrow_mut() = Some((creation.egui_ctx.clone(), gpu.adapter, gpu.device));
                 Ok(Box::new(shell))
             }),
         )
@@ -133,28 +82,48 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
     }
     if let Err(error) = started {
         runner.destroy();
-        lose_context(&canvas);
-        return Err(JsError::new(&format!("{backend}: {}", text_of(&error))));
+        return Err(text_of(&error));
     }
-    let (ctx, adapter, device) = made.take().ok_or_else(|| JsError::new("the viewer did not start"))?;
+    let (ctx, adapter, device) = made.take().ok_or("the viewer did not start")?;
     let contrast_watch = ContrastWatch::new(&ctx);
     take_prints(&runner, &canvas, &app)?;
-    Ok(Running {
-        canvas,
+    Ok(Started {
         app,
-        ctx,
-        backend,
+        frames: Frames {
+            ctx,
+            runner,
+            _contrast_watch: contrast_watch,
+        },
         adapter,
-        drawn,
         device,
-        runner,
-        _context_watch: context_watch,
-        _contrast_watch: contrast_watch,
+        drawn,
     })
 }
 
+/// What eframe is told of the GPU: it takes a device that is open, or makes one together with the canvas's context.
+fn configuration(chosen: Chosen) -> WgpuConfiguration {
+    let wgpu_setup = match chosen {
+        Chosen::WebGpu(gpu) => WgpuSetup::Existing(WgpuSetupExisting {
+            instance: gpu.instance,
+            adapter: gpu.adapter,
+            device: gpu.device,
+            queue: gpu.queue,
+        }),
+        Chosen::WebGl2 => {
+            let mut setup = WgpuSetupCreateNew::without_display_handle();
+            setup.instance_descriptor.backends = wgpu::Backends::GL;
+            setup.device_descriptor = Arc::new(device::descriptor);
+            WgpuSetup::CreateNew(setup)
+        }
+    };
+    WgpuConfiguration {
+        wgpu_setup,
+        ..Default::default()
+    }
+}
+
 /// At a `beforeprint` event of the canvas the picture is drawn on it without the panels, at once: a print waits for no frame.
-fn take_prints(runner: &eframe::WebRunner, canvas: &HtmlCanvasElement, app: &AppSlot) -> Result<(), JsError> {
+fn take_prints(runner: &eframe::WebRunner, canvas: &HtmlCanvasElement, app: &AppSlot) -> Result<(), String> {
     let app = Rc::clone(app);
     let set_alone = move |alone| {
         if let Some(app) = app.borrow_mut().as_mut() {
@@ -168,7 +137,7 @@ fn take_prints(runner: &eframe::WebRunner, canvas: &HtmlCanvasElement, app: &App
         set_alone(false);
         runner.egui_ctx().request_repaint();
     });
-    listening.map_err(|error| JsError::new(&text_of(&error)))
+    listening.map_err(|error| text_of(&error))
 }
 
 /// What eframe runs: the app, and what the page does for it.
@@ -185,24 +154,9 @@ struct Shell {
     drawn: Rc<Cell<Drawn>>,
     names: JointNames,
     saving: Saving,
-    /// Whether what is seen changed by itself, or something was held, in the frame before.
-    is_busy: Cell<bool>,
 }
 
 impl Shell {
-    /// Tells the page after each frame that may have changed what is seen, and once when that goes on by itself or something is held: a
-    /// link to it waits until it rests.
-    fn tell_settling(&self, ctx: &egui::Context) {
-        let is_busy = self.shared.session.borrow().is_moving() || ctx.input(|input| input.pointer.any_down());
-        let was_busy = self.is_busy.replace(is_busy);
-        // Frames that make the picture of a view at rest finer change nothing.
-        if !is_busy && self.drawn.get().samples <= 1 {
-            self.shared.emit("settling", &JsValue::UNDEFINED);
-        } else if is_busy && !was_busy {
-            self.shared.emit("moving", &JsValue::UNDEFINED);
-        }
-    }
-
     /// Goes on with what is exported, in tasks between frames: while frames take long, and in a hidden tab, where none comes.
     fn go_on_exporting(&self, ctx: &egui::Context) {
         if self.shared.session.borrow().export().is_none() || self.exports.replace(true) {
@@ -229,7 +183,7 @@ impl Shell {
 impl eframe::App for Shell {
     fn raw_input_hook(&mut self, ctx: &egui::Context, input: &mut egui::RawInput) {
         fit_canvas(&self.canvas, input);
-        self.shared.mirror.begin_frame(ctx, input);
+        self.shared.face.mirror.begin_frame(ctx, input);
     }
 
     /// All that runs in a hidden tab, and before each pass elsewhere.
@@ -251,14 +205,7 @@ impl eframe::App for Shell {
         if let Some(app) = self.app.borrow_mut().as_mut() {
             app.set_contrast(contrast());
             requests = app.ui(ui);
-            let drawn = Drawn {
-                frames: app.frames_rendered(),
-                samples: app.samples(),
-                refined: app.is_refined(),
-            };
-            if self.drawn.replace(drawn).frames != drawn.frames {
-                self.shared.timings.note_drawn();
-            }
+            self.shared.note_drawn(&self.drawn, Drawn::by(app));
         }
         for request in requests {
             match request {
@@ -284,11 +231,10 @@ impl eframe::App for Shell {
                 }
             }
         }
-        self.tell_settling(ui.ctx());
+        let is_held = ui.input(|input| input.pointer.any_down());
+        self.shared.follow_frame(self.drawn.get(), is_held);
         self.go_on_exporting(ui.ctx());
-        self.shared.go_on_opening();
-        self.shared.emit_events();
-        let changed_elsewhere = self.shared.names_changed.take();
+        let changed_elsewhere = self.shared.face.names_changed.take();
         if self
             .names
             .follow(&mut self.shared.session.borrow_mut(), changed_elsewhere)

@@ -6,14 +6,14 @@ use std::rc::Rc;
 use js_sys::{Array, Promise, Uint8Array};
 use wasm_bindgen::prelude::*;
 
-use super::arguments::{checked, given, optional};
-use super::shared::Shared;
-use super::timings::SLICE_SECS;
-use super::viewer::Viewer;
-use super::{field, is_absent, next_task, now_secs, object, promise};
 use crate::script::{self, Misuse};
 use crate::session::{ExportFormat, ExportJob, ExportOptions, ExportRange, ExportRefusal, ExportedFile};
 use crate::slices::{Sliced, Slices};
+use crate::web::arguments::{checked, given, optional};
+use crate::web::shared::Shared;
+use crate::web::timings::SLICE_SECS;
+use crate::web::viewer::Viewer;
+use crate::web::{field, is_absent, next_task, now_secs, object, promise};
 
 #[wasm_bindgen]
 impl Viewer {
