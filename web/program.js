@@ -10,6 +10,9 @@ export const backend = ["webgpu", "webgl2"].includes(named) ? named : "auto";
 const PROGRAMS = {
   full: [() => import("../pkg/bindpose.js"), "../pkg/bindpose_bg.wasm"],
   webgpu: [() => import("../pkg/webgpu/bindpose.js"), "../pkg/webgpu/bindpose_bg.wasm"],
+  // Without the interface.
+  smallFull: [() => import("../pkg/element/bindpose.js"), "../pkg/element/bindpose_bg.wasm"],
+  smallWebgpu: [() => import("../pkg/element/webgpu/bindpose.js"), "../pkg/element/webgpu/bindpose_bg.wasm"],
 };
 
 /** The page's own script element; on other people's pages there is none. */

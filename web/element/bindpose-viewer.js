@@ -75,7 +75,7 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
       if (this.isConnected) return;
       this.#sight?.disconnect();
       this.#isNear = false;
-      this.#kept = this.#life?.end() ?? this.#kept;
+      this.#kept = this.#life?.finish() ?? this.#kept;
       this.#life = null;
     });
   }
@@ -293,7 +293,7 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     const isFull = (name) => name === "full";
     this.#transport.bar.hidden = this.ui !== "transport";
     if (!this.#life || isFull(before) === isFull(this.ui)) return;
-    this.#kept = this.#life.end();
+    this.#kept = this.#life.finish();
     this.#life = null;
     this.#begin();
   }

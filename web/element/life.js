@@ -36,8 +36,11 @@ export const textOf = (fields) => [...fields].map(([name, value]) => `${name}=${
 /** A viewer from when its element came into a page until it leaves it: `host` is the element, `view` what its canvas lies in. */
 export class Life {
   constructor(host, view, kept) {
-    Object.assign(this, { host, view, kept, api: createApi(), viewer: null, canvas: null, over: false, mirror: null, held: false, isShown: false });
+    Object.assign(this, { host, view, kept, api: createApi(), viewer: null, over: false, mirror: null, isShown: false });
+    /** With the page's interface, which brings its own window; else the viewer is told of its size and of events. */
+    this.isFull = host.ui === "full";
     this.fetching = new AbortController();
+    this.listening = new AbortController();
     living.add(this);
   }
 
@@ -45,25 +48,32 @@ export class Life {
   async run() {
     try {
       const { backend } = this.host;
-      await this.start(await nameFor(backend), backend);
+      await this.start(this.nameOf(await nameFor(backend)), backend);
       if (!this.over) await this.show();
     } catch (error) {
       this.fail(error);
     }
   }
 
+  /** The name of the program for this interface. */
+  nameOf(program) {
+    if (this.isFull) return program;
+    return program === "full" ? "smallFull" : "smallWebgpu";
+  }
+
   async start(name, backend) {
     const { module } = await programOf(name, (part) => this.host.tellProgress(part / 2));
     if (this.over) return;
-    this.viewer = new module.Viewer({ ui: this.host.ui === "full" ? "full" : "none" }, (type, detail) => this.hear(type, detail));
+    this.viewer = new module.Viewer({ ui: "full" }, (type, detail) => this.hear(type, detail));
     const canvas = document.createElement("canvas");
     canvas.tabIndex = 0;
     this.view.replaceChildren(canvas);
     this.host.nameCanvas();
+    if (!this.isFull) this.attend();
     this.keeper = keepOnCanvas(this.viewer, {
       canvas,
       backend,
-      lastBackend: name === "full" ? "webgl2" : backend,
+      lastBackend: name === this.nameOf("full") ? "webgl2" : backend,
       isOver: () => this.over,
       onStart: () => {
         this.view.classList.add("drawn");
@@ -78,8 +88,30 @@ export class Life {
       if (this.over) return;
       if (error.name !== "WebGl2Missing") throw error;
       this.viewer.free();
-      await this.start("full", "webgl2");
+      await this.start(this.nameOf("full"), "webgl2");
     }
+  }
+
+  /** Tells the viewer of what a window would. A canvas may be replaced by a fresh one; what it lies in stays. */
+  attend() {
+    const canvas = () => this.view.querySelector("canvas");
+    const resize = () => {
+      const [width, height] = [this.view.clientWidth, this.view.clientHeight].map((side) => Math.max(Math.round(side * devicePixelRatio), 1));
+      const { width: before, height: below } = canvas();
+      if (width === before && height === below) return;
+      // Until it starts, the viewer takes the canvas as it is.
+      Object.assign(canvas(), { width, height });
+      this.viewer.resize(width, height);
+    };
+    this.sizes?.disconnect();
+    this.sizes = new ResizeObserver(resize);
+    this.sizes.observe(this.view);
+    resize();
+    this.listening.abort(); // Of a program that gave way to another.
+    const { signal } = (this.listening = new AbortController());
+    const take = (event) => this.viewer.handle(event) && event.preventDefault();
+    for (const type of ["pointerdown", "pointermove", "pointerup", "pointercancel", "click", "wheel", "keydown"]) this.view.addEventListener(type, take, { signal, passive: false });
+    this.view.addEventListener("contextmenu", (event) => event.preventDefault(), { signal });
   }
 
   /** Opens what was open before, or what the element names, and shows the moment that it names. A later call gives an earlier one up. */
@@ -129,43 +161,38 @@ export class Life {
   hear(type, detail) {
     if (this.over) return;
     if (type === "devicelost") return void this.keeper.restart(detail.reason);
-    if (type === "mirror" && this.host.ui === "full") {
+    if (type === "mirror") {
       if (detail.changes.fresh) {
         this.mirror?.remove();
         this.mirror = mirrorOf(this.viewer, this.view.querySelector("canvas"), () => {});
       }
       return this.mirror?.take(detail);
     }
-    if (this.held || !this.isShown) return;
+    if (!this.isShown) return;
     if (["play", "pause", "timeupdate"].includes(type)) this.host.tell(type);
     if (type === "settling") this.host.tellCamera(this.viewer.state().camera);
   }
 
-  /** Nothing moves while nobody sees it. */
+  /** Nothing is drawn while nobody sees it. */
   setInSight(isInSight) {
-    if (!this.viewer || this.over || isInSight !== this.held) return;
-    if (this.held) {
-      this.viewer.play();
-      this.held = false;
-    } else if (this.viewer.state().playing) {
-      this.held = true;
-      this.viewer.pause();
-    }
+    if (!this.over) this.viewer?.setVisible?.(isInSight);
   }
 
   fail(error) {
     if (this.over) return;
     this.api.fail(error);
-    this.end(false);
+    this.finish(false);
     this.host.tellError(error);
   }
 
   /** Gives the GPU and the program's objects back. Returns what is open and seen, for another life. */
-  end(isSound = true) {
+  finish(isSound = true) {
     if (this.over) return null;
     const moment = isSound && this.files ? this.moment() : null;
     this.over = true;
     this.fetching.abort();
+    this.listening.abort();
+    this.sizes?.disconnect();
     living.delete(this);
     this.mirror?.remove();
     if (isSound) this.viewer?.free();
@@ -177,6 +204,6 @@ export class Life {
   /** The link to what is seen, with whether it plays. */
   moment() {
     const fields = fieldsOf(this.viewer.link(0).text);
-    return textOf(fields.set("play", Number(this.held || this.viewer.state().playing)));
+    return textOf(fields.set("play", Number(this.viewer.state().playing)));
   }
 }
