@@ -1,11 +1,14 @@
 // <bindpose-viewer> on other people's pages: what it takes and tells, and that it is a guest there.
 
 import assert from "node:assert/strict";
-import { BACKEND, SAMPLE, keep, settled, test } from "./harness.js";
+import { BACKEND, FOLDER, SAMPLE, keep, settled, test } from "./harness.js";
 import { held } from "./held.js";
 import { coloursOnScreen } from "./picture.js";
 
 const FIGURE = 'src="web/sample/figure.m3d web/sample/figure_diff.png web/sample/figure_norm.png"';
+
+/** Where the program without the interface is. */
+const SMALL = FOLDER.replace("pkg/", "pkg/element/");
 
 /** A page with this body. Events of its viewers are in `heard`, as `[id, type]`. */
 const pageOf = (body, { first = "", policy = "", sheet = "" } = {}) => ({
@@ -129,9 +132,9 @@ test("a viewer that leaves the page gives all back, and comes again where it was
     await page.evaluate(() => document.body.append(viewer));
     await hears(page, "a", "load", 1 + round);
     assert.equal((await seen(page, "a")).link, link);
-    if (round === 3) first = await held(page);
+    if (round === 3) first = await held(page, SMALL);
   }
-  const last = await held(page);
+  const last = await held(page, SMALL);
   for (const kind of ["HTMLCanvasElement", "HTMLInputElement", "GPUDevice"]) assert.ok(last[kind] <= first[kind], `${kind}: ${JSON.stringify([first, last])}`);
   assert.ok(last.wasmMB <= 1.05 * first.wasmMB, `${first.wasmMB} MB, then ${last.wasmMB}`);
   // Another interface is another start with the same moment.

@@ -3,8 +3,8 @@
 import { existsSync, readFileSync } from "node:fs";
 import { FOLDER, settled } from "./harness.js";
 
-/** What the page holds once its garbage is gone: of each kind how many, and megabytes. */
-export async function held(page) {
+/** What the page holds once its garbage is gone: of each kind how many, and megabytes. `folder`: of the program that it runs. */
+export async function held(page, folder = FOLDER) {
   const devtools = await page.context().newCDPSession(page);
   await devtools.send("HeapProfiler.enable");
   // What one collection has ended, the next one frees.
@@ -32,6 +32,6 @@ export async function held(page) {
   const wasm = await page.evaluate(async (folder) => {
     const { default: init } = await import(`${folder}bindpose.js`);
     return (await init()).memory.buffer.byteLength;
-  }, FOLDER);
+  }, folder);
   return { ...objects, jsEventListeners, scriptMB: usedSize / 1e6, wasmMB: wasm / 1e6, gpuMB };
 }
