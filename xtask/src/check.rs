@@ -63,7 +63,10 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
         absent: &absent,
         second_tries: &second_tries,
     };
-    browsers(&mut steps, &here, tests)?;
+    browsers(&mut steps, &here, tests).inspect_err(|_| {
+        // Why a test failed stands far above by now.
+        eprint!("{}", second_tries::words(&second_tries.read().unwrap_or_default()));
+    })?;
     steps.summary();
     for run in elsewhere {
         eprintln!("Not looked at: the page in {run}, which is driven on Linux alone.");

@@ -260,10 +260,7 @@ fn page() -> BTreeMap<String, Vec<u8>> {
         ("pkg/webgpu/bindpose.js", b"3".to_vec()),
         ("pkg/webgpu/bindpose_bg.wasm", b"4".to_vec()),
         ("pkg/element/bindpose.js", b"7".to_vec()),
-        (
-            "pkg/element/webgpu/bindpose.js",
-            b"8".to_vec(),
-        ),
+        ("pkg/element/webgpu/bindpose.js", b"8".to_vec()),
         ("pkg/element/bindpose_bg.wasm", b"5".to_vec()),
         ("pkg/element/webgpu/bindpose_bg.wasm", b"6".to_vec()),
     ];

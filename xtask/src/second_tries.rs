@@ -9,18 +9,23 @@ pub(crate) const VARIABLE: &str = "BINDPOSE_SECOND_TRIES";
 /// So many are let through in one run of the checks.
 const MOST: usize = 2;
 
+/// What was tried again, and why; nothing where nothing was.
+pub(crate) fn words(list: &str) -> String {
+    let count = list.lines().count();
+    if count == 0 {
+        return String::new();
+    }
+    let lines: String = list.lines().map(|line| format!("    {line}\n")).collect();
+    format!("\nTried a second time: {count} (at most {MOST} are let through).\n{lines}")
+}
+
 /// Says what was tried again.
 ///
 /// # Errors
 /// When it was too much.
 pub(crate) fn judge(list: &str) -> Result<(), Failure> {
+    eprint!("{}", words(list));
     let count = list.lines().count();
-    if count > 0 {
-        eprintln!("\nTried a second time: {count} (at most {MOST} are let through).");
-        for line in list.lines() {
-            eprintln!("    {line}");
-        }
-    }
     if count > MOST {
         return Err(Failure::Remedy {
             what: format!("{count} tests passed at their second try only"),
@@ -37,6 +42,8 @@ mod tests {
     #[test]
     fn two_second_tries_are_let_through_and_three_are_not() {
         assert!(judge("").is_ok());
+        assert_eq!(words(""), "");
+        assert!(words("a\nb\n").ends_with("    a\n    b\n"));
         assert!(judge("a\nb\n").is_ok());
         let failure = judge("a\nb\nc\n").expect_err("three").to_string();
         assert!(failure.contains("3 tests"), "{failure}");
