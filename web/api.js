@@ -18,12 +18,13 @@ const stopped = ({ message }) => ({ severity: "error", code: "viewer-stopped", m
 const COMMANDS = [
   "seek", "play", "pause", "selectClip", "stepFrames", "nextKey", "previousKey", "seekStart", "seekEnd",
   "setRangeStart", "setRangeEnd", "clearRange", "setSpeed", "setLoop", "setWrap", "setPass", "setRenderScale", "setQuality", "setCrowd",
-  "undo", "redo", "openModel", "closeModel",
+  "undo", "redo", "openModel", "closeModel", "boneToRoot",
 ];
 
 /**
- * Makes the object that programs see, whose states say `linkText(state)` as their link (without it the viewer's own, which names no model), and what only the page may do: `give(files, how)` for what a person opens, `attach(viewer)` when it runs,
- * `fail(error)` when it never will again, `emit(type, detail)`. After a failure the viewer is not called: `state().error` says why, promises are rejected.
+ * Makes the object that programs see, whose states say `linkText(state)` as their link (without it the viewer's own, which names no model), and what only the
+ * page may do: `give(files, how)` for what a person opens, `attach(viewer)` when it runs, or another in its place, `fail(error)` when it never will again,
+ * `emit(type, detail)`. After a failure the viewer is not called: `state().error` says why, promises are rejected.
  */
 export function createApi(linkText = ({ link }) => link) {
   let viewer = null;
@@ -38,6 +39,8 @@ export function createApi(linkText = ({ link }) => link) {
   const emit = (type, detail) => bindpose.dispatchEvent(new CustomEvent(type, { detail }));
   // A failure that nobody waits for must not be reported as an unhandled rejection.
   ready.catch(() => {});
+  /** The viewer once there is one: it may be another later. */
+  const present = () => ready.then(() => viewer);
 
   /** What a promise gives, or the viewer's failure, if that comes first. */
   const unlessStopped = (work) =>
@@ -49,7 +52,7 @@ export function createApi(linkText = ({ link }) => link) {
 
   /** The bytes of a picture that the viewer draws, as a `Blob`. */
   const png = async (how, options) => {
-    const running = await unlessStopped(ready);
+    const running = await unlessStopped(present());
     return new Blob([await unlessStopped(running[how](options))], { type: "image/png" });
   };
 
@@ -68,7 +71,7 @@ export function createApi(linkText = ({ link }) => link) {
     const { signal } = current;
     const opened = opening.then(async () => {
       const records = copied.map(recordOf);
-      const running = await unlessStopped(ready);
+      const running = await unlessStopped(present());
       signal.throwIfAborted();
       const before = running.state();
       const after = await running[how](records);
@@ -115,7 +118,7 @@ export function createApi(linkText = ({ link }) => link) {
     contactSheet: (options = {}) => png("contactSheet", options),
 
     /** The model as a file of another format: `{name, bytes, changes, losses}`. */
-    export: async (options = {}) => unlessStopped((await unlessStopped(ready)).exportModel(options)),
+    export: async (options = {}) => unlessStopped((await unlessStopped(present())).exportModel(options)),
   });
 
   return {

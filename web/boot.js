@@ -2,12 +2,14 @@
 // say itself.
 
 import { createApi, wordsOf } from "./api.js";
+import { watchBattery, watchDisplay } from "./device.js";
 import { takeChoices, takeDrops } from "./drop.js";
 import {
   clearNotice, showDownloadFailure, showGpuFailure, showGpuLoss, showNotice, showOldBrowser, showPanic, showPutAside,
 } from "./fault.js";
 import { greeting, keep, kept } from "./kept.js";
 import { letScroll } from "./guest.js";
+import { handOver } from "./handing_over.js";
 import { embedding, keepLink } from "./link.js";
 import { mirrorOf } from "./mirror.js";
 import { keepPage, takeLaunches } from "./offline.js";
@@ -90,6 +92,7 @@ bindpose.reset = async () => {
 
 const tellOf = (words) => showNotice("About this link", words, false);
 const refuse = (words) => showNotice("Some files could not be read", words);
+const refusePicture = (words) => showNotice("The picture could not be saved", words);
 /** Tells of a failed opening, but not of one that gave way to another. */
 const refuseError = (error) => error.name === "AbortError" || refuse(wordsOf(error));
 
@@ -195,9 +198,13 @@ async function boot() {
   await start(program, backend, displaySecs);
 }
 
-/** Starts a viewer of a program on the page's canvas. What is asked of it meanwhile waits. */
-async function start(program, wanted, displaySecs) {
+/**
+ * Starts a viewer of a program on the page's canvas. What is asked of it meanwhile waits. It goes on with all that is open `before`, in a viewer whose program
+ * cannot draw any more.
+ */
+async function start(program, wanted, displaySecs, before = null) {
   let loaded;
+  let from = before;
   try {
     loaded = await program;
     viewer = new loaded.module.Viewer({ ...kept(), renderScale: addressedScale(), quality: addressedQuality(), samples: addressedSamples(), ui: options.get("ui") ?? undefined, displaySecs: displaySecs() }, onEvent);
@@ -220,12 +227,18 @@ async function start(program, wanted, displaySecs) {
       if (gpuWasLost) say("The graphics are back.");
       gpuWasLost = false;
       view.classList.add("drawn");
-      attach(viewer);
+      if (from) void goOn(from, viewer);
+      else if (!before) attach(viewer);
+      from = null;
     },
     onEnd(error, gpu) {
       keepVisit();
-      fail(error);
-      showGpuLoss(error, gpu);
+      const end = () => {
+        fail(error);
+        showGpuLoss(error, gpu);
+      };
+      if (loaded.name === "full" || wanted !== "auto") return end();
+      load(fetchProgram("full")).then((full) => start(full, "webgl2", displaySecs, viewer), end);
     },
   });
   await onCanvas.start().then(() => keepPage(programs, say), (error) => {
@@ -239,6 +252,17 @@ async function start(program, wanted, displaySecs) {
     fail(error);
     showGpuFailure(error, backend);
   });
+}
+
+/** The full program goes on where the one without WebGL2 could not. Until then that one answers programs. */
+async function goOn(from, to) {
+  const before = from.state();
+  await handOver(from, to);
+  if (hasFailed()) return;
+  attach(to);
+  from.free();
+  sources.move(before, to.state());
+  to.tell("WebGPU went away: drawn with WebGL2 from here on");
 }
 
 /** Tells somebody who has opened nothing yet what the page is for, or what was open at the last visit. */
@@ -323,31 +347,6 @@ function addressedCrowd() {
   return { count, seed };
 }
 
-function watchBattery(viewer) {
-  navigator.getBattery?.().then((battery) => {
-    const tell = () => viewer.setSparing(!battery.charging);
-    battery.onchargingchange = tell;
-    tell();
-  }, () => {});
-}
-
-/** Watches the display while nothing is drawn. Returns a function that ends it and tells the seconds between two pictures, if it saw enough. */
-function watchDisplay() {
-  const intervals = [];
-  let last;
-  let request = requestAnimationFrame(function note(now) {
-    if (last !== undefined && intervals.length < 60) intervals.push(now - last);
-    last = now;
-    request = requestAnimationFrame(note);
-  });
-  return () => {
-    cancelAnimationFrame(request);
-    intervals.sort((a, b) => a - b);
-    // While the program arrives, the page is busy now and then: the quick ones show what the display can do.
-    return intervals.length >= 8 ? intervals[intervals.length >> 2] / 1000 : undefined;
-  };
-}
-
 function onEvent(type, detail) {
   if (hasFailed()) return;
   if (type === "mirror") return showMirror(detail);
@@ -364,10 +363,10 @@ function onEvent(type, detail) {
   if (type === "pickclips") return pick("clips");
   if (type === "readagain") return void readSourcesAgain();
   if (type === "greetingclosed") return keep({ greeted: true, open: null });
-  if (type === "picture") return void savePicture(detail);
+  if (type === "picture") return void savePicture(detail, refusePicture);
   if (type === "save") return saveFile(detail.name, detail.contents, detail.type);
   if (type === "explain") return void open("web/codes.html#" + detail.code, "_blank", "noopener");
-  if (type === "picturefailed") return showNotice("The picture could not be saved", detail.message);
+  if (type === "picturefailed") return refusePicture(detail.message);
   if (type === "load") {
     clearNotice();
     const name = (openName = detail?.name ?? "");

@@ -6,13 +6,13 @@ const named = options.get("backend");
 /** The way to draw that it asks for. */
 export const backend = ["webgpu", "webgl2"].includes(named) ? named : "auto";
 
-/** Of each program its script and its bytes. */
+/** Of each program its script and its bytes, as bundlers find them. */
 const PROGRAMS = {
-  full: [() => import("../pkg/bindpose.js"), "../pkg/bindpose_bg.wasm"],
-  webgpu: [() => import("../pkg/webgpu/bindpose.js"), "../pkg/webgpu/bindpose_bg.wasm"],
+  full: [() => import("../pkg/bindpose.js"), () => new URL("../pkg/bindpose_bg.wasm", import.meta.url)],
+  webgpu: [() => import("../pkg/webgpu/bindpose.js"), () => new URL("../pkg/webgpu/bindpose_bg.wasm", import.meta.url)],
   // Without the interface.
-  smallFull: [() => import("../pkg/element/bindpose.js"), "../pkg/element/bindpose_bg.wasm"],
-  smallWebgpu: [() => import("../pkg/element/webgpu/bindpose.js"), "../pkg/element/webgpu/bindpose_bg.wasm"],
+  smallFull: [() => import("../pkg/element/bindpose.js"), () => new URL("../pkg/element/bindpose_bg.wasm", import.meta.url)],
+  smallWebgpu: [() => import("../pkg/element/webgpu/bindpose.js"), () => new URL("../pkg/element/webgpu/bindpose_bg.wasm", import.meta.url)],
 };
 
 /** The page's own script element; on other people's pages there is none. */
@@ -27,7 +27,7 @@ async function hasGpu() {
 /** A program's script, the response with its bytes, and how many they will be: a compressed response does not tell. */
 export async function fetchProgram(name) {
   const [script, address] = PROGRAMS[name];
-  const [module, response] = await Promise.all([script(), fetch(new URL(address, import.meta.url))]);
+  const [module, response] = await Promise.all([script(), fetch(address())]);
   if (!response.ok) throw new Error(`The server answered ${response.status} for ${response.url}`);
   return { name, module, response, total: Number(own?.dataset[name]) };
 }

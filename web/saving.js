@@ -1,13 +1,12 @@
 // What a person saves: pictures, reports and models, as files.
 
 import { wordsOf } from "./api.js";
-import { showNotice } from "./fault.js";
 
 /** The browser may take this long to begin a download. */
 const DOWNLOAD_KEPT_MS = 60_000;
 
-/** Saves a picture where the person chooses, or as a download. */
-export async function savePicture({ name, bytes, choosesPlace }) {
+/** Saves a picture where the person chooses, or as a download. `refuse(words)` hears why it could not be. */
+export async function savePicture({ name, bytes, choosesPlace }, refuse) {
   if (!choosesPlace || !globalThis.showSaveFilePicker) return saveFile(name, bytes, "image/png");
   try {
     const types = [{ description: "PNG picture", accept: { "image/png": [".png"] } }];
@@ -15,7 +14,7 @@ export async function savePicture({ name, bytes, choosesPlace }) {
     await file.write(bytes);
     await file.close();
   } catch (error) {
-    if (error.name !== "AbortError") showNotice("The picture could not be saved", wordsOf(error));
+    if (error.name !== "AbortError") refuse(wordsOf(error));
   }
 }
 

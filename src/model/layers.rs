@@ -1,8 +1,10 @@
 //! What glTF's extensions say of a surface beside colour, metalness and roughness.
 
+use serde::{Deserialize, Serialize};
+
 /// What `KHR_materials_ior`, `_specular`, `_clearcoat`, `_sheen` and `_transmission` say. The default changes nothing. Colours are
 /// linear; all but `ior` and `specular_color` are 0…1.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Layers {
     /// Index of refraction of what is no metal, 1 or more; or 0, with which it mirrors everything.
     pub ior: f32,

@@ -1,14 +1,16 @@
 //! Surface parameters. Colours are linear where nothing else is said.
 
 use glam::{Affine2, Vec2};
+use serde::{Deserialize, Serialize};
 
 use super::Layers;
 use crate::modes::modes;
 
-/// A material.
-#[derive(Clone, Debug, PartialEq)]
+/// A material. Its name and its maps are not serialized: they are the file's, and cannot be edited.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Material {
     /// Name to show, unique in the model.
+    #[serde(skip)]
     pub name: String,
     /// Diffuse colour as the file has it: linear in glTF's words, where it is a metal's reflectance; as it is shown, sRGB, in the books',
     /// whose light is summed without a curve. [`Material::base_color`] is linear in both.
@@ -33,14 +35,19 @@ pub struct Material {
     /// How much of the occlusion map counts, 0…1.
     pub occlusion_strength: f32,
     /// Colours, sRGB, with alpha.
+    #[serde(skip)]
     pub diffuse_map: Option<MaterialMap>,
     /// Directions, linear.
+    #[serde(skip)]
     pub normal_map: Option<MaterialMap>,
     /// Roughness in green and metalness in blue, linear; multiplied by the numbers of [`Reflectance::MetallicRoughness`].
+    #[serde(skip)]
     pub metallic_roughness_map: Option<MaterialMap>,
     /// How much of the surrounding light arrives, in red, linear.
+    #[serde(skip)]
     pub occlusion_map: Option<MaterialMap>,
     /// Colours that `emissive` multiplies, sRGB.
+    #[serde(skip)]
     pub emissive_map: Option<MaterialMap>,
 }
 
@@ -122,7 +129,7 @@ impl Material {
 }
 
 /// What alpha, the material's times its map's, does.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum AlphaMode {
     /// Nothing.
     #[default]
@@ -232,7 +239,7 @@ modes! {
 }
 
 /// How a material reflects.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Reflectance {
     /// DirectX 12 book.
     Fresnel {

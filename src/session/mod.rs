@@ -46,6 +46,7 @@ pub use play::crowd::CrowdCommand;
 pub use play::instances::{CrowdState, MAX_CROWD};
 pub use play::mixer::{Blend, DEFAULT_CROSSFADE_SECS, MAX_CROSSFADE_SECS};
 pub use play::playing::PlayCommand;
+pub use published::handing_over::HandedOver;
 pub use published::link::{Link, Linked, MAX_LINK_LEN};
 pub use published::link_fields::names as link_names;
 pub use published::series::Series;

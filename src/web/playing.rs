@@ -44,6 +44,23 @@ impl Viewer {
         Ok(self.shared.apply_to(index, PlayCommand::SelectClip))
     }
 
+    /// The books' toRoot of a bone in the pose on show: 16 numbers, row by row for row vectors, so that the translation is at 12 to 14. The bone goes by its number in
+    /// the file, and the space is the file's. Nothing where there is no such bone.
+    ///
+    /// # Errors
+    /// When it is no whole number from 0.
+    #[wasm_bindgen(js_name = boneToRoot)]
+    pub fn bone_to_root(&self, bone: &JsValue) -> Result<Option<Vec<f32>>, JsValue> {
+        let bone = checked(script::natural("boneToRoot", &given(bone)))?;
+        let session = &mut *self.shared.session.borrow_mut();
+        let joint = session.open_model().and_then(|open| {
+            let joints = open.model.skeleton.joint_of_bone();
+            joints.get(bone as usize).copied()
+        });
+        let readout = joint.and_then(|joint| session.inspect_joint(joint));
+        Ok(readout.map(|readout| readout.to_root.0.concat()))
+    }
+
     /// Pauses and goes some frames on, or back where the number is below 0, to a whole frame.
     ///
     /// # Errors

@@ -20,5 +20,6 @@ import "./visits.js";
 import "./link.js";
 import "./elsewhere.js";
 import "./element.js";
+import "./types.js";
 import "./programs.js";
 import "./offline.js";

@@ -4,6 +4,10 @@ import assert from "node:assert/strict";
 import { BACKEND, FOLDER, SAMPLE, keep, settled, test } from "./harness.js";
 import { held } from "./held.js";
 import { coloursOnScreen } from "./picture.js";
+import { pretendGpu } from "./programs.js";
+
+/** So often a viewer leaves its page and comes back; the longer checks do it fifty times. */
+const ROUNDS = process.env.BINDPOSE_CASES > 1 ? 50 : 6;
 
 const FIGURE = 'src="web/sample/figure.m3d web/sample/figure_diff.png web/sample/figure_norm.png"';
 
@@ -11,12 +15,12 @@ const FIGURE = 'src="web/sample/figure.m3d web/sample/figure_diff.png web/sample
 const SMALL = FOLDER.replace("pkg/", "pkg/element/");
 
 /** A page with this body. Events of its viewers are in `heard`, as `[id, type]`. */
-const pageOf = (body, { first = "", policy = "", sheet = "" } = {}) => ({
+const pageOf = (body, { first = "", policy = "", sheet = "", backend = BACKEND } = {}) => ({
   query: "notes.html",
   bare: true,
   prepare: async (page) => {
     const html = `<!doctype html><title>Notes</title>${policy && `<meta http-equiv="Content-Security-Policy" content="${policy}">`}${first}
-      <script type="module" src="/web/element/bindpose-viewer.js"></script>${body.replaceAll("<bindpose-viewer", `<bindpose-viewer backend="${BACKEND}"`)}`;
+      <script type="module" src="/web/element/bindpose-viewer.js"></script>${body.replaceAll("<bindpose-viewer", `<bindpose-viewer backend="${backend}"`)}`;
     await page.route("**/notes.html", (route) => route.fulfill({ contentType: "text/html", body: html }));
     await page.route("**/notes.css", (route) => route.fulfill({ contentType: "text/css", body: sheet }));
     await page.addInitScript(() => {
@@ -25,6 +29,13 @@ const pageOf = (body, { first = "", policy = "", sheet = "" } = {}) => ({
     });
   },
 });
+
+/** For `prepare`: the file at this address comes once `letThrough` is set in the page. */
+const holding = (address) => (page) =>
+  page.route(`**/${address}`, async (route) => {
+    await page.waitForFunction(() => globalThis.letThrough).catch(() => {});
+    await route.fulfill({ path: SAMPLE }).catch(() => {});
+  });
 
 /** Waits until a viewer has told of this as often. */
 const hears = (page, id, type, times = 1) =>
@@ -125,7 +136,7 @@ test("a viewer that leaves the page gives all back, and comes again where it was
   await page.evaluate(() => (globalThis.viewer = document.getElementById("a")).setAttribute("camera", "70 12"));
   const { link } = await seen(page, "a");
   let first;
-  for (let round = 1; round <= 6; round += 1) {
+  for (let round = 1; round <= ROUNDS; round += 1) {
     await page.evaluate(() => viewer.remove());
     await settled(page);
     assert.equal(await page.evaluate(() => viewer.shadowRoot.querySelectorAll("canvas").length), 0);
@@ -139,17 +150,237 @@ test("a viewer that leaves the page gives all back, and comes again where it was
   assert.ok(last.wasmMB <= 1.05 * first.wasmMB, `${first.wasmMB} MB, then ${last.wasmMB}`);
   // Another interface is another start with the same moment.
   await page.evaluate(() => (viewer.ui = "full"));
-  await hears(page, "a", "load", 8);
+  await hears(page, "a", "load", ROUNDS + 2);
   assert.equal((await seen(page, "a")).link, link);
   await page.getByRole("button", { name: "Play" }).first().waitFor({ state: "attached" });
   await page.evaluate(() => (viewer.ui = "none"));
-  await hears(page, "a", "load", 9);
+  await hears(page, "a", "load", ROUNDS + 3);
   await page.route("**/other.m3d", (route) => route.fulfill({ path: SAMPLE }));
   await page.evaluate(() => {
     viewer.src = "web/sample/figure.m3d";
     viewer.src = "web/nothing.m3d";
     viewer.src = "web/other.m3d";
   });
-  await hears(page, "a", "load", 10);
+  await hears(page, "a", "load", ROUNDS + 4);
   assert.deepEqual(await page.evaluate(() => [viewer.error, viewer.state().model.name]), [null, "other.m3d"]);
+});
+
+const slow = pageOf('<bindpose-viewer id="a" src="web/slow.m3d"></bindpose-viewer>');
+test("what a script opens takes the place of the source, and a source that comes late the place of nothing", {
+  ...slow,
+  prepare: async (page) => {
+    await holding("slow.m3d")(page);
+    await page.route("**/other.m3d", (route) => route.fulfill({ path: SAMPLE }));
+    await slow.prepare(page);
+  },
+}, async (page) => {
+  // The program is on its way.
+  const given = await page.evaluate(async () => {
+    globalThis.viewer = document.getElementById("a");
+    const bytes = new Uint8Array(await (await fetch("web/sample/figure.m3d")).arrayBuffer());
+    return (await viewer.open([{ name: "given.m3d", bytes }])).model.name;
+  });
+  assert.equal(given, "given.m3d");
+  const late = async () => {
+    await page.evaluate(() => (globalThis.letThrough = true));
+    for (let round = 0; round < 10; round += 1) await settled(page);
+    return page.evaluate(() => {
+      globalThis.letThrough = false;
+      return viewer.state().model.name;
+    });
+  };
+  assert.equal(await late(), "given.m3d");
+  await page.evaluate(() => {
+    viewer.src = "web/slow.m3d?again";
+    viewer.src = "web/slow.m3d";
+  });
+  await settled(page);
+  await page.evaluate(() => (viewer.src = "web/other.m3d"));
+  await page.waitForFunction(() => viewer.state().model.name === "other.m3d");
+  assert.equal(await late(), "other.m3d");
+  const refused = await page.evaluate(() => {
+    const loose = document.createElement("bindpose-viewer");
+    return Promise.all(["open", "snapshot"].map((name) => loose[name]([]).then(() => "done", (error) => error.name)));
+  });
+  assert.deepEqual(refused, ["InvalidStateError", "InvalidStateError"]);
+  // One bone's matrix, for who draws beside it.
+  const [root, none, matrix] = await page.evaluate(() => [viewer.boneToRoot(0), viewer.boneToRoot(9999), Array.from(viewer.boneToRoot(9))]);
+  assert.equal(root.length ?? Object.keys(root).length, 16);
+  assert.equal(none, undefined);
+  assert.ok(matrix[13] > 0.5 && matrix[15] === 1, `${matrix}: above the ground`);
+});
+
+test("in a flex box, in what is folded away, hidden and shown, a viewer has its size and draws only in sight", {
+  draws: true,
+  ...pageOf(`<style>body { margin: 0 }</style><div style="display: flex; width: 640px"><bindpose-viewer id="flex" ${FIGURE} style="flex: 1; min-width: 0" autoplay loop></bindpose-viewer><p style="width: 200px">Beside</p></div>
+    <details id="more"><summary>More</summary><bindpose-viewer id="folded" ${FIGURE} loading="lazy" poster="web/icon.svg"></bindpose-viewer></details>
+    <p style="height: 2000px">Far</p><bindpose-viewer id="far" ${FIGURE} loading="lazy"></bindpose-viewer>`),
+  motion: true,
+}, async (page) => {
+  await hears(page, "flex", "load");
+  const size = (id) => page.evaluate((id) => [document.getElementById(id).offsetWidth, document.getElementById(id).shadowRoot.querySelector("canvas")?.width ?? 0], id);
+  const drawn = (id) => page.evaluate((id) => document.getElementById(id).state().framesRendered, id);
+  const [width, pixels] = await size("flex");
+  assert.equal(width, 440);
+  assert.ok(Math.abs(pixels - width * (await page.evaluate(() => devicePixelRatio))) <= 1, `${pixels} pixels for ${width}`);
+  await page.evaluate(() => document.querySelector("div").style.setProperty("width", "400px"));
+  await page.waitForFunction(() => document.getElementById("flex").shadowRoot.querySelector("canvas").width < 120);
+  // Neither what is folded nor what is far was loaded.
+  assert.deepEqual(await page.evaluate(() => heard.filter(([id]) => id !== "flex")), []);
+  await page.evaluate(() => (document.getElementById("more").open = true));
+  await hears(page, "folded", "load");
+  assert.ok((await size("folded"))[1] > 0);
+  await keep(page, "element-layout");
+  const isStill = async (id) => {
+    const before = await drawn(id);
+    for (let round = 0; round < 6; round += 1) await settled(page);
+    return before === (await drawn(id));
+  };
+  assert.equal(await isStill("flex"), false);
+  await page.evaluate(() => (document.getElementById("flex").hidden = true));
+  await page.waitForFunction(async () => {
+    const frames = () => document.getElementById("flex").state().framesRendered;
+    const before = frames();
+    await new Promise((done) => setTimeout(done, 300));
+    return before === frames();
+  });
+  assert.equal((await seen(page, "flex")).paused, false, "it goes on when it is seen again");
+  await page.evaluate(() => (document.getElementById("flex").hidden = false));
+  await page.waitForFunction((before) => document.getElementById("flex").state().framesRendered > before, await drawn("flex"));
+  await page.evaluate(() => scrollTo(0, 4000));
+  await hears(page, "far", "load");
+});
+
+for (const ui of ["transport", "none", "full"]) {
+  test(`axe finds nothing on a page with a viewer whose interface is ${ui}`, { expectErrors: true, ...pageOf(`<html lang="en"><main><h1>Notes</h1><bindpose-viewer id="a" ${FIGURE} ui="${ui}" alt="A figure"></bindpose-viewer></main>`) }, async (page) => {
+    await hears(page, "a", "load");
+    await assertSound(page, ui);
+    await page.evaluate(() => reportError(Object.assign(new Error("index out of bounds"), { name: "Panic" })));
+    await hears(page, "a", "error");
+    await assertSound(page, `${ui}, after a panic`);
+  });
+}
+
+test("a panic in one viewer is told by all, in what the page has for it", {
+  expectErrors: true,
+  ...pageOf(`<bindpose-viewer id="a" ${FIGURE}><p slot="error" id="mine">It stopped.</p></bindpose-viewer><bindpose-viewer id="b" ${FIGURE}></bindpose-viewer>`),
+}, async (page) => {
+  await hears(page, "a", "load");
+  await hears(page, "b", "load");
+  await page.evaluate(() => reportError(Object.assign(new Error("index out of bounds"), { name: "Panic" })));
+  for (const id of ["a", "b"]) await hears(page, id, "error");
+  assert.ok(await page.isVisible("#mine"));
+  const told = (id) => page.evaluate((id) => [document.getElementById(id).error.message, document.getElementById(id).state().error.code, document.getElementById(id).shadowRoot.querySelectorAll("canvas").length], id);
+  for (const id of ["a", "b"]) assert.deepEqual(await told(id), ["index out of bounds", "viewer-stopped", 0]);
+  assert.match(await page.locator("#b").evaluate((viewer) => viewer.shadowRoot.querySelector("[role=alert]").textContent), /index out of bounds/);
+});
+
+test("a page scrolls under a finger, and turns the view once it was touched", {
+  phone: true,
+  ...pageOf(`<meta name="viewport" content="width=device-width"><bindpose-viewer id="a" ${FIGURE} ui="none" style="width: 360px; height: 360px"></bindpose-viewer><p style="height: 3000px">More</p>`),
+}, async (page) => {
+  await hears(page, "a", "load");
+  const devtools = await page.context().newCDPSession(page);
+  const swipe = async () => {
+    const touch = (type, y) => devtools.send("Input.dispatchTouchEvent", { type, touchPoints: y === null ? [] : [{ x: 180, y }] });
+    await touch("touchStart", 260);
+    for (let y = 250; y >= 110; y -= 20) {
+      await touch("touchMove", y);
+      await settled(page);
+    }
+    await touch("touchEnd", null);
+    await settled(page);
+    return page.evaluate(() => [scrollY, document.getElementById("a").state().camera.pitchRadians]);
+  };
+  const pitch = await page.evaluate(() => document.getElementById("a").state().camera.pitchRadians);
+  const [scrolled, still] = await swipe();
+  assert.ok(scrolled > 60, `${scrolled}`);
+  assert.equal(still, pitch);
+  await page.evaluate(() => scrollTo(0, 0));
+  await page.touchscreen.tap(180, 200);
+  await page.waitForFunction(() => document.getElementById("a").shadowRoot.activeElement?.localName === "canvas");
+  const [there, turned] = await swipe();
+  assert.equal(there, 0);
+  assert.notEqual(turned, pitch);
+});
+
+const loses = pageOf(`<bindpose-viewer id="a" ${FIGURE}></bindpose-viewer>`, { backend: "auto" });
+for (const ui of ["transport", "full"]) {
+  test(`a viewer that loses WebGPU for good goes on with WebGL2, where its interface is ${ui}`, {
+    only: "webgpu",
+    draws: true,
+    ...loses,
+    prepare: async (page) => {
+      await pretendGpu()(page);
+      await loses.prepare(page);
+    },
+  }, async (page) => {
+    await hears(page, "a", "load");
+    await page.evaluate(async (ui) => {
+      globalThis.viewer = document.getElementById("a");
+      if (ui === "full") viewer.ui = ui;
+    }, ui);
+    await hears(page, "a", "load", ui === "full" ? 2 : 1);
+    await page.evaluate(() => {
+      viewer.setAttribute("clip", "Run");
+      viewer.setAttribute("camera", "70 12");
+      viewer.currentTime = 0.25;
+    });
+    const { link, backend } = await seen(page, "a");
+    assert.equal(backend, "webgpu");
+    await page.evaluate(() => {
+      globalThis.adapters = "none";
+      globalThis.device.destroy();
+    });
+    await page.waitForFunction(() => viewer.state().backend === "webgl2" && viewer.clip === "Run" && viewer.currentTime === 0.25);
+    assert.equal((await seen(page, "a")).link, link);
+    assert.ok((await coloursOnScreen(page)) > 200);
+    assert.equal(await page.evaluate(() => viewer.shadowRoot.querySelectorAll("canvas").length), 1);
+  });
+}
+
+/** A page of examples/. */
+const example = (name) => ({ query: `examples/${name}.html`, bare: true, draws: true, only: "webgl2", viewport: { width: 700, height: 900 } });
+const ready = (page, id) => page.waitForFunction((id) => document.getElementById(id).state?.().model, id, { polling: 50 });
+
+test("the example with three viewers: a sentence leads to a moment", example("three"), async (page) => {
+  await ready(page, "walk");
+  await page.getByRole("link", { name: "the weight changes feet" }).click();
+  await page.waitForFunction(() => document.getElementById("walk").currentTime === 0.5 && document.getElementById("walk").paused);
+  for (const viewer of await page.locator("bindpose-viewer").all()) await viewer.scrollIntoViewIfNeeded();
+  await page.waitForFunction(() => [...document.querySelectorAll("bindpose-viewer")].every((viewer) => viewer.state().model && viewer.shadowRoot.querySelector(".poster").hidden));
+  assert.equal(await page.evaluate(() => document.querySelectorAll("bindpose-viewer")[2].state().skeleton.skinView), "weight");
+  await keep(page, "example-three");
+});
+
+test("the example with a curve: a bone's height is drawn while the clip plays", { ...example("bone-height"), motion: true }, async (page) => {
+  await ready(page, "viewer");
+  const inked = () => page.evaluate(() => document.getElementById("curve").getContext("2d").getImageData(0, 0, 640, 160).data.filter((value, index) => index % 4 === 3 && value > 0).length);
+  await page.waitForFunction(() => document.getElementById("viewer").currentTime > 0.3);
+  assert.ok((await inked()) > 100);
+  await keep(page, "example-bone-height");
+  const told = await page.evaluate(() => Number.parseFloat(document.getElementById("height").textContent));
+  assert.ok(told > 0.5 && told < 1.5, `${told}: the hips of a figure of 1.8`);
+});
+
+test("the example with two files: one transport moves both, and one camera the other", example("compare"), async (page) => {
+  for (const id of ["left", "right"]) await ready(page, id);
+  await page.getByRole("slider", { name: "Time" }).fill("0.5");
+  const at = () => page.evaluate(() => ["left", "right"].map((id) => document.getElementById(id)).map(({ currentTime, duration }) => Math.round((100 * currentTime) / duration)));
+  await page.waitForFunction(() => document.getElementById("right").currentTime > 0.3);
+  assert.deepEqual(await at(), [50, 50]);
+  const left = await page.locator("#left").boundingBox();
+  await page.mouse.move(left.x + 100, left.y + 100);
+  await page.mouse.down();
+  await page.mouse.move(left.x + 160, left.y + 100, { steps: 5 });
+  await page.mouse.up();
+  await page.waitForFunction(() => {
+    const [one, other] = ["left", "right"].map((id) => document.getElementById(id).state().camera.yawRadians);
+    return Math.abs(one) > 0.1 && Math.abs(one - other) < 1e-4;
+  });
+  await page.locator("input[data-for=right]").setInputFiles(SAMPLE);
+  await page.waitForFunction(() => document.getElementById("right").state().model.name === "figure.m3d" && document.getElementById("right").state().models.length === 1);
+  await page.getByRole("button", { name: "Play" }).click();
+  await page.waitForFunction(() => document.getElementById("left").currentTime > 0.7);
+  await keep(page, "example-compare");
 });

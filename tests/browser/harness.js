@@ -5,6 +5,7 @@ import { appendFileSync, existsSync, mkdirSync, readdirSync, rmSync } from "node
 import { fileURLToPath } from "node:url";
 import { after, test as nodeTest } from "node:test";
 import { chromium } from "playwright-core";
+import { GPU_FLAGS, QUIET_FLAGS } from "./flags.js";
 
 /** Given by `cargo xtask test` and `bench`: where the page is, what draws it and Chromium's program. */
 export const PAGE = required("PAGE");
@@ -30,33 +31,11 @@ export const SHARED = path("../../../shared/");
 /** Pictures for people to look at. */
 export const OUT = path("out/");
 
-// Software drawing that gives real pixels, in screenshots too. Other sets start the page but leave it blank.
-const GPU_FLAGS = {
-  webgl2: ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
-  webgpu: [
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--ignore-gpu-blocklist",
-    "--enable-unsafe-webgpu",
-    "--enable-gpu",
-    "--enable-features=Vulkan",
-    "--use-vulkan=swiftshader",
-  ],
-};
 assert.ok(BACKEND in GPU_FLAGS, `BACKEND is webgpu or webgl2, not ${BACKEND}`);
 
 /** Where the two programs are on the server, and the one of them that draws with the backend under test where that is asked for by name. */
 export const FOLDERS = { webgpu: "/pkg/webgpu/", full: "/pkg/" };
 export const FOLDER = BACKEND === "webgpu" ? FOLDERS.webgpu : FOLDERS.full;
-
-// A browser that asks nobody anything.
-const QUIET_FLAGS = [
-  "--disable-background-networking",
-  "--disable-component-update",
-  "--disable-sync",
-  "--disable-quic",
-  "--no-first-run",
-];
 
 /** Small, for the sake of the software GPU, but wide enough for every panel. */
 export const VIEWPORT = { width: 960, height: 600 };

@@ -2,12 +2,14 @@
 // full one stands in for the other.
 
 import assert from "node:assert/strict";
-import { FOLDERS, drop, keep, programs, settled, state, test as eachTest, until } from "./harness.js";
+import { FOLDERS, SAMPLE, atRest, drag, drop, keep, programs, settled, state, test as eachTest, until } from "./harness.js";
 import { copyOfSample } from "./opening.js";
 import { assertDrawn, coloursOnScreen, picture } from "./picture.js";
+import { CHEST, click, place } from "./widgets.js";
 
 const test = (name, options, body) => eachTest(name, { only: "webgpu", ...options }, body);
 const { full, webgpu } = FOLDERS;
+const MAP = SAMPLE.replace(".m3d", "_diff.png");
 const COARSE = "quality=full&scale=0.2";
 
 /** For `prepare`: the GPU of software says that it is another one. What is asked of the adapter can be written anew. */
@@ -163,7 +165,60 @@ test("a full program that does not arrive after the other one is said so", {
   assert.equal((await state(page)).error.code, "viewer-stopped");
 });
 
-test("a GPU that is lost for good leads by a link to the full program, which says what was open", {
+/** Loses WebGPU for good. */
+const loseWebGpu = (page) =>
+  page.evaluate(() => {
+    globalThis.adapters = "none";
+    globalThis.device.destroy();
+  });
+
+/** The open model with all edits, as a file. */
+const exported = (page) => page.evaluate(async () => Array.from(new Uint8Array(await crypto.subtle.digest("SHA-256", (await bindpose.export({ format: "glb" })).bytes))).join());
+
+test("where WebGPU is lost for good the full program goes on with what is open, edited and seen", { query: `?${COARSE}`, bare: true, prepare: pretendGpu() }, async (page) => {
+  const { path } = copyOfSample("mine.m3d");
+  await opened(page);
+  await page.waitForFunction(() => document.getElementById("shell").hidden);
+  await page.setInputFiles("#files", [path, MAP]);
+  await opened(page, "mine.m3d");
+  const clips = copyOfSample("walks.m3d");
+  await page.setInputFiles("#clips", clips.path);
+  await until(page, ({ model }) => model.clips.length > 4);
+  await page.mouse.click(...CHEST);
+  await atRest(page);
+  await drag(page, await place(page, "roughness"), await place(page, "roughness", 0));
+  await click(page, "page-1");
+  await atRest(page);
+  await page.mouse.dblclick(...(await place(page, "bone-1")));
+  await atRest(page);
+  await page.keyboard.type("Hips", { delay: 30 });
+  await page.keyboard.press("Enter");
+  await page.evaluate(() => {
+    bindpose.selectClip("Run");
+    bindpose.pause();
+    bindpose.seek(0.25);
+  });
+  await atRest(page);
+  const before = await until(page, ({ skeleton }) => skeleton.names[1] === "Hips");
+  const file = await exported(page);
+  // So that the name does not come from there.
+  await page.evaluate(() => localStorage.clear());
+  await loseWebGpu(page);
+  await until(page, ({ backend, model }) => backend === "webgl2" && model?.name === "mine.m3d");
+  const after = await until(page, ({ clip, skeleton }) => clip === "Run" && skeleton.names[1] === "Hips");
+  assert.deepEqual(await programs(page), [webgpu, full]);
+  const seen = ({ model, models, clip, timeSecs, playing, skeleton, look, camera }) => ({ ...model, opening: null, models, clip, timeSecs, playing, skeleton, light: look.light, camera });
+  assert.deepEqual(seen(after), seen(before));
+  assert.equal(await exported(page), file, "with the names and the edited material");
+  assertDrawn(await picture(page));
+  assert.equal((await page.$$("#view canvas")).length, 1);
+  // It is as good as another: it opens, and takes the edit back.
+  assert.ok(await page.evaluate(() => bindpose.undo()));
+  assert.notEqual(await exported(page), file);
+  await keep(page, "gone-on-with-webgl2");
+});
+
+test("where the full program does not arrive then, a link leads there, and says what was open", {
   query: `?${COARSE}`,
   bare: true,
   expectErrors: true,
@@ -174,14 +229,13 @@ test("a GPU that is lost for good leads by a link to the full program, which say
   assert.equal(backend, "webgpu");
   await page.setInputFiles("#files", path);
   await opened(page, "mine.m3d");
-  await page.evaluate(() => {
-    globalThis.adapters = "none";
-    globalThis.device.destroy();
-  });
+  await page.route(`**${full}bindpose_bg.wasm`, (route) => route.fulfill({ status: 503, body: "busy" }));
+  await loseWebGpu(page);
   await page.waitForSelector("#fault:not([hidden])");
   await keep(page, "fault-lost-for-good");
   assert.match(await page.textContent("#fault-title"), /graphics went away/);
   assert.match(await page.textContent("#fault-details"), /did not come back in 6 starts: WebGL2, which this program lacks/);
+  await page.unrouteAll();
   await page.click("#fault-actions a:text('Use WebGL2')");
   const now = await until(page, ({ model }) => model !== null);
   assert.equal(now.backend, "webgl2");

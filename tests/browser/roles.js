@@ -1,11 +1,8 @@
 // The page as a screen reader has it: elements with roles, names and states, no places. And what axe finds in every state of it.
 
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
+import { assertSound } from "./axe.js";
 import { FIXTURES, call, dropAndWait, keep, panicAtStart, settled, state, test, until, turnPhone } from "./harness.js";
-
-const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
 /** A control by the start of its name, whatever it is: a button, a tab, a choice of several. */
 const control = (page, start, roles = ["button", "radio", "tab", "combobox", "menuitem", "menuitemradio", "option"]) => {
@@ -262,21 +259,6 @@ test("a failure is spoken at once, and why", { expectErrors: true }, async (page
   await dropAndWait(page, [`${FIXTURES}bad/parent_not_a_number.m3d`]);
   await spoken(page, new RegExp(`parent_not_a_number\\.m3d was not opened: .*${name} stays open`), "alert");
 });
-
-/** What axe finds on the page as it is. */
-async function findings(page) {
-  await page.evaluate(AXE);
-  return page.evaluate(async () => {
-    const { violations } = await axe.run(document, { resultTypes: ["violations"] });
-    return violations.map(({ id, nodes }) => [id, ...nodes.map(({ html, failureSummary }) => `${html.slice(0, 200)} ${failureSummary}`)].join("\n"));
-  });
-}
-
-async function assertSound(page, what) {
-  await settled(page);
-  await page.waitForTimeout(400);
-  assert.deepEqual(await findings(page), [], what);
-}
 
 test("axe finds nothing in any state of the page", { own: true, expectErrors: true, viewport: { width: 1280, height: 800 } }, async (page) => {
   await assertSound(page, "a model is open");

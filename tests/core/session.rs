@@ -9,6 +9,7 @@ mod files;
 mod folders;
 mod ghosts;
 mod going_back;
+mod handing_over;
 mod history;
 mod joining;
 mod joints;

@@ -19,11 +19,23 @@ const NEAR = "200px";
 
 const box = (className) => Object.assign(document.createElement("div"), { className });
 
+const inNoPage = () => new DOMException("the viewer is not in a page", "InvalidStateError");
+
 const prefersStill = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 
 export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) {
   static observedAttributes = [...Object.keys(FIELDS), ...OTHERS];
 
+  /** What a life has done here. */
+  #teller = {
+    event: (type) => this.#tell(type),
+    progress: (part) => this.#tellProgress(part),
+    load: () => this.#tellLoad(),
+    error: (error) => this.#tellError(error),
+    camera: (state) => this.#tellCamera(state),
+    nameCanvas: () => this.#nameCanvas(),
+    moment: () => this.#moment(),
+  };
   #life = null;
   #kept = null;
   #view;
@@ -83,12 +95,13 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
   attributeChangedCallback(name, before, value) {
     if (before === value) return;
     if (name === "poster") this.#showPoster(!this.#over.poster.hidden);
-    if (name === "alt") this.nameCanvas();
+    if (name === "alt") this.#nameCanvas();
     if (name === "ui") this.#restart(before);
     if (name === "src" && this.#life) {
       this.#kept = null;
       this.#error = null;
       this.#over.error.hidden = true;
+      this.#life.wasGiven = false;
       if (this.#life.viewer) void this.#life.show();
     }
     if (name in FIELDS || name === "link") this.#follow(name);
@@ -194,21 +207,28 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     return (this.#life?.api ?? NOTHING).bindpose.state();
   }
 
+  /** The books' toRoot of a bone in the pose on show, 16 numbers with the translation at 12 to 14; `undefined` where there is no such bone. */
+  boneToRoot(bone) {
+    return this.#life?.api.bindpose.boneToRoot(bone);
+  }
+
   /** Opens `File`s or `{name, bytes}` records in place of what `src` names. Resolves with the state after it. */
   async open(files) {
     if (!this.#life) this.#begin();
+    if (!this.#life) throw inNoPage();
     this.#life.fetching.abort();
+    this.#life.wasGiven = true;
     this.#life.kept = null;
-    return this.#life.open(Array.from(files), this.moment);
+    return this.#life.open(Array.from(files), this.#moment());
   }
 
   /** A PNG of what is seen, as a `Blob`; the page's `snapshot` has the options. */
   snapshot(options) {
-    return this.#life ? this.#life.api.bindpose.snapshot(options) : Promise.reject(new DOMException("the viewer is not in a page", "InvalidStateError"));
+    return this.#life ? this.#life.api.bindpose.snapshot(options) : Promise.reject(inNoPage());
   }
 
   /** What a link to what the attributes ask for has behind its `#`. */
-  get moment() {
+  #moment() {
     const fields = new Map();
     for (const [attribute, field] of Object.entries(FIELDS)) {
       const value = this.#valueOf(attribute);
@@ -219,31 +239,29 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     return textOf(fields);
   }
 
-  // For `Life`.
-
-  tell(type, detail) {
+  #tell(type, detail) {
     this.#transport.update();
     this.dispatchEvent(new CustomEvent(type, { detail }));
   }
 
-  tellProgress(part) {
+  #tellProgress(part) {
     const { progress } = this.#over;
     progress.hidden = this.#life?.files !== undefined || part >= 1;
     progress.querySelector("progress").value = part;
     this.dispatchEvent(new CustomEvent("progress", { detail: { totalProgress: part } }));
   }
 
-  tellLoad() {
+  #tellLoad() {
     this.#error = null;
     this.#over.error.hidden = true;
     this.#showPoster(false);
-    this.tellProgress(1);
-    this.nameCanvas();
-    this.tell("load");
+    this.#tellProgress(1);
+    this.#nameCanvas();
+    this.#tell("load");
     if (!this.#isNear && this.#sight) this.#life.setInSight(false);
   }
 
-  tellError(error) {
+  #tellError(error) {
     this.#error = error;
     const words = this.#over.error.querySelector("p");
     words.textContent = wordsOf(error);
@@ -252,7 +270,7 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     this.dispatchEvent(new CustomEvent("error", { detail: { message: wordsOf(error) } }));
   }
 
-  tellCamera(camera) {
+  #tellCamera(camera) {
     const now = JSON.stringify(camera);
     if (now === this.#camera) return;
     const isFirst = !this.#camera;
@@ -260,7 +278,7 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     if (!isFirst) this.dispatchEvent(new CustomEvent("camera-change", { detail: camera }));
   }
 
-  nameCanvas() {
+  #nameCanvas() {
     const canvas = this.#view.querySelector("canvas");
     const name = this.state().model?.name;
     canvas?.setAttribute("role", this.ui === "full" ? "application" : "img");
@@ -283,7 +301,7 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
 
   #begin() {
     if (this.#life || !this.isConnected) return;
-    this.#life = new Life(this, this.#view, this.#kept);
+    this.#life = new Life(this, this.#teller, this.#view, this.#kept);
     this.#kept = null;
     void this.#life.run();
   }

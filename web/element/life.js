@@ -1,7 +1,9 @@
 // A viewer from when its element comes into a page until it leaves it: its program, its canvas, its files.
 
 import { createApi } from "../api.js";
+import { handOver } from "../handing_over.js";
 import { mirrorOf } from "../mirror.js";
+import { servePanels } from "./panels.js";
 import { compile, fetchProgram, nameFor } from "../program.js";
 import { keepOnCanvas } from "../restart.js";
 import { fetchFrom } from "../sources.js";
@@ -33,10 +35,14 @@ globalThis.addEventListener?.("error", ({ error }) => {
 export const fieldsOf = (text) => new Map(text.split("&").filter(Boolean).map((field) => [field.split("=")[0], field.slice(field.indexOf("=") + 1)]));
 export const textOf = (fields) => [...fields].map(([name, value]) => `${name}=${value}`).join("&");
 
-/** A viewer from when its element came into a page until it leaves it: `host` is the element, `view` what its canvas lies in. */
+/**
+ * A viewer from when its element came into a page until it leaves it: `host` is the element, `view` what its canvas lies in, `kept` what an earlier life was
+ * ended with. `teller` has what the element does for it: `event(type)`, `progress(part)`, `load()`, `error(error)`, `camera(state)`, `nameCanvas()`, and
+ * `moment()`, the link to what its attributes ask for.
+ */
 export class Life {
-  constructor(host, view, kept) {
-    Object.assign(this, { host, view, kept, api: createApi(), viewer: null, over: false, mirror: null, isShown: false });
+  constructor(host, teller, view, kept) {
+    Object.assign(this, { host, teller, view, kept, api: createApi(), viewer: null, over: false, mirror: null, isShown: false, wasGiven: false });
     /** With the page's interface, which brings its own window; else the viewer is told of its size and of events. */
     this.isFull = host.ui === "full";
     this.fetching = new AbortController();
@@ -49,7 +55,7 @@ export class Life {
     try {
       const { backend } = this.host;
       await this.start(this.nameOf(await nameFor(backend)), backend);
-      if (!this.over) await this.show();
+      if (!this.over && !this.wasGiven) await this.show();
     } catch (error) {
       this.fail(error);
     }
@@ -61,14 +67,19 @@ export class Life {
     return program === "full" ? "smallFull" : "smallWebgpu";
   }
 
-  async start(name, backend) {
-    const { module } = await programOf(name, (part) => this.host.tellProgress(part / 2));
+  /** Starts a viewer of a program, which goes on with what is open in another one `before`, whose program cannot draw any more. */
+  async start(name, backend, before = null) {
+    const { module } = await programOf(name, (part) => this.teller.progress(part / 2));
     if (this.over) return;
+    let from = before;
     this.viewer = new module.Viewer({ ui: "full" }, (type, detail) => this.hear(type, detail));
     const canvas = document.createElement("canvas");
     canvas.tabIndex = 0;
-    this.view.replaceChildren(canvas);
-    this.host.nameCanvas();
+    const box = this.isFull ? document.createElement("div") : this.view;
+    this.view.replaceChildren(...(this.isFull ? [box] : []));
+    box.append(canvas);
+    this.panels = this.isFull ? servePanels(box, this.forPanels()) : {};
+    this.teller.nameCanvas();
     if (!this.isFull) this.attend();
     this.keeper = keepOnCanvas(this.viewer, {
       canvas,
@@ -77,10 +88,15 @@ export class Life {
       isOver: () => this.over,
       onStart: () => {
         this.view.classList.add("drawn");
-        this.host.nameCanvas();
-        this.api.attach(this.viewer);
+        this.teller.nameCanvas();
+        if (from) void this.goOn(from);
+        else if (!before) this.api.attach(this.viewer);
+        from = null;
       },
-      onEnd: (error) => this.fail(error),
+      onEnd: (error) => {
+        if (name === this.nameOf("full") || backend !== "auto") return this.fail(error);
+        this.start(this.nameOf("full"), "webgl2", this.viewer).catch(() => this.fail(error));
+      },
     });
     try {
       await this.keeper.start();
@@ -90,6 +106,35 @@ export class Life {
       this.viewer.free();
       await this.start(this.nameOf("full"), "webgl2");
     }
+  }
+
+  /** What the panels ask for. */
+  forPanels() {
+    const open = (files, how) => this.api.give(files, how).catch((error) => error.name !== "AbortError" && this.teller.error(error));
+    return {
+      receive: (files, addsClips) => void (addsClips ? open(files, "addClips") : this.open(files, null).catch(() => {})),
+      refuse: (words) => this.teller.error(new Error(words)),
+      again: () => void this.show(),
+      openModel: () => this.viewer.state().model?.name ?? "",
+      copy: async () => {
+        const made = document.createElement("bindpose-viewer");
+        made.setAttribute("src", this.host.src);
+        made.setAttribute("link", this.viewer.link(0).text);
+        await navigator.clipboard.writeText(made.outerHTML).then(() => this.viewer.tell("Element copied"), (error) => this.teller.error(error));
+      },
+    };
+  }
+
+  /** Goes on with all that is open in a viewer without WebGL2, which lost WebGPU for good. */
+  async goOn(from) {
+    const moment = this.moment(from);
+    if (this.isFull) await handOver(from, this.viewer);
+    if (this.over) return;
+    this.api.attach(this.viewer);
+    from.free();
+    if (this.isFull || !this.files) return;
+    this.kept = { files: this.files, moment };
+    await this.show();
   }
 
   /** Tells the viewer of what a window would. A canvas may be replaced by a fresh one; what it lies in stays. */
@@ -120,12 +165,12 @@ export class Life {
     const { signal } = (this.fetching = new AbortController());
     try {
       const files = this.kept?.files ?? (await this.fetch(signal));
-      const moment = this.kept?.moment ?? this.host.moment;
+      const moment = this.kept?.moment ?? this.teller.moment();
       this.kept = null;
       if (signal.aborted || !files.length) return;
       await this.open(files, moment);
     } catch (error) {
-      if (!signal.aborted && error.name !== "AbortError") this.host.tellError(error);
+      if (!signal.aborted && error.name !== "AbortError") this.teller.error(error);
     }
   }
 
@@ -137,23 +182,23 @@ export class Life {
       began: (_, bytes) => (wanted += bytes),
       got: (bytes) => {
         arrived += bytes;
-        if (wanted) this.host.tellProgress(0.5 + Math.min(arrived / wanted, 1) / 2);
+        if (wanted) this.teller.progress(0.5 + Math.min(arrived / wanted, 1) / 2);
       },
     });
   }
 
-  /** Opens files and goes to a moment in them. Resolves with the state, which has an `error` where they could not be opened. */
+  /** Opens files and goes to a moment in them, if one is named. Resolves with the state, which has an `error` where they could not be opened. */
   async open(files, moment) {
     this.isShown = false;
     const state = await this.api.give(files, "open");
     if (state.error) {
-      this.host.tellError(new Error(state.error.message));
+      this.teller.error(new Error(state.error.message));
       return state;
     }
     this.files = files;
-    this.viewer.followLink(moment);
+    if (moment !== null) this.viewer.followLink(moment);
     this.isShown = true;
-    this.host.tellLoad();
+    this.teller.load();
     return this.api.bindpose.state();
   }
 
@@ -164,13 +209,14 @@ export class Life {
     if (type === "mirror") {
       if (detail.changes.fresh) {
         this.mirror?.remove();
-        this.mirror = mirrorOf(this.viewer, this.view.querySelector("canvas"), () => {});
+        this.mirror = mirrorOf(this.viewer, this.view.querySelector("canvas"), this.panels.pick);
       }
       return this.mirror?.take(detail);
     }
+    if (this.panels[type]) return void this.panels[type](detail);
     if (!this.isShown) return;
-    if (["play", "pause", "timeupdate"].includes(type)) this.host.tell(type);
-    if (type === "settling") this.host.tellCamera(this.viewer.state().camera);
+    if (["play", "pause", "timeupdate"].includes(type)) this.teller.event(type);
+    if (type === "settling") this.teller.camera(this.viewer.state().camera);
   }
 
   /** Nothing is drawn while nobody sees it. */
@@ -182,7 +228,7 @@ export class Life {
     if (this.over) return;
     this.api.fail(error);
     this.finish(false);
-    this.host.tellError(error);
+    this.teller.error(error);
   }
 
   /** Gives the GPU and the program's objects back. Returns what is open and seen, for another life. */
@@ -202,8 +248,8 @@ export class Life {
   }
 
   /** The link to what is seen, with whether it plays. */
-  moment() {
-    const fields = fieldsOf(this.viewer.link(0).text);
-    return textOf(fields.set("play", Number(this.viewer.state().playing)));
+  moment(viewer = this.viewer) {
+    const fields = fieldsOf(viewer.link(0).text);
+    return textOf(fields.set("play", Number(viewer.state().playing)));
   }
 }

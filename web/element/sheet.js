@@ -8,6 +8,9 @@ export const SHEET = `
   border-radius: var(--bindpose-radius, 0); --accent: var(--bindpose-accent, #5aa9ff); }
 .stage { position: relative; flex: 1; min-height: 0; }
 .view, .view canvas, .over { position: absolute; inset: 0; width: 100%; height: 100%; }
+.view > div { position: absolute; inset: 0; }
+.view > .dropped { outline: 2px solid var(--accent); outline-offset: -2px; }
+.spoken { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
 .view canvas { display: block; outline: none; }
 .view.turned canvas { touch-action: none; }
 .view:not(.drawn) canvas { visibility: hidden; }

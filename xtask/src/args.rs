@@ -28,10 +28,11 @@ Bindpose's own commands. Each does its set-up itself.
         The README's pictures and those of the manifest, drawn by the page in Chromium: assets/page/, web/install/ and,
         beside three.js, assets/beside/.
 
-    cargo xtask dist
+    cargo xtask dist [--npm]
         The static site in dist/: smallest download, hashed names, .br and .gz beside each file, the worker that keeps it
         for visits without a network, _headers for hosts that read it, and the licences of
         all.
+        --npm       the package `bindpose-viewer` in dist-npm/, in place of the site
 
     cargo xtask licenses TARGET
         What the command `bindpose` is made of when it is built for TARGET, and the licences of it, for whoever passes it on.
@@ -59,6 +60,7 @@ pub(crate) enum Task {
     Test(TestOptions),
     Pictures,
     Dist,
+    DistNpm,
     /// For the command, built for this target.
     Licenses(String),
     Bench(BenchOptions),
@@ -113,7 +115,11 @@ pub(crate) fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, Fail
         "serve" => serve_options(rest).map(Task::Serve),
         "test" => test_options(&rest).map(Task::Test),
         "pictures" => nothing_more("pictures", &rest).map(|()| Task::Pictures),
-        "dist" => nothing_more("dist", &rest).map(|()| Task::Dist),
+        "dist" => match rest.first().map(String::as_str) {
+            None => Ok(Task::Dist),
+            Some("--npm") if rest.len() == 1 => Ok(Task::DistNpm),
+            Some(arg) => Err(Failure::Usage(format!("`dist` takes `--npm` or nothing, but `{arg}` was given"))),
+        },
         "licenses" => match <[String; 1]>::try_from(rest) {
             Ok([target]) => Ok(Task::Licenses(target)),
             Err(_) => Err(Failure::Usage("`licenses` takes a target".to_owned())),
@@ -298,6 +304,7 @@ mod tests {
         );
         let expected = "aarch64-apple-darwin".to_owned();
         assert_eq!(parsed("licenses aarch64-apple-darwin"), Ok(Task::Licenses(expected)));
+        assert_eq!(parsed("dist --npm"), Ok(Task::DistNpm));
         assert_eq!(parsed("dist --help"), Ok(Task::Help));
         assert_eq!(parsed(""), Ok(Task::Help));
     }
@@ -322,7 +329,7 @@ mod tests {
             ("bench", "`bench` takes --counts or --browser"),
             ("bench --dist", "`bench` does not know `--dist` here"),
             ("bench --browser --model", "`--model` takes a file"),
-            ("dist --fast", "`dist` takes no options, but `--fast` was given"),
+            ("dist --fast", "`dist` takes `--npm` or nothing, but `--fast` was given"),
         ] {
             let failure = parsed(line).expect_err(line);
             assert!(failure.contains(words), "{line}: {failure}");

@@ -10,6 +10,7 @@ use crate::dist;
 use crate::failure::Failure;
 use crate::fuzz::{self, FuzzOptions};
 use crate::list::List;
+use crate::npm;
 use crate::prerequisites;
 use crate::process::Line;
 use crate::second_tries;
@@ -40,6 +41,9 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
     }
     let site = site(&mut steps, Profile::Dev, &options.browsers)?;
     steps.step("Two builds as hosts have them", || dist::write_for_tests(&site))?;
+    if options.long {
+        steps.step("The package with the element", || npm::write_for_tests(&site))?;
+    }
     let page = served(&mut steps, site)?;
     if !options.browser_alone {
         steps.step("The page's scripts alone", || {
@@ -60,6 +64,7 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
         page: &page,
         only: options.only.as_deref(),
         all_on_each: options.long || options.browser_alone,
+        cases: if options.long { LONG_CASES } else { "1" },
         absent: &absent,
         second_tries: &second_tries,
     };
@@ -67,12 +72,28 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
         // Why a test failed stands far above by now.
         eprint!("{}", second_tries::words(&second_tries.read().unwrap_or_default()));
     })?;
+    if options.long {
+        steps.step("The package on pages, built and not", package)?;
+    }
     steps.summary();
     for run in elsewhere {
         eprintln!("Not looked at: the page in {run}, which is driven on Linux alone.");
     }
     eprint!("{}", absent::words(&absent.read()?));
     second_tries::judge(&second_tries.read()?)
+}
+
+/// The package with the element, as those have it who install it: in Chromium on both backends, and in Firefox.
+fn package() -> Result<(), Failure> {
+    let firefox = prerequisites::program(Browser::Firefox).unwrap_or_default();
+    Line::new("xvfb-run")
+        .args(["--auto-servernum", "--server-args=-screen 0 1280x1024x24", "node", "--test", "--test-force-exit"])
+        .args(["--test-reporter=spec", "tests/browser/npm.js"])
+        .env("LIBGL_ALWAYS_SOFTWARE", "1")
+        .env("PACKAGE", npm::package_for_tests())
+        .env("CHROMIUM", prerequisites::program(Browser::Chromium).unwrap_or_default())
+        .env("FIREFOX", firefox)
+        .run()
 }
 
 /// Draws the README's pictures, those of the manifest, and those beside three.js.
@@ -291,6 +312,8 @@ struct BrowserTests<'a> {
     only: Option<&'a str>,
     /// All tests, in place of a run's own.
     all_on_each: bool,
+    /// How many times as often what is repeated is.
+    cases: &'a str,
     absent: &'a List,
     second_tries: &'a List,
 }
@@ -304,7 +327,8 @@ fn browser(run: BrowserRun, wanted: BrowserTests<'_>) -> Line {
     let only = wanted.only.map(|pattern| format!("--test-name-pattern={pattern}"));
     let line = node(run, only.as_deref(), tests, wanted.page)
         .env(absent::VARIABLE, wanted.absent.path())
-        .env(second_tries::VARIABLE, wanted.second_tries.path());
+        .env(second_tries::VARIABLE, wanted.second_tries.path())
+        .env(CASES, wanted.cases);
     line.env("TESTS", if wanted.all_on_each { "all" } else { run.tests })
 }
 

@@ -12,6 +12,7 @@ use crate::compress::{Coding, Effort};
 use crate::failure::{Doing as _, Failure};
 use crate::headers;
 use crate::licenses;
+use crate::npm;
 use crate::site::Site;
 use crate::sizes::{self, Size};
 use crate::wasm::{self, Profile, Program};
@@ -21,17 +22,29 @@ use crate::worker;
 const PAGE: &str = "index.html";
 
 /// What other people's pages name.
-const ELEMENT: &str = "web/element/bindpose-viewer.js";
+pub(crate) const ELEMENT: &str = "web/element/bindpose-viewer.js";
 
 /// Files that are text and may refer to others.
 const REFERRING: [&str; 4] = [".html", ".js", ".css", ".webmanifest"];
 
-/// Builds `dist/`, and fails where a file is larger than it may be: then `dist/` is there all the same, to be looked at.
-pub(crate) fn run() -> Result<(), Failure> {
+/// `dist --npm`: the package in `dist-npm/`.
+pub(crate) fn run_npm() -> Result<(), Failure> {
+    let folder = crate::root().join("dist-npm");
+    npm::write(&built()?, &licenses::of_the_page()?, &folder)?;
+    println!("{} is there: `npm publish` or `npm pack` takes it.", folder.display());
+    Ok(())
+}
+
+/// The site with all programs as they are shipped.
+fn built() -> Result<Site, Failure> {
     let built = |program| Ok((program, wasm::build(Profile::Dist, program)?));
     let programs: Result<Vec<_>, Failure> = Program::ALL.into_iter().map(built).collect();
-    let site = Site::new(programs?);
-    let mut sources = sources(&site)?;
+    Ok(Site::new(programs?))
+}
+
+/// Builds `dist/`, and fails where a file is larger than it may be: then `dist/` is there all the same, to be looked at.
+pub(crate) fn run() -> Result<(), Failure> {
+    let mut sources = sources(&built()?)?;
     sources.insert(licenses::NAME.to_owned(), licenses::of_the_page()?.into_bytes());
     let files = made(sources)?;
     let dist = crate::root().join("dist");
@@ -93,7 +106,7 @@ pub(crate) fn write_for_tests(site: &Site) -> Result<(), Failure> {
 }
 
 /// The files of a site by their addresses.
-fn sources(site: &Site) -> Result<BTreeMap<String, Vec<u8>>, Failure> {
+pub(crate) fn sources(site: &Site) -> Result<BTreeMap<String, Vec<u8>>, Failure> {
     let mut sources = BTreeMap::new();
     for address in site.addresses()? {
         if let Some(path) = site.locate(&address) {
@@ -112,7 +125,7 @@ fn made(mut sources: BTreeMap<String, Vec<u8>>) -> Result<BTreeMap<String, Vec<u
     Ok(files)
 }
 
-fn write_file(dir: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, Failure> {
+pub(crate) fn write_file(dir: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, Failure> {
     let path = dir.join(name);
     if let Some(dir) = path.parent() {
         fs::create_dir_all(dir).doing(format!("making {}", dir.display()))?;
@@ -185,7 +198,7 @@ impl Naming<'_> {
     fn rewritten(&mut self, address: &str) -> Result<Vec<u8>, Failure> {
         let sources = self.sources;
         let bytes = sources.get(address).map(Vec::as_slice).unwrap_or_default();
-        if !REFERRING.iter().any(|extension| address.ends_with(extension)) {
+        if !refers(address) {
             return Ok(bytes.to_vec());
         }
         let text =
@@ -213,8 +226,13 @@ impl Naming<'_> {
     }
 }
 
+/// Whether a file may refer to others.
+pub(crate) fn refers(address: &str) -> bool {
+    REFERRING.iter().any(|extension| address.ends_with(extension))
+}
+
 /// The address that a relative reference in `folder` means, or `None` when it cannot be one.
-fn resolved(folder: &str, reference: &str) -> Option<String> {
+pub(crate) fn resolved(folder: &str, reference: &str) -> Option<String> {
     if reference.is_empty() || reference.len() > 255 || reference.contains([' ', '\n', ':']) {
         return None;
     }
@@ -253,7 +271,7 @@ pub(crate) fn grouped(number: usize) -> String {
 
 /// The files of the real page, with others in place of those that are not built in a test.
 #[cfg(test)]
-fn page() -> BTreeMap<String, Vec<u8>> {
+pub(crate) fn page() -> BTreeMap<String, Vec<u8>> {
     let built = [
         ("pkg/bindpose.js", b"1".to_vec()),
         ("pkg/bindpose_bg.wasm", b"2".to_vec()),

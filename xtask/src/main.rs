@@ -17,6 +17,7 @@
 //! | [`absent`] | which real files the tests could not look at |
 //! | [`second_tries`] | which browser tests had to be tried again |
 //! | [`dist`] | the static site: hashed names, compressed twice |
+//! | [`npm`] | the package with the element |
 //! | [`packages`] | which packages a program is made of |
 //! | [`licenses`] | what they are passed on under: `licenses.txt` |
 //! | `published`, for tests | what the library's package holds |
@@ -37,6 +38,7 @@ mod headers;
 mod http;
 mod licenses;
 mod list;
+mod npm;
 mod packages;
 mod prerequisites;
 mod process;
@@ -66,6 +68,7 @@ fn main() -> ExitCode {
         Task::Test(options) => check::run(&options),
         Task::Pictures => check::pictures(),
         Task::Dist => dist::run(),
+        Task::DistNpm => dist::run_npm(),
         Task::Licenses(target) => licenses::print(&target),
         Task::Bench(options) => check::bench(&options),
         Task::Fuzz(options) => fuzz::run(&options),

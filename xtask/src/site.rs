@@ -1,7 +1,7 @@
 //! Which files make the site, what types they have and the policy they run under.
 //!
 //! The addresses are those of the repository: `index.html`, `web/…` and, out of the build folders, `pkg/…` for the full program, and folders in it
-//! for the others. All references are relative, so the site works under any path.
+//! for the others; `examples/…` is served while one develops and is no part of it. All references are relative, so the site works under any path.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -54,7 +54,7 @@ impl Site {
         }
         let path = match address.split_once('/') {
             None if address == "index.html" => self.root.join(address),
-            Some(("web", _)) => self.root.join(address),
+            Some(("web" | "examples", _)) => self.root.join(address),
             Some(("pkg", name)) => {
                 let of = |program: Program| Some((program, name.strip_prefix(program.folder())?));
                 let (program, name) = Program::ALL.into_iter().find_map(of)?;

@@ -6,6 +6,7 @@ mod contrast;
 mod exporting;
 mod face;
 mod frames;
+mod handing_over;
 mod joint_names;
 mod mirror;
 mod pictures;

@@ -1,0 +1,115 @@
+// The package with the element as those have it who install it: on a page that vite builds, and on one without a bundler.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { copyFileSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
+import { tmpdir } from "node:os";
+import { extname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { after, before, test } from "node:test";
+import { chromium } from "playwright-core";
+import { GPU_FLAGS, QUIET_FLAGS } from "./flags.js";
+import { launch } from "./other_browsers.js";
+
+/** Given by `cargo xtask test --long`: the folder that npm packs, and browsers. */
+const { PACKAGE, CHROMIUM, FIREFOX } = process.env;
+/** The newest that runs on Debian's Node. */
+const VITE = "6.4.6";
+const PATIENCE_MS = 120_000;
+const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm", ".m3d": "text/plain", ".png": "image/png" };
+const SAMPLE = fileURLToPath(new URL("../../web/sample/", import.meta.url));
+const VIEWERS = ["one", "two", "three"].map((id) => `<bindpose-viewer id="${id}" src="/figure.m3d /figure_diff.png" clip="Walk" current-time="0.5"></bindpose-viewer>`).join("\n");
+
+let folder;
+let server;
+let address;
+
+before(async () => {
+  folder = mkdtempSync(join(tmpdir(), "bindpose-npm-"));
+  const npm = (...words) => execFileSync("npm", [...words, "--no-audit", "--no-fund", "--loglevel=error"], { cwd: folder, encoding: "utf8" });
+  const packed = npm("pack", PACKAGE, "--silent").trim().split("\n").at(-1);
+  writeFileSync(join(folder, "package.json"), JSON.stringify({ name: "notes", private: true, type: "module" }));
+  npm("install", `./${packed}`, `vite@${VITE}`);
+  mkdirSync(join(folder, "public"));
+  for (const name of ["figure.m3d", "figure_diff.png"]) copyFileSync(join(SAMPLE, name), join(folder, "public", name));
+  writeFileSync(join(folder, "index.html"), `<!doctype html><title>Notes</title><script type="module" src="/main.js"></script>${VIEWERS}`);
+  writeFileSync(join(folder, "main.js"), 'import "bindpose-viewer";\n');
+  execFileSync(process.execPath, [join(folder, "node_modules/vite/bin/vite.js"), "build"], { cwd: folder, encoding: "utf8" });
+  // The same without a bundler: the package's folder beside the page.
+  writeFileSync(join(folder, "public", "plain.html"), `<!doctype html><title>Notes</title><script type="module" src="/node_modules/bindpose-viewer/web/element/bindpose-viewer.js"></script>${VIEWERS}`);
+  server = createServer(({ url }, response) => {
+    const path = decodeURIComponent(new URL(url, "http://host").pathname);
+    const roots = { "/built/": "dist", "/node_modules/": "node_modules" };
+    const root = Object.keys(roots).find((start) => path.startsWith(start));
+    const file = root ? join(folder, roots[root], path.slice(root.length) || "index.html") : join(folder, path.startsWith("/assets/") ? "dist" : "public", path);
+    try {
+      const bytes = readFileSync(file);
+      response.writeHead(200, { "Content-Type": TYPES[extname(file)] ?? "application/octet-stream" }).end(bytes);
+    } catch {
+      response.writeHead(404).end();
+    }
+  });
+  await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  address = `http://127.0.0.1:${server.address().port}`;
+}, { timeout: 3 * PATIENCE_MS });
+
+after(() => {
+  server?.close();
+  if (folder) rmSync(folder, { recursive: true });
+});
+
+/** In the page: what its viewers say once all have loaded, and which programs came. */
+const loaded = async () => {
+  const viewers = [...document.querySelectorAll("bindpose-viewer")];
+  for (const viewer of viewers) {
+    viewer.scrollIntoView();
+    while (!viewer.state?.().model && !viewer.error) await new Promise((done) => setTimeout(done, 100));
+  }
+  const programs = performance.getEntriesByType("resource").filter(({ name }) => name.endsWith(".wasm"));
+  return { viewers: viewers.map((viewer) => [viewer.clip, viewer.currentTime, viewer.error?.message ?? null, viewer.state().backend]), programs: programs.length };
+};
+
+const expected = (backend) => ({ viewers: Array(3).fill(["Walk", 0.5, null, backend]), programs: 1 });
+
+test("what is packed has the element, its types and the licences", () => {
+  const has = readdirSync(join(folder, "node_modules/bindpose-viewer"));
+  assert.deepEqual(has.sort(), ["README.md", "bindpose-viewer.d.ts", "licenses.txt", "package.json", "pkg", "web"]);
+  const { version, license } = JSON.parse(readFileSync(join(folder, "node_modules/bindpose-viewer/package.json"), "utf8"));
+  assert.match(version, /^\d+\.\d+\.\d+$/);
+  assert.notEqual(version, "0.0.0");
+  assert.match(license, /MIT/);
+  const programs = readdirSync(join(folder, "dist/assets")).filter((name) => name.endsWith(".wasm"));
+  assert.equal(programs.length, 4, `vite takes each program once: ${programs}`);
+});
+
+for (const backend of ["webgpu", "webgl2"]) {
+  test(`three viewers in Chromium on ${backend}, built by vite and without a bundler`, { timeout: 4 * PATIENCE_MS }, async () => {
+    const rights = process.getuid?.() === 0 ? ["--no-sandbox"] : [];
+    const browser = await chromium.launch({ executablePath: CHROMIUM, args: [...GPU_FLAGS[backend], ...QUIET_FLAGS, ...rights, "--force-device-scale-factor=0.5"] });
+    try {
+      for (const at of ["/built/", "/plain.html"]) {
+        const page = await browser.newPage({ viewport: { width: 600, height: 500 } });
+        const problems = [];
+        page.on("pageerror", ({ message }) => problems.push(message));
+        await page.addInitScript((backend) => document.addEventListener("DOMContentLoaded", () => document.querySelectorAll("bindpose-viewer").forEach((viewer) => viewer.setAttribute("backend", backend))), backend);
+        await page.goto(address + at);
+        assert.deepEqual(await page.evaluate(loaded), expected(backend), at);
+        assert.deepEqual(problems, [], at);
+        await page.close();
+      }
+    } finally {
+      await browser.close();
+    }
+  });
+}
+
+test("three viewers in Firefox", { timeout: 3 * PATIENCE_MS }, async () => {
+  const page = await launch("firefox", FIREFOX);
+  try {
+    await page.open(`${address}/built/`);
+    assert.deepEqual(await page.evaluate(loaded), expected("webgl2"));
+  } finally {
+    await page.close();
+  }
+});
