@@ -118,7 +118,9 @@ pub(crate) fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, Fail
         "dist" => match rest.first().map(String::as_str) {
             None => Ok(Task::Dist),
             Some("--npm") if rest.len() == 1 => Ok(Task::DistNpm),
-            Some(arg) => Err(Failure::Usage(format!("`dist` takes `--npm` or nothing, but `{arg}` was given"))),
+            Some(arg) => Err(Failure::Usage(format!(
+                "`dist` takes `--npm` or nothing, but `{arg}` was given"
+            ))),
         },
         "licenses" => match <[String; 1]>::try_from(rest) {
             Ok([target]) => Ok(Task::Licenses(target)),

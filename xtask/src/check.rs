@@ -87,11 +87,20 @@ pub(crate) fn run(options: &TestOptions) -> Result<(), Failure> {
 fn package() -> Result<(), Failure> {
     let firefox = prerequisites::program(Browser::Firefox).unwrap_or_default();
     Line::new("xvfb-run")
-        .args(["--auto-servernum", "--server-args=-screen 0 1280x1024x24", "node", "--test", "--test-force-exit"])
+        .args([
+            "--auto-servernum",
+            "--server-args=-screen 0 1280x1024x24",
+            "node",
+            "--test",
+            "--test-force-exit",
+        ])
         .args(["--test-reporter=spec", "tests/browser/npm.js"])
         .env("LIBGL_ALWAYS_SOFTWARE", "1")
         .env("PACKAGE", npm::package_for_tests())
-        .env("CHROMIUM", prerequisites::program(Browser::Chromium).unwrap_or_default())
+        .env(
+            "CHROMIUM",
+            prerequisites::program(Browser::Chromium).unwrap_or_default(),
+        )
         .env("FIREFOX", firefox)
         .run()
 }

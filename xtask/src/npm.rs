@@ -48,7 +48,11 @@ pub(crate) fn write(site: &Site, licenses: &str, folder: &Path) -> Result<(), Fa
 
 /// The same of what the checks build.
 pub(crate) fn write_for_tests(site: &Site) -> Result<(), Failure> {
-    write(site, "As in the package, though not all of them.\n", &package_for_tests())
+    write(
+        site,
+        "As in the package, though not all of them.\n",
+        &package_for_tests(),
+    )
 }
 
 /// A file and all that it names, and what those name.
@@ -76,7 +80,12 @@ mod tests {
     fn the_package_has_what_the_element_loads_and_no_more() {
         let page = dist::page();
         let loaded = loaded_by(ELEMENT, &page);
-        for address in ["web/element/life.js", "pkg/bindpose.js", "pkg/element/webgpu/bindpose_bg.wasm", "web/mirror.js"] {
+        for address in [
+            "web/element/life.js",
+            "pkg/bindpose.js",
+            "pkg/element/webgpu/bindpose_bg.wasm",
+            "web/mirror.js",
+        ] {
             assert!(loaded.contains(address), "{address}");
         }
         for address in ["index.html", "web/boot.js", "web/worker.js", "web/sample/figure.m3d"] {

@@ -1,12 +1,16 @@
 //! What another viewer needs to go on with all that this one has open: files, edits, and how it is looked at.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::link::Linked;
 use crate::import;
 use crate::model::{Material, SavedNames};
+use crate::session::open::content::Opened;
 use crate::session::open::files::File;
+use crate::session::open::open_model::JoinedFile;
 use crate::session::{Command, MaterialCommand, NameCommand, QualityCommand, Session};
 
 /// All that a session has open, for another one. In their order: each of `openings` is opened, then `model` is shown, the clips of each of `clips`
@@ -42,33 +46,39 @@ impl Session {
     pub fn handed_over(&self, panels: Vec<String>) -> HandedOver {
         let content = &self.content;
         let mut openings: Vec<_> = content.opened.iter().collect();
-        let is_on_screen = |files| std::sync::Arc::ptr_eq(files, &content.files);
-        openings.sort_by_key(|opened| is_on_screen(&opened.files));
-        let with_pictures = openings.into_iter().map(|opened| {
-            let maps = if is_on_screen(&opened.files) {
-                &content.maps
-            } else {
-                &opened.maps
-            };
-            let of_model = content.open.iter().flat_map(|open| &open.pictures);
-            let inside: Vec<&str> = of_model.map(|picture| picture.path.as_str()).collect();
-            let came_later =
-                |picture: &&File| opened.files.get(&picture.path).is_none() && !inside.contains(&&*picture.path);
-            let later = maps.pictures().iter().filter(came_later);
-            opened.files.files().iter().chain(later).cloned().collect()
-        });
-        let with_named = |joined: &crate::session::open::open_model::JoinedFile| {
-            let named = import::files_beside(&joined.file.bytes);
-            let named = named
-                .iter()
-                .filter_map(|path| joined.files.data_beside(&joined.file, path));
-            [&joined.file].into_iter().chain(named).cloned().collect()
-        };
-        let edited = (0..content.materials.drawn().len()).filter(|&index| self.is_edited(index));
+        openings.sort_by_key(|opened| self.is_on_screen(opened));
+        let joined = content.open.iter().flat_map(|open| &open.joined);
+        HandedOver {
+            openings: openings.into_iter().map(|opened| self.with_pictures(opened)).collect(),
+            model: content.open.as_ref().map(|open| open.file.path.clone()),
+            clips: joined.map(with_named).collect(),
+            sky: content.sky.file().cloned(),
+            rest: serde_json::to_string(&self.rest(panels)).unwrap_or_default(),
+        }
+    }
+
+    fn is_on_screen(&self, opened: &Opened) -> bool {
+        Arc::ptr_eq(&opened.files, &self.content.files)
+    }
+
+    /// The files of an opening, and the pictures that joined them later. Those inside a model's file are no files.
+    fn with_pictures(&self, opened: &Opened) -> Vec<File> {
+        let (content, is_on_screen) = (&self.content, self.is_on_screen(opened));
+        let maps = if is_on_screen { &content.maps } else { &opened.maps };
+        let inside = content.open.iter().flat_map(|open| &open.pictures);
+        let inside: Vec<&File> = inside.filter(|_| is_on_screen).collect();
+        let came_later = |picture: &&File| opened.files.get(&picture.path).is_none() && !inside.contains(picture);
+        let later = maps.pictures().iter().filter(came_later);
+        opened.files.files().iter().chain(later).cloned().collect()
+    }
+
+    fn rest(&self, panels: Vec<String>) -> Rest {
+        let drawn = self.content.materials.drawn().iter().enumerate();
+        let edited = drawn.filter(|&(index, _)| self.is_edited(index));
         let names = self.saved_joint_names().unwrap_or_default();
-        let rest = Rest {
+        Rest {
             materials: edited
-                .filter_map(|index| Some((index, serde_json::to_value(content.materials.get(index)?).ok()?)))
+                .filter_map(|(index, material)| Some((index, serde_json::to_value(material).ok()?)))
                 .collect(),
             fingerprint: names.fingerprint,
             names: names.to_text(),
@@ -77,18 +87,6 @@ impl Session {
                 quality: self.quality.mode(),
                 panels,
             },
-        };
-        HandedOver {
-            openings: with_pictures.collect(),
-            model: content.open.as_ref().map(|open| open.file.path.clone()),
-            clips: content
-                .open
-                .iter()
-                .flat_map(|open| &open.joined)
-                .map(with_named)
-                .collect(),
-            sky: content.sky.file().cloned(),
-            rest: serde_json::to_string(&rest).unwrap_or_default(),
         }
     }
 
@@ -111,4 +109,13 @@ impl Session {
         self.apply(Command::Restore(Box::new(seen.view)));
         seen.panels
     }
+}
+
+/// A file whose clips joined, with those that it names.
+fn with_named(joined: &JoinedFile) -> Vec<File> {
+    let named = import::files_beside(&joined.file.bytes);
+    let named = named
+        .iter()
+        .filter_map(|path| joined.files.data_beside(&joined.file, path));
+    [&joined.file].into_iter().chain(named).cloned().collect()
 }
