@@ -19,7 +19,7 @@ use crate::wasm::{self, Profile, Program};
 use crate::worker;
 
 /// The viewer's page. Others lead back to it, so it comes last; pages keep their names, and so do the licences.
-const PAGE: &str = "index.html";
+pub(crate) const PAGE: &str = "index.html";
 
 /// What other people's pages name.
 pub(crate) const ELEMENT: &str = "web/element/bindpose-viewer.js";

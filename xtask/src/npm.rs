@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::dist::{self, ELEMENT, resolved};
+use crate::dist::{self, ELEMENT, PAGE, resolved};
 use crate::failure::{Doing as _, Failure};
 use crate::licenses;
 use crate::site::Site;
@@ -66,7 +66,9 @@ fn loaded_by<'a>(first: &'a str, sources: &'a BTreeMap<String, Vec<u8>>) -> BTre
         let folder = address.rsplit_once('/').map_or("", |(folder, _)| folder);
         let named = text
             .split(['"', '\'', '`'])
-            .filter_map(|part| sources.get_key_value(&resolved(folder, part)?));
+            .filter_map(|part| sources.get_key_value(&resolved(folder, part)?))
+            // The page of codes leads back to it.
+            .filter(|(address, _)| *address != PAGE);
         waiting.extend(named.map(|(address, _)| address.as_str()));
     }
     found

@@ -46,7 +46,7 @@ impl Session {
     pub fn handed_over(&self, panels: Vec<String>) -> HandedOver {
         let content = &self.content;
         let mut openings: Vec<_> = content.opened.iter().collect();
-        openings.sort_by_key(|opened| self.is_on_screen(opened));
+        openings.sort_by_key(|opened| self.is_shown_of(opened));
         let joined = content.open.iter().flat_map(|open| &open.joined);
         HandedOver {
             openings: openings.into_iter().map(|opened| self.with_pictures(opened)).collect(),
@@ -57,16 +57,16 @@ impl Session {
         }
     }
 
-    fn is_on_screen(&self, opened: &Opened) -> bool {
+    fn is_shown_of(&self, opened: &Opened) -> bool {
         Arc::ptr_eq(&opened.files, &self.content.files)
     }
 
     /// The files of an opening, and the pictures that joined them later. Those inside a model's file are no files.
     fn with_pictures(&self, opened: &Opened) -> Vec<File> {
-        let (content, is_on_screen) = (&self.content, self.is_on_screen(opened));
-        let maps = if is_on_screen { &content.maps } else { &opened.maps };
+        let (content, is_shown) = (&self.content, self.is_shown_of(opened));
+        let maps = if is_shown { &content.maps } else { &opened.maps };
         let inside = content.open.iter().flat_map(|open| &open.pictures);
-        let inside: Vec<&File> = inside.filter(|_| is_on_screen).collect();
+        let inside: Vec<&File> = inside.filter(|_| is_shown).collect();
         let came_later = |picture: &&File| opened.files.get(&picture.path).is_none() && !inside.contains(picture);
         let later = maps.pictures().iter().filter(came_later);
         opened.files.files().iter().chain(later).cloned().collect()
