@@ -3,10 +3,11 @@
 use std::sync::{Arc, mpsc};
 use std::task::Waker;
 
+use js_sys::Function;
 use wasm_bindgen::prelude::*;
 use web_sys::{HtmlCanvasElement, WebGl2RenderingContext, WebglLoseContext};
 
-use super::text_of;
+use super::{field, text_of};
 
 /// Logs the errors of a device that nobody waits for, and tells of its loss: then the waker is woken, since the callback may not hold what
 /// belongs to one thread.
@@ -22,15 +23,20 @@ pub(super) fn watch_device(device: &wgpu::Device, waker: Waker, tell_of_loss: mp
     });
 }
 
-/// Frees what WebGL holds for a canvas. A browser lets few contexts live, 16 in Chromium, and loses the oldest for a further one.
+/// Frees what the browser holds for a canvas, before its device is destroyed. It lets few contexts of WebGL live, 16 in Chromium, and loses the oldest for a
+/// further one.
 pub(super) fn lose_context(canvas: &HtmlCanvasElement) {
-    // A canvas of WebGPU has none.
+    // A canvas has a context of one kind.
     if let Ok(Some(context)) = canvas.get_context("webgl2")
         && let Ok(Some(extension)) = context
             .unchecked_into::<WebGl2RenderingContext>()
             .get_extension("WEBGL_lose_context")
     {
         extension.unchecked_into::<WebglLoseContext>().lose_context();
+    } else if let Ok(Some(context)) = canvas.get_context("webgpu")
+        && let Ok(unconfigure) = field(&context, "unconfigure").dyn_into::<Function>()
+    {
+        let _ = unconfigure.call0(&context);
     }
 }
 

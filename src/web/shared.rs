@@ -2,6 +2,8 @@
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use js_sys::Function;
 use wasm_bindgen::prelude::*;
@@ -11,7 +13,7 @@ use super::canvas::{ContextWatch, lose_context};
 use super::picture::{AppSlot, Drawn};
 use super::rim::{Face, Frames};
 use super::timings::Timings;
-use super::{object, state};
+use super::{object, sleep, state};
 use crate::session::Session;
 
 /// What a viewer shares with its callbacks.
@@ -37,6 +39,7 @@ pub(super) struct Started {
     pub(super) frames: Frames,
     pub(super) adapter: wgpu::Adapter,
     pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
     pub(super) drawn: Rc<Cell<Drawn>>,
 }
 
@@ -48,6 +51,7 @@ pub(super) struct Running {
     pub(super) backend: &'static str,
     pub(super) adapter: String,
     pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
     pub(super) drawn: Rc<Cell<Drawn>>,
     pub(super) _context_watch: ContextWatch,
 }
@@ -66,9 +70,28 @@ impl Running {
             self.frames.end();
             self.app.take();
             // The browser would keep all of it until it next collects garbage.
-            self.device.destroy();
             lose_context(&self.canvas);
+            if self.backend == "webgpu" {
+                rest(&self.queue).await;
+            }
+            self.device.destroy();
         });
+    }
+}
+
+/// Waits until a queue has nothing to do, but not for ever. A page of Chromium's was seen to stand still for good when a device was destroyed that still
+/// drew.
+async fn rest(queue: &wgpu::Queue) {
+    const TICK_MS: i32 = 16;
+    const MOST_TICKS: usize = 300;
+    let is_done = Arc::new(AtomicBool::new(false));
+    let done = Arc::clone(&is_done);
+    queue.on_submitted_work_done(move || done.store(true, Ordering::Relaxed));
+    for _ in 0..MOST_TICKS {
+        if is_done.load(Ordering::Relaxed) {
+            return;
+        }
+        sleep(TICK_MS).await;
     }
 }
 

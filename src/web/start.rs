@@ -74,6 +74,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
         backend,
         adapter: backend::adapter_name(&started.adapter),
         device: started.device,
+        queue: started.queue,
         drawn: started.drawn,
         _context_watch: context_watch,
     })

@@ -1,6 +1,7 @@
 // <bindpose-viewer> on other people's pages: what it takes and tells, and that it is a guest there.
 
 import assert from "node:assert/strict";
+import { assertSound } from "./axe.js";
 import { BACKEND, FOLDER, SAMPLE, keep, settled, test } from "./harness.js";
 import { held } from "./held.js";
 import { coloursOnScreen } from "./picture.js";

@@ -8,12 +8,13 @@ use crate::fuzz::FuzzOptions;
 pub(crate) const HELP: &str = "\
 Bindpose's own commands. Each does its set-up itself.
 
-    cargo xtask serve [--port N] [--open] [--release] [--watch]
+    cargo xtask serve [--port N] [--open] [--release] [--watch] [--examples]
         Build the viewer for the browser and serve it on this machine, the full program alone.
         --port N    the port, 8080 unless given; 0 takes any free one
         --open      open the page in the default browser
         --release   optimised, slower to build
         --watch     build again when a source file changes; reload the page to see it
+        --examples  the program without the interface too, which the pages in examples/ need
 
     cargo xtask test [--long] [--browser [webgpu | webgl2 | firefox | webkit] [--only PATTERN]]
         Every check: formatting, lints, documentation, native tests, the wasm build and the browser tests: all of them
@@ -75,6 +76,8 @@ pub(crate) struct ServeOptions {
     pub(crate) open: bool,
     pub(crate) release: bool,
     pub(crate) watch: bool,
+    /// Also what the pages with the element need.
+    pub(crate) examples: bool,
 }
 
 /// Options of `test`.
@@ -214,6 +217,7 @@ fn serve_options(rest: Vec<String>) -> Result<ServeOptions, Failure> {
         open: false,
         release: false,
         watch: false,
+        examples: false,
     };
     let mut rest = rest.into_iter();
     while let Some(arg) = rest.next() {
@@ -221,6 +225,7 @@ fn serve_options(rest: Vec<String>) -> Result<ServeOptions, Failure> {
             "--open" => options.open = true,
             "--release" => options.release = true,
             "--watch" => options.watch = true,
+            "--examples" => options.examples = true,
             "--port" => options.port = port(rest.next().as_deref())?,
             other => match other.strip_prefix("--port=") {
                 Some(value) => options.port = port(Some(value))?,
@@ -255,13 +260,18 @@ mod tests {
             open: true,
             release: true,
             watch: false,
+            examples: true,
         };
-        assert_eq!(parsed("serve --port 9000 --open --release"), Ok(Task::Serve(expected)));
+        assert_eq!(
+            parsed("serve --port 9000 --open --release --examples"),
+            Ok(Task::Serve(expected))
+        );
         let expected = ServeOptions {
             port: 0,
             open: false,
             release: false,
             watch: true,
+            examples: false,
         };
         assert_eq!(parsed("serve --watch --port=0"), Ok(Task::Serve(expected)));
         let expected = TestOptions {

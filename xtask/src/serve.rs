@@ -30,7 +30,18 @@ pub(crate) fn run(options: &ServeOptions) -> Result<(), Failure> {
     };
     let mut watch = Watch::new();
     // The full program at both addresses: one build shows a change on either way to draw.
-    let site = Site::new([(Program::Full, wasm::build(profile, Program::Full)?)]);
+    let programs: &[Program] = if options.examples {
+        &[Program::Full, Program::Element]
+    } else {
+        &[Program::Full]
+    };
+    let build = || {
+        let built = programs
+            .iter()
+            .map(|&program| Ok((program, wasm::build(profile, program)?)));
+        built.collect::<Result<Vec<_>, Failure>>()
+    };
+    let site = Site::new(build()?);
     let address = start(listener, site)?;
     let page = format!("http://{address}/");
     println!("\n  Bindpose is at {page}\n  Drop a .m3d on the page. Ctrl+C ends it.\n");
@@ -43,7 +54,7 @@ pub(crate) fn run(options: &ServeOptions) -> Result<(), Failure> {
             continue;
         }
         watch.wait();
-        match wasm::build(profile, Program::Full) {
+        match build() {
             Ok(_) => println!("  built; reload {page}"),
             Err(failure) => eprintln!("{failure}"),
         }

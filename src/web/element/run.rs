@@ -30,6 +30,7 @@ pub(in crate::web) async fn run(
         frames: Frames::default(),
         adapter: surface.gpu.adapter.clone(),
         device: surface.gpu.device.clone(),
+        queue: surface.gpu.queue.clone(),
         drawn: Rc::new(Cell::new(Drawn::NOTHING)),
     };
     let (app, drawn) = (Rc::clone(&started.app), Rc::clone(&started.drawn));

@@ -72,7 +72,7 @@ pub(in crate::web) async fn run(
                 };
                 let app = App::new(&creation.egui_ctx, &gpu, session, state, options);
                 shell.app.replace(Some(app));
-                *made_out.borrow_mut() = Some((creation.egui_ctx.clone(), gpu.adapter, gpu.device));
+                *made_out.borrow_mut() = Some((creation.egui_ctx.clone(), gpu.adapter, gpu.device, gpu.queue));
                 Ok(Box::new(shell))
             }),
         )
@@ -84,7 +84,7 @@ pub(in crate::web) async fn run(
         runner.destroy();
         return Err(text_of(&error));
     }
-    let (ctx, adapter, device) = made.take().ok_or("the viewer did not start")?;
+    let (ctx, adapter, device, queue) = made.take().ok_or("the viewer did not start")?;
     let contrast_watch = ContrastWatch::new(&ctx);
     take_prints(&runner, &canvas, &app)?;
     Ok(Started {
@@ -96,6 +96,7 @@ pub(in crate::web) async fn run(
         },
         adapter,
         device,
+        queue,
         drawn,
     })
 }
