@@ -1,6 +1,6 @@
 //! What one session has open, edited and in sight is so in another that it was handed over to.
 
-use bindpose::session::{FileCommand, HandedOver, Session};
+use bindpose::session::{FileCommand, HandedOver, Session, load};
 use proptest::prelude::*;
 
 use super::dropped;
@@ -33,8 +33,11 @@ fn clips(session: &Session) -> Vec<String> {
     clips.map(|clip| format!("{}: {}", clip.file_name, clip.name)).collect()
 }
 
+/// The listed models that can be read. One that cannot may be listed where another came with it, and is told of elsewhere when it comes by itself.
 fn models(session: &Session) -> Vec<String> {
-    let mut paths: Vec<_> = session.models().iter().map(|file| file.path.clone()).collect();
+    let models = session.models();
+    let sound = models.iter().filter(|file| load(file).is_ok());
+    let mut paths: Vec<_> = sound.map(|file| file.path.clone()).collect();
     paths.sort();
     paths
 }
