@@ -1,6 +1,7 @@
 // <bindpose-viewer> on other people's pages: what it takes and tells, and that it is a guest there.
 
 import assert from "node:assert/strict";
+import { statSync } from "node:fs";
 import { assertSound } from "./axe.js";
 import { BACKEND, FOLDER, SAMPLE, keep, settled, test } from "./harness.js";
 import { held } from "./held.js";
@@ -136,7 +137,7 @@ test("a viewer that leaves the page gives all back, and comes again where it was
   await hears(page, "a", "load");
   await page.evaluate(() => (globalThis.viewer = document.getElementById("a")).setAttribute("camera", "70 12"));
   const { link } = await seen(page, "a");
-  let first;
+  let first, half;
   for (let round = 1; round <= ROUNDS; round += 1) {
     await page.evaluate(() => viewer.remove());
     await settled(page);
@@ -144,11 +145,15 @@ test("a viewer that leaves the page gives all back, and comes again where it was
     await page.evaluate(() => document.body.append(viewer));
     await hears(page, "a", "load", 1 + round);
     assert.equal((await seen(page, "a")).link, link);
+    if (round === ROUNDS / 2 + 15) half = await held(page, SMALL);
     if (round === 3) first = await held(page, SMALL);
   }
   const last = await held(page, SMALL);
   for (const kind of ["HTMLCanvasElement", "HTMLInputElement", "GPUDevice"]) assert.ok(last[kind] <= first[kind], `${kind}: ${JSON.stringify([first, last])}`);
-  assert.ok(last.wasmMB <= 1.05 * first.wasmMB, `${first.wasmMB} MB, then ${last.wasmMB}`);
+  // Memory grows in steps until it has found its high-water mark; who did not leave would keep the bytes of a file a round.
+  const grown = last.wasmMB - first.wasmMB;
+  assert.ok(grown < (0.9 * (ROUNDS - 3) * statSync(SAMPLE).size) / 1e6, `${first.wasmMB} MB, then ${last.wasmMB}`);
+  if (ROUNDS > 10) assert.ok(last.wasmMB <= 1.05 * half.wasmMB, `${half.wasmMB} MB, then ${last.wasmMB}`);
   // Another interface is another start with the same moment.
   await page.evaluate(() => (viewer.ui = "full"));
   await hears(page, "a", "load", ROUNDS + 2);
@@ -361,7 +366,8 @@ test("the example with a curve: a bone's height is drawn while the clip plays", 
   assert.ok((await inked()) > 100);
   await keep(page, "example-bone-height");
   const told = await page.evaluate(() => Number.parseFloat(document.getElementById("height").textContent));
-  assert.ok(told > 0.5 && told < 1.5, `${told}: the hips of a figure of 1.8`);
+  const tall = await page.evaluate(() => document.getElementById("viewer").state().model.bindBounds.max[1]);
+  assert.ok(told > 0.3 * tall && told < 0.7 * tall, `${told}: the hips of a figure of ${tall}`);
 });
 
 test("the example with two files: one transport moves both, and one camera the other", example("compare"), async (page) => {

@@ -1,6 +1,7 @@
 // The page as a screen reader has it: elements with roles, names and states, no places. And what axe finds in every state of it.
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { assertSound } from "./axe.js";
 import { FIXTURES, call, dropAndWait, keep, panicAtStart, settled, state, test, until, turnPhone } from "./harness.js";
 
