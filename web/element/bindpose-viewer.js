@@ -26,7 +26,7 @@ const prefersStill = () => matchMedia("(prefers-reduced-motion: reduce)").matche
 export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) {
   static observedAttributes = [...Object.keys(FIELDS), ...OTHERS];
 
-  /** What a life has done here. */
+  /** What the element does for its life: life.js. */
   #teller = {
     event: (type) => this.#tell(type),
     progress: (part) => this.#tellProgress(part),

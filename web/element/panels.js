@@ -5,7 +5,7 @@ import { saveFile, savePicture } from "../saving.js";
 
 /**
  * Makes what the interface needs in `box`, which lies about its canvas: inputs for files, and a region that speaks. Drops on it open too. `life` has `receive(files, addsClips)`,
- * `refuse(words)`, `again()`, `openModel()` and `copy(asElement)`. Gives what is done for each event of a viewer, by its type.
+ * `refuse(words)`, `again()`, `openModel()` and `copy()`. Gives what is done for each event of a viewer, by its type.
  */
 export function servePanels(box, life) {
   const { refuse } = life;

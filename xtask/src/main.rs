@@ -6,7 +6,7 @@
 //! | module | does |
 //! |---|---|
 //! | [`args`] | the command line |
-//! | [`wasm`] | build the library for the browser and bind it, as two programs: `pkg/` and `pkg/webgpu/` |
+//! | [`wasm`] | build the library for the browser and bind it, as four programs: `pkg/`, `pkg/element/`, and of each one for WebGPU alone |
 //! | [`site`] | which files make the site, their types, the policy they run under |
 //! | [`serve`] | the site over HTTP on this machine alone |
 //! | [`http`] | as much of the protocol as that takes |
