@@ -23,8 +23,8 @@ const COMMANDS = [
 
 /**
  * Makes the object that programs see, whose states say `linkText(state)` as their link (without it the viewer's own, which names no model), and what only the
- * page may do: `give(files, how)` for what a person opens, `attach(viewer)` when it runs, or another in its place, `fail(error)` when it never will again,
- * `emit(type, detail)`. After a failure the viewer is not called: `state().error` says why, promises are rejected.
+ * page may do: `give(files, how)` for what a person opens, `attach(viewer)` when it runs, or another in its place, for which what is asked waits from `hold()` on,
+ * `fail(error)` when it never will again, `emit(type, detail)`. After a failure the viewer is not called: `state().error` says why, promises are rejected.
  */
 export function createApi(linkText = ({ link }) => link) {
   let viewer = null;
@@ -39,8 +39,9 @@ export function createApi(linkText = ({ link }) => link) {
   const emit = (type, detail) => bindpose.dispatchEvent(new CustomEvent(type, { detail }));
   // A failure that nobody waits for must not be reported as an unhandled rejection.
   ready.catch(() => {});
+  let [held, isHeld, release] = [ready, false, resolve]; // Until there is a viewer, or another takes its place.
   /** The viewer once there is one: it may be another later. */
-  const present = () => ready.then(() => viewer);
+  const present = () => held.then(() => viewer);
 
   /** What a promise gives, or the viewer's failure, if that comes first. */
   const unlessStopped = (work) =>
@@ -93,8 +94,8 @@ export function createApi(linkText = ({ link }) => link) {
 
   for (const name of COMMANDS) {
     bindpose[name] = (...values) => {
-      if (viewer) return viewer[name](...values);
-      if (!failure) ready.then(() => viewer?.[name](...values), () => {});
+      if (viewer && !isHeld) return viewer[name](...values);
+      if (!failure) present().then((running) => running?.[name](...values), () => {});
     };
   }
 
@@ -129,7 +130,12 @@ export function createApi(linkText = ({ link }) => link) {
     attach(running) {
       if (failure) return;
       viewer = running;
-      resolve(running);
+      isHeld = false;
+      release(running);
+    },
+    hold() {
+      isHeld = true;
+      held = new Promise((done) => (release = done));
     },
     /** The first failure stays: what follows are its echoes. */
     fail(error) {

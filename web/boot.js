@@ -15,7 +15,7 @@ import { mirrorOf } from "./mirror.js";
 import { keepPage, takeLaunches } from "./offline.js";
 import { printView } from "./printing.js";
 import { backend, compile, fetchProgram, first, options } from "./program.js";
-import { keepOnCanvas } from "./restart.js";
+import { keepDrawn } from "./restart.js";
 import { saveFile, savePicture } from "./saving.js";
 import { fetchFrom, fetchOwn, readAgain, rememberSources } from "./sources.js";
 
@@ -34,7 +34,7 @@ const SPOKEN_AFTER_MS = 60;
 
 const element = (id) => document.getElementById(id);
 const view = element("view");
-const { bindpose, wasUsed, give, attach, fail, hasFailed, emit } = createApi(() => link.text());
+const { bindpose, wasUsed, give, hold, attach, fail, hasFailed, emit } = createApi(() => link.text());
 globalThis.bindpose = bindpose;
 
 /** Whether the page lies in another one, as "Copy embed" has it: the viewer has no panels there, and says nothing itself. */
@@ -195,74 +195,57 @@ async function boot() {
       link.follow();
     }, refuseError);
   }, () => {});
-  await start(program, backend, displaySecs);
+  await start(program, displaySecs);
 }
 
-/**
- * Starts a viewer of a program on the page's canvas. What is asked of it meanwhile waits. It goes on with all that is open `before`, in a viewer whose program
- * cannot draw any more.
- */
-async function start(program, wanted, displaySecs, before = null) {
-  let loaded;
-  let from = before;
+/** Starts a viewer of a program on the page's canvas, and has another go on where its GPU is lost for good. What is asked of it meanwhile waits. */
+async function start(program, displaySecs) {
+  let before; // What was open in the viewer that gave way.
   try {
-    loaded = await program;
-    viewer = new loaded.module.Viewer({ ...kept(), renderScale: addressedScale(), quality: addressedQuality(), samples: addressedSamples(), ui: options.get("ui") ?? undefined, displaySecs: displaySecs() }, onEvent);
-    programs.push(loaded.name);
-    watchBattery(viewer);
-    choices = choicesNow();
-  } catch (error) {
-    fail(error);
-    showDownloadFailure(error);
-    return;
-  }
-  onCanvas = keepOnCanvas(viewer, {
-    canvas: element("canvas"),
-    backend: wanted,
-    // The plainer way, unless one was asked for.
-    lastBackend: wanted === "auto" && loaded.name === "full" ? "webgl2" : wanted,
-    isOver: hasFailed,
-    putAside,
-    onStart() {
-      if (gpuWasLost) say("The graphics are back.");
-      gpuWasLost = false;
-      view.classList.add("drawn");
-      if (from) void goOn(from, viewer);
-      else if (!before) attach(viewer);
-      from = null;
-    },
-    onEnd(error, gpu) {
-      keepVisit();
-      const end = () => {
+    await keepDrawn(program, backend, {
+      async make(program) {
+        const { name, module } = await program;
+        viewer = new module.Viewer({ ...kept(), renderScale: addressedScale(), quality: addressedQuality(), samples: addressedSamples(), ui: options.get("ui") ?? undefined, displaySecs: displaySecs() }, onEvent);
+        programs.push(name);
+        watchBattery(viewer);
+        choices = choicesNow();
+        return { viewer, canvas: element("canvas"), isFull: name === "full" };
+      },
+      full() {
+        keepVisit();
+        return load(fetchProgram("full"));
+      },
+      keep: (keeper) => (onCanvas = keeper),
+      onStart() {
+        if (gpuWasLost) say("The graphics are back.");
+        gpuWasLost = false;
+        view.classList.add("drawn");
+      },
+      onEnd(error, gpu) {
+        keepVisit();
         fail(error);
         showGpuLoss(error, gpu);
-      };
-      if (loaded.name === "full" || wanted !== "auto") return end();
-      load(fetchProgram("full")).then((full) => start(full, "webgl2", displaySecs, viewer), end);
-    },
-  });
-  await onCanvas.start().then(() => keepPage(programs, say), (error) => {
-    if (error.name === "WebGl2Missing") {
-      // Nothing is open yet, nor drawn.
-      console.info(wordsOf(error));
-      viewer.free();
-      viewer = null;
-      return start(load(fetchProgram("full")), "webgl2", displaySecs);
-    }
+      },
+      hold,
+      attach,
+      bring(from, to) {
+        before = from.state();
+        return handOver(from, to);
+      },
+      onBrought(error) {
+        sources.move(before, viewer.state());
+        keepPage(programs, say);
+        viewer.tell(`WebGPU went away: drawn with WebGL2 from here on${error ? ", without a part of what was open" : ""}`);
+      },
+      putAside,
+      isOver: hasFailed,
+    });
+    keepPage(programs, say);
+  } catch (error) {
     fail(error);
-    showGpuFailure(error, backend);
-  });
-}
-
-/** The full program goes on where the one without WebGL2 could not. Until then that one answers programs. */
-async function goOn(from, to) {
-  const before = from.state();
-  await handOver(from, to);
-  if (hasFailed()) return;
-  attach(to);
-  from.free();
-  sources.move(before, to.state());
-  to.tell("WebGPU went away: drawn with WebGL2 from here on");
+    if (error.isOfDownload) showDownloadFailure(error);
+    else showGpuFailure(error, backend);
+  }
 }
 
 /** Tells somebody who has opened nothing yet what the page is for, or what was open at the last visit. */
@@ -297,7 +280,11 @@ function takeUnclaimedKeys() {
 }
 
 async function load(fetching) {
-  return compile(await fetching, showProgress);
+  try {
+    return await compile(await fetching, showProgress);
+  } catch (error) {
+    throw Object.assign(error, { isOfDownload: true });
+  }
 }
 
 function showProgress(arrived, total) {

@@ -5,14 +5,18 @@ const PATIENCE_MS = 10_000;
 
 const nextTask = () => new Promise((done) => setTimeout(done, 20));
 
+/** Waits until a viewer has opened what it was opening. */
+export async function hasOpened(viewer) {
+  for (const until = performance.now() + PATIENCE_MS; viewer.state().opening && performance.now() < until; ) await nextTask();
+}
+
 /** Shows in the viewer `to` all that is open in `from`, as it is seen there. What `from` is opening comes along, if that ends soon. */
 export async function handOver(from, to) {
-  const until = performance.now() + PATIENCE_MS;
-  while (from.state().opening && performance.now() < until) await nextTask();
+  await hasOpened(from);
   const { openings, model, clips, sky, rest } = from.handOver();
   for (const files of openings) await to.open(files);
   if (to.modelOnScreen()?.path !== model && to.openModel(model ?? "")) {
-    while (to.state().opening) await nextTask();
+    await hasOpened(to);
   }
   for (const files of clips) await to.addClips(files);
   if (sky.length) await to.open(sky);

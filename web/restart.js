@@ -1,4 +1,4 @@
-// A viewer's life on its canvas: it starts there, and again on a fresh canvas when the GPU went away.
+// A viewer's life on its canvas: it starts there, again on a fresh canvas when the GPU went away, and by another program where it stays away.
 
 /** After so many starts in a row that failed, the GPU does not come back. */
 const MOST_FAILURES = 6;
@@ -109,4 +109,55 @@ export function keepOnCanvas(viewer, { canvas, backend, lastBackend = backend, o
   };
 
   return { start: () => start(backend), restart };
+}
+
+/**
+ * Has `program` draw on `backend`, and the full one where it cannot: at once where there is no WebGPU, or once WebGPU is lost for good, with all that is open.
+ * Resolves when it draws. `rim` has, beside `isOver` and, where it wants, `putAside` as above:
+ * - `make(program)` promises `{viewer, canvas, isFull}`, its canvas never drawn on; `full()` promises the full program;
+ * - `keep(keeper)` takes what restarts the viewer, by `keeper.restart(reason)`;
+ * - `onStart()` hears of each start that worked, `onEnd(error, gpu)` that nothing will draw any more, and on what it drew last;
+ * - `hold()` lets all that is asked of the viewer wait for the next `attach(viewer)`;
+ * - `bring(from, to)` brings what is open from viewer to viewer, and `onBrought(error)` hears that it ended, and what stood in the way of a part.
+ */
+export async function keepDrawn(program, backend, rim, before = null) {
+  const { viewer, canvas, isFull } = await rim.make(program);
+  let isFirst = true;
+  const goOn = async () => {
+    const error = await rim.bring(before, viewer).then(() => null, (error) => error);
+    if (rim.isOver()) return;
+    rim.attach(viewer);
+    before.free();
+    rim.onBrought(error);
+  };
+  const keeper = keepOnCanvas(viewer, {
+    canvas,
+    backend,
+    // The plainer way, unless one was asked for.
+    lastBackend: backend === "auto" && isFull ? "webgl2" : backend,
+    isOver: () => rim.isOver(),
+    putAside: () => rim.putAside?.() ?? false,
+    onStart() {
+      rim.onStart();
+      if (isFirst && before) void goOn();
+      else if (isFirst) rim.attach(viewer);
+      isFirst = false;
+    },
+    onEnd(error, gpu) {
+      const end = () => rim.onEnd(error, gpu);
+      if (isFull || backend !== "auto") return end();
+      rim.hold();
+      keepDrawn(rim.full(), "webgl2", rim, viewer).catch(end);
+    },
+  });
+  rim.keep(keeper);
+  try {
+    await keeper.start();
+  } catch (error) {
+    if (rim.isOver() || error.name !== "WebGl2Missing") throw error;
+    console.info(error.message);
+    const full = rim.full();
+    viewer.free(); // Nothing is open yet, nor drawn.
+    await keepDrawn(full, "webgl2", rim);
+  }
 }

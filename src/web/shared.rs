@@ -53,7 +53,7 @@ pub(super) struct Running {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     pub(super) drawn: Rc<Cell<Drawn>>,
-    pub(super) _context_watch: ContextWatch,
+    pub(super) context_watch: ContextWatch,
 }
 
 impl Running {
@@ -69,10 +69,11 @@ impl Running {
             }
             self.frames.end();
             self.app.take();
+            drop(self.context_watch);
             // The browser would keep all of it until it next collects garbage.
             lose_context(&self.canvas);
             if self.backend == "webgpu" {
-                rest(&self.queue).await;
+                until_done(&self.queue).await;
             }
             self.device.destroy();
         });
@@ -81,7 +82,7 @@ impl Running {
 
 /// Waits until a queue has nothing to do, but not for ever. A page of Chromium's was seen to stand still for good when a device was destroyed that still
 /// drew.
-async fn rest(queue: &wgpu::Queue) {
+async fn until_done(queue: &wgpu::Queue) {
     const TICK_MS: i32 = 16;
     const MOST_TICKS: usize = 300;
     let is_done = Arc::new(AtomicBool::new(false));

@@ -18,7 +18,7 @@ const SCENE = JSON.stringify({
 });
 const TRIANGLE = Buffer.from(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]).buffer);
 
-/** Answers like other people's servers; `/slow/` until the asker goes. */
+/** Answers like other people's servers; `/slow/` with a half of the model, and then with nothing until the asker goes. */
 async function serving(body) {
   const model = await readFile(SAMPLE);
   const asked = [];
@@ -38,7 +38,7 @@ async function serving(body) {
     if (url.startsWith("/slow/")) {
       response.writeHead(200, { ...allows, "Content-Length": model.length });
       let at = 0;
-      const timer = setInterval(() => response.write(model.subarray(at, (at += 50_000))), 100);
+      const timer = setInterval(() => at < model.length / 2 && response.write(model.subarray(at, (at += 50_000))), 100);
       response.on("close", () => {
         clearInterval(timer);
         gone += 1;

@@ -189,25 +189,24 @@ test("a start that was overtaken by another leaves nothing behind", {
   assert.ok((await coloursOnScreen(page)) > 200, "and draws on the canvas that is seen");
 });
 
-test("thirty loads in a row do not grow the memory", { own: true }, async (page) => {
+test("models load again and again in memory that stops growing", { own: true }, async (page) => {
   const soldier = `${SHARED}models/d3d12/soldier.m3d`;
   const path = existsSync(soldier) ? soldier : SAMPLE;
   await call(page, "pause");
-  const megabytes = () =>
+  const pages = () =>
     page.evaluate(async (folder) => {
       const { default: init } = await import(`${folder}bindpose.js`);
-      return (await init()).memory.buffer.byteLength / 1e6;
+      return (await init()).memory.buffer.byteLength / 65_536;
     }, FOLDER);
+  // Gaps between old and new grow for a while, longest on a busy machine (27 loads were seen); a leak never ends.
   const sizes = [];
-  for (let load = 0; load < 30; load += 1) {
+  for (let steady = 0; steady < 25; steady = sizes.at(-1) === sizes.at(-2) ? steady + 1 : 0) {
+    assert.ok(sizes.length < 120, `the memory still grows after 120 loads, in pages: ${sizes.join(" ")}`);
     // Two models by turns: the same one again is a reload, which could be cheaper.
-    const { outcome } = await dropAndWait(page, [load % 2 ? SAMPLE : path]);
+    const { outcome } = await dropAndWait(page, [sizes.length % 2 ? SAMPLE : path]);
     assert.equal(outcome, "load");
-    sizes.push(await megabytes());
+    sizes.push(await pages());
   }
-  // The first loads find the high-water mark, gaps between old and new included; after that memory is used again.
-  const files = statSync(path).size / 1e6;
-  const words = `30 loads of files of up to ${files} MB left the memory at: ${sizes.map(Math.round).join(" ")} MB`;
-  assert.ok(sizes.at(-1) - sizes[14] < 3 * files, words);
-  assert.ok(sizes.at(-1) < sizes[0] + 7 * files, words);
+  const files = statSync(path).size / 65_536;
+  assert.ok(sizes.at(-1) < sizes[0] + 10 * files, `in pages, for files of up to ${files}: ${sizes.join(" ")}`);
 });

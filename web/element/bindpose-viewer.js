@@ -216,10 +216,7 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
   async open(files) {
     if (!this.#life) this.#begin();
     if (!this.#life) throw inNoPage();
-    this.#life.fetching.abort();
-    this.#life.wasGiven = true;
-    this.#life.kept = null;
-    return this.#life.open(Array.from(files), this.#moment());
+    return this.#life.openGiven(Array.from(files), this.#moment());
   }
 
   /** A PNG of what is seen, as a `Blob`; the page's `snapshot` has the options. */

@@ -1,12 +1,12 @@
 // A viewer from when its element comes into a page until it leaves it: its program, its canvas, its files.
 
 import { createApi } from "../api.js";
-import { handOver } from "../handing_over.js";
+import { handOver, hasOpened } from "../handing_over.js";
 import { mirrorOf } from "../mirror.js";
 import { servePanels } from "./panels.js";
 import { compile, fetchProgram, nameFor } from "../program.js";
-import { keepOnCanvas } from "../restart.js";
-import { fetchFrom } from "../sources.js";
+import { keepDrawn } from "../restart.js";
+import { fetchFrom, recordOf } from "../sources.js";
 
 /** Programs that are here or on their way, by name: the viewers of a page share them. */
 const programs = new Map();
@@ -54,7 +54,7 @@ export class Life {
   async run() {
     try {
       const { backend } = this.host;
-      await this.start(this.nameOf(await nameFor(backend)), backend);
+      await keepDrawn(this.nameOf(await nameFor(backend)), backend, this);
       if (!this.over && !this.wasGiven) await this.show();
     } catch (error) {
       this.fail(error);
@@ -67,11 +67,15 @@ export class Life {
     return program === "full" ? "smallFull" : "smallWebgpu";
   }
 
-  /** Starts a viewer of a program, which goes on with what is open in another one `before`, whose program cannot draw any more. */
-  async start(name, backend, before = null) {
+  full() {
+    return this.nameOf("full");
+  }
+
+  /** Makes a viewer of a program on a canvas of its own. */
+  async make(name) {
     const { module } = await programOf(name, (part) => this.teller.progress(part / 2));
-    if (this.over) return;
-    let from = before;
+    const isFull = name === this.full();
+    if (this.over) throw new Error("the element left its page");
     this.viewer = new module.Viewer({ ui: "full" }, (type, detail) => this.hear(type, detail));
     const canvas = document.createElement("canvas");
     canvas.tabIndex = 0;
@@ -81,41 +85,35 @@ export class Life {
     this.panels = this.isFull ? servePanels(box, this.forPanels()) : {};
     this.teller.nameCanvas();
     if (!this.isFull) this.attend();
-    this.keeper = keepOnCanvas(this.viewer, {
-      canvas,
-      backend,
-      lastBackend: name === this.nameOf("full") ? "webgl2" : backend,
-      isOver: () => this.over,
-      onStart: () => {
-        this.view.classList.add("drawn");
-        this.teller.nameCanvas();
-        if (from) void this.goOn(from);
-        else if (!before) this.api.attach(this.viewer);
-        from = null;
-      },
-      onEnd: (error) => {
-        if (name === this.nameOf("full") || backend !== "auto") return this.fail(error);
-        this.start(this.nameOf("full"), "webgl2", this.viewer).catch(() => this.fail(error));
-      },
-    });
-    try {
-      await this.keeper.start();
-    } catch (error) {
-      if (this.over) return;
-      if (error.name !== "WebGl2Missing") throw error;
-      this.viewer.free();
-      await this.start(this.nameOf("full"), "webgl2");
-    }
+    return { viewer: this.viewer, canvas, isFull };
+  }
+
+  keep(keeper) {
+    this.keeper = keeper;
+  }
+
+  isOver() {
+    return this.over;
+  }
+
+  onStart() {
+    this.view.classList.add("drawn");
+    this.teller.nameCanvas();
+  }
+
+  onEnd(error) {
+    this.fail(error);
   }
 
   /** What the panels ask for. */
   forPanels() {
     const open = (files, how) => this.api.give(files, how).catch((error) => error.name !== "AbortError" && this.teller.error(error));
     return {
-      receive: (files, addsClips) => void (addsClips ? open(files, "addClips") : this.open(files, null).catch(() => {})),
+      receive: (files, addsClips) => void (addsClips ? open(files, "addClips") : this.openGiven(files, null).catch(() => {})),
       refuse: (words) => this.teller.error(new Error(words)),
       again: () => void this.show(),
       openModel: () => this.viewer.state().model?.name ?? "",
+      // A page of others has no links to what is seen in it.
       copy: async () => {
         const made = document.createElement("bindpose-viewer");
         made.setAttribute("src", this.host.src);
@@ -125,16 +123,26 @@ export class Life {
     };
   }
 
-  /** Goes on with all that is open in a viewer without WebGL2, which lost WebGPU for good. */
-  async goOn(from) {
+  hold() {
+    this.api.hold();
+  }
+
+  attach(viewer) {
+    this.api.attach(viewer);
+  }
+
+  /** Brings what is open into another viewer. */
+  async bring(from, to) {
+    if (this.isFull) return handOver(from, to);
+    await hasOpened(from);
+    if (!this.files) return;
     const moment = this.moment(from);
-    if (this.isFull) await handOver(from, this.viewer);
-    if (this.over) return;
-    this.api.attach(this.viewer);
-    from.free();
-    if (this.isFull || !this.files) return;
-    this.kept = { files: this.files, moment };
-    await this.show();
+    await to.open(this.files.map(recordOf));
+    to.followLink(moment);
+  }
+
+  onBrought(error) {
+    if (error) this.teller.error(error);
   }
 
   /** Tells the viewer of what a window would. A canvas may be replaced by a fresh one; what it lies in stays. */
@@ -185,6 +193,14 @@ export class Life {
         if (wanted) this.teller.progress(0.5 + Math.min(arrived / wanted, 1) / 2);
       },
     });
+  }
+
+  /** Opens what a person or a script gave, in place of what the element names. */
+  openGiven(files, moment) {
+    this.fetching.abort();
+    this.wasGiven = true;
+    this.kept = null;
+    return this.open(files, moment);
   }
 
   /** Opens files and goes to a moment in them, if one is named. Resolves with the state, which has an `error` where they could not be opened. */
