@@ -1,5 +1,7 @@
 // Where files come from, and how the page gets their bytes: from the person, from a program, from the server.
 
+import { onlyJoins } from "./files.js";
+
 /** Whether it is a `Blob` or a `File`, also one of another window. */
 const isBlob = (item) => typeof item?.arrayBuffer === "function";
 
@@ -100,11 +102,18 @@ export async function fetchFrom(addresses, { began, got, signal }) {
     return { name, bytes: new Blob(pieces) };
   };
   const asked = addresses.map(addressOf).map((url) => [decodeURIComponent(url.pathname.split("/").pop()), url]);
-  const files = await Promise.all(asked.map(fetchOne));
-  const beside = await Promise.all(files.map((file, index) => namedBy(file, asked[index][1])));
-  // What is not there is told by the viewer, as of a model that was dropped without it.
-  const found = await Promise.all(beside.flat().map((one) => fetchOne(one).catch((error) => { if (signal.aborted) throw error; return null; })));
-  return [...files, ...found.filter(Boolean)];
+  const orNone = (one) =>
+    fetchOne(one).catch((error) => {
+      if (signal.aborted) throw error;
+      console.warn(error.message);
+      return null;
+    });
+  // A model without one of its pictures is still a model; the viewer tells of those that it names.
+  const [joins, models] = [true, false].map((joins) => asked.filter(([name]) => onlyJoins([{ name }]) === joins));
+  const [opened, pictures] = await Promise.all([models.map(fetchOne), joins.map(models.length ? orNone : fetchOne)].map((all) => Promise.all(all)));
+  const beside = await Promise.all(opened.map((file, index) => namedBy(file, models[index][1])));
+  const found = await Promise.all(beside.flat().map(orNone));
+  return [...opened, ...pictures, ...found].filter(Boolean);
 }
 
 /** `before` without the files whose names come again in `files`, and then those. */

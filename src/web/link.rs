@@ -17,11 +17,17 @@ impl Viewer {
         to_js(&self.shared.link(taken))
     }
 
-    /// Shows of the open model what a link says; what it does not say is as at a first visit. It is no step to undo. Returns the names of what is damaged,
-    /// unknown, or not of this model.
+    /// Shows of the open model what a link says; what it does not say is as at a first visit, or, where it is a `change`, as it is. It is no step to undo.
+    /// Returns the names of what is damaged, unknown, or not of this model.
     #[wasm_bindgen(js_name = followLink)]
-    pub fn follow_link(&self, text: &str) -> Vec<String> {
-        let (linked, mut left_out) = self.shared.session.borrow().read_link(text);
+    pub fn follow_link(&self, text: &str, change: Option<bool>) -> Vec<String> {
+        let (linked, mut left_out) = match change {
+            Some(true) => {
+                let panels = self.shared.face.open_panels();
+                self.shared.session.borrow().read_change(text, &panels)
+            }
+            _ => self.shared.session.borrow().read_link(text),
+        };
         self.shared.apply(QualityCommand::SetMode(linked.quality));
         self.shared.apply(Command::Restore(Box::new(linked.view)));
         let session = self.shared.session.borrow();

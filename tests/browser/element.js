@@ -82,7 +82,7 @@ test("viewers of a page of notes show what their attributes say, and the page's 
     const inside = document.getElementById("a").shadowRoot.querySelector("select");
     return [getComputedStyle(inside).color, getComputedStyle(document.querySelector("h1")).color, document.body.style.length, document.getElementById("a").offsetWidth, document.getElementById("a").offsetHeight];
   });
-  assert.deepEqual(styles.slice(0, 3), ["rgb(231, 234, 240)", "rgb(255, 0, 0)", 0]);
+  assert.deepEqual(styles.slice(0, 3), ["rgb(27, 32, 41)", "rgb(255, 0, 0)", 0]);
   assert.ok(styles[3] > 600 && styles[4] > 400, `${styles}: its size is its own where the page takes back all`);
   assert.ok((await page.evaluate(async () => (await document.getElementById("a").snapshot({ width: 64, height: 48 })).size)) > 500);
   // Attributes that change, one at a time: the rest stays.
@@ -214,6 +214,119 @@ test("what a script opens takes the place of the source, and a source that comes
   assert.equal(root.length ?? Object.keys(root).length, 16);
   assert.equal(none, undefined);
   assert.ok(matrix[13] > 0.5 && matrix[15] === 1, `${matrix}: above the ground`);
+});
+
+const waits = pageOf(`<bindpose-viewer id="a" ui="none" poster="web/icon.svg" src="web/slow.m3d"></bindpose-viewer>
+  <bindpose-viewer id="b" src="web/slow.m3d"><b slot="poster">A step</b><i slot="progress">Wait</i></bindpose-viewer>`);
+test("a poster and progress are seen until the model is, also those of the page; full screen is the element's", {
+  draws: true,
+  ...waits,
+  prepare: async (page) => {
+    await holding("slow.m3d")(page);
+    await waits.prepare(page);
+  },
+}, async (page) => {
+  await page.waitForFunction(() => ["a", "b"].every((id) => document.getElementById(id).state?.().backend));
+  const over = (id) =>
+    page.evaluate((id) => {
+      const viewer = document.getElementById(id);
+      const root = viewer.shadowRoot;
+      return {
+        poster: root.querySelector(".poster img").checkVisibility() && root.querySelector(".poster img").naturalWidth > 0,
+        progress: root.querySelector("progress").checkVisibility(),
+        own: Array.from(viewer.children, (child) => child.checkVisibility() && child.getBoundingClientRect().width > 0),
+      };
+    }, id);
+  assert.deepEqual(await over("a"), { poster: true, progress: true, own: [] });
+  assert.deepEqual(await over("b"), { poster: false, progress: false, own: [true, true] });
+  await keep(page, "element-waits");
+  await page.evaluate(() => (globalThis.letThrough = true));
+  await hears(page, "a", "load");
+  await hears(page, "b", "load");
+  assert.deepEqual(await over("a"), { poster: false, progress: false, own: [] });
+  assert.deepEqual(await over("b"), { poster: false, progress: false, own: [false, false] });
+  const full = page.getByRole("button", { name: "Full screen" });
+  await full.click();
+  await page.waitForFunction(() => document.fullscreenElement?.id === "b", null, { polling: 50 });
+  await page.waitForFunction(() => document.getElementById("b").shadowRoot.querySelector("canvas").clientWidth > innerWidth * 0.9, null, { polling: 50 });
+  await full.click();
+  await page.waitForFunction(() => !document.fullscreenElement, null, { polling: 50 });
+});
+
+test("what is asked early is done when the model is there; what is asked again is shown again; a wrong name is a warning", {
+  draws: true,
+  ...pageOf(`<meta name="color-scheme" content="dark"><bindpose-viewer id="a" src="web/sample/figure.m3d web/nothing.png"></bindpose-viewer>
+    <script type="module">
+      const viewer = document.getElementById("a");
+      viewer.clip = "Run";
+      viewer.currentTime = 0.25;
+      viewer.loop = true;
+    </script>`),
+  expectErrors: true,
+}, async (page) => {
+  const warned = [];
+  page.on("console", (message) => message.type() === "warning" && message.text().includes("bindpose-viewer") && warned.push(message.text()));
+  await hears(page, "a", "load");
+  const { clip, currentTime, yaw } = await seen(page, "a");
+  assert.deepEqual([clip, currentTime], ["Run", 0.25], "and the picture that is not there leaves the model");
+  const set = (name, value) => page.evaluate(([name, value]) => void (document.getElementById("a")[name] = value), [name, value]);
+  const camera = () => page.evaluate(() => document.getElementById("a").state().camera);
+  await set("camera", "right");
+  const right = await camera();
+  assert.notEqual(right.yawRadians, yaw);
+  // A drag, and the same side again.
+  await page.mouse.click(100, 100);
+  await page.mouse.move(100, 100);
+  await page.mouse.down();
+  await page.mouse.move(160, 120, { steps: 4 });
+  await page.mouse.up();
+  await settled(page);
+  const dragged = await camera();
+  assert.notEqual(dragged.yawRadians, right.yawRadians);
+  await set("bone", "999");
+  await set("clip", "Nonsense");
+  assert.deepEqual(await camera(), dragged, "a bone and a clip that are not there change nothing");
+  assert.equal((await seen(page, "a")).clip, "Run");
+  await page.waitForTimeout(50);
+  assert.match(warned.join(), /not understood, or not in figure\.m3d: bone .*: clip/);
+  await set("camera", "right");
+  assert.deepEqual(await camera(), right);
+  await set("link", "clip=Walk&t=0.5&bones=1");
+  await set("clip", "Wave");
+  await set("link", "clip=Walk&t=0.5&bones=1");
+  const again = await seen(page, "a");
+  assert.deepEqual([again.clip, again.currentTime, again.bones], ["Walk", 0.5, true]);
+  await set("skeleton", "false");
+  assert.equal((await seen(page, "a")).bones, false);
+
+  // The theme is the page's, where the element is; a colour of a style is behind the model.
+  const corner = () =>
+    page.evaluate(async () => {
+      const bitmap = await createImageBitmap(await document.getElementById("a").snapshot({ width: 64, height: 64 }));
+      const pen = new OffscreenCanvas(64, 64).getContext("2d");
+      pen.drawImage(bitmap, 0, 0);
+      return Array.from(pen.getImageData(1, 1, 1, 1).data.subarray(0, 3));
+    });
+  const dark = await corner();
+  assert.ok(Math.max(...dark) < 100, `dark: ${dark}`);
+  await page.evaluate(() => document.getElementById("a").style.setProperty("color-scheme", "light"));
+  await page.waitForFunction(() => getComputedStyle(document.getElementById("a").shadowRoot.querySelector(".view")).color === "rgb(0, 0, 0)", null, { polling: 50 });
+  await page.waitForTimeout(100);
+  const light = await corner();
+  assert.ok(Math.min(...light) > 150, `light: ${light}`);
+  await set("background", "rebeccapurple");
+  assert.deepEqual(await corner(), [102, 51, 153]);
+  await page.evaluate(() => {
+    const viewer = document.getElementById("a");
+    viewer.removeAttribute("background");
+    viewer.style.setProperty("--bindpose-background", "rgb(10 90 20)");
+    viewer.remove();
+    viewer.removeAttribute("link");
+    document.body.append(viewer);
+    viewer.src = "web/sample/figure.m3d";
+  });
+  await hears(page, "a", "load", 2);
+  assert.deepEqual(await corner(), [10, 90, 20]);
 });
 
 test("in a flex box, in what is folded away, hidden and shown, a viewer has its size and draws only in sight", {

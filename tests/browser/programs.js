@@ -218,6 +218,25 @@ test("where WebGPU is lost for good the full program goes on with what is open, 
   await keep(page, "gone-on-with-webgl2");
 });
 
+test("what is given while the full program is on its way opens there, after what was open", { query: `?${COARSE}`, bare: true, prepare: pretendGpu() }, async (page) => {
+  const [mine, theirs] = ["mine.m3d", "theirs.m3d"].map((name) => copyOfSample(name).path);
+  await opened(page);
+  await page.setInputFiles("#files", mine);
+  await opened(page, "mine.m3d");
+  const given = new Promise((done) =>
+    page.route(`**${full}bindpose_bg.wasm`, async (route) => {
+      await page.setInputFiles("#files", theirs);
+      await page.evaluate(() => bindpose.setQuality("auto"));
+      await route.continue();
+      done();
+    }),
+  );
+  await loseWebGpu(page);
+  await given;
+  const { backend, look, error } = await until(page, ({ model }) => model?.name === "theirs.m3d");
+  assert.deepEqual([backend, look.quality, error], ["webgl2", "auto", null]);
+});
+
 test("where the full program does not arrive then, a link leads there, and says what was open", {
   query: `?${COARSE}`,
   bare: true,

@@ -21,6 +21,14 @@ const box = (className) => Object.assign(document.createElement("div"), { classN
 
 const inNoPage = () => new DOMException("the viewer is not in a page", "InvalidStateError");
 
+/** A colour of CSS as links have it; what is no colour as it is. */
+function hexOf(colour) {
+  if (!CSS.supports("color", colour)) return colour;
+  const pen = new OffscreenCanvas(1, 1).getContext("2d");
+  pen.fillStyle = colour;
+  return pen.fillStyle;
+}
+
 const prefersStill = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 
 export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) {
@@ -35,8 +43,10 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     camera: (state) => this.#tellCamera(state),
     nameCanvas: () => this.#nameCanvas(),
     moment: () => this.#moment(),
+    theme: () => this.#theme,
   };
   #life = null;
+  #later = []; // What was asked of a model that is not there yet.
   #kept = null;
   #view;
   #transport;
@@ -72,6 +82,7 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     this.#transport.bar.hidden = this.ui !== "transport";
     this.#transport.update();
     letScroll(this.#view);
+    this.#view.addEventListener("transitionend", () => this.#life?.viewer?.setTheme?.(this.#theme));
     this.#sight = globalThis.IntersectionObserver && new IntersectionObserver((entries) => this.#see(entries.at(-1).isIntersecting), { rootMargin: NEAR });
   }
 
@@ -93,28 +104,36 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
   }
 
   attributeChangedCallback(name, before, value) {
+    // A moment that is asked for once more is shown once more.
+    if (name in FIELDS || name === "link") return this.#follow(name);
     if (before === value) return;
     if (name === "poster") this.#showPoster(!this.#over.poster.hidden);
     if (name === "alt") this.#nameCanvas();
     if (name === "ui") this.#restart(before);
     if (name === "src" && this.#life) {
       this.#kept = null;
+      this.#later = [];
       this.#error = null;
       this.#over.error.hidden = true;
       this.#life.wasGiven = false;
       if (this.#life.viewer) void this.#life.show();
     }
-    if (name in FIELDS || name === "link") this.#follow(name);
+  }
+
+  /** Does something with a viewer that shows its model, at once or when it does. */
+  #whenShown(work) {
+    if (this.#life?.isShown) work(this.#life.api.bindpose);
+    else this.#later.push(work);
   }
 
   // As media elements have them.
 
   play() {
-    this.#life?.api.bindpose.play();
+    this.#whenShown((bindpose) => bindpose.play());
   }
 
   pause() {
-    this.#life?.api.bindpose.pause();
+    this.#whenShown((bindpose) => bindpose.pause());
   }
 
   get paused() {
@@ -131,7 +150,7 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
   }
 
   set currentTime(secs) {
-    this.#life?.api.bindpose.seek(secs);
+    this.#whenShown((bindpose) => bindpose.seek(secs));
   }
 
   /** Where the clip begins, seconds. */
@@ -150,7 +169,7 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
   }
 
   set playbackRate(factor) {
-    this.#life?.api.bindpose.setSpeed(factor);
+    this.#whenShown((bindpose) => bindpose.setSpeed(factor));
   }
 
   /** The name of the clip on show. */
@@ -159,20 +178,12 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
   }
 
   set clip(name) {
-    this.#life?.api.bindpose.selectClip(name);
+    this.#whenShown((bindpose) => (this.clips.includes(name) ? bindpose.selectClip(name) : this.#life.warnOf(["clip"])));
   }
 
   /** The names of all clips. */
   get clips() {
     return this.state().model?.clips.map(({ name }) => name) ?? [];
-  }
-
-  get src() {
-    return this.getAttribute("src") ?? "";
-  }
-
-  set src(addresses) {
-    this.setAttribute("src", addresses);
   }
 
   get ui() {
@@ -188,14 +199,6 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
   get backend() {
     const named = this.getAttribute("backend");
     return ["webgpu", "webgl2"].includes(named) ? named : "auto";
-  }
-
-  get loading() {
-    return this.getAttribute("loading") === "lazy" ? "lazy" : "auto";
-  }
-
-  set loading(name) {
-    this.setAttribute("loading", name);
   }
 
   get error() {
@@ -232,13 +235,26 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
       if (value !== null) fields.set(field, value);
     }
     fields.set("play", Number(this.hasAttribute("autoplay") && !prefersStill()));
-    for (const [field, value] of fieldsOf((this.getAttribute("link") ?? "").replace(/^.*#/, ""))) fields.set(field, value);
+    for (const [field, value] of this.#linked) fields.set(field, value);
+    const behind = getComputedStyle(this.#view.closest(".frame")).backgroundColor;
+    if (!fields.has("bg") && getComputedStyle(this).getPropertyValue("--bindpose-background") && behind.startsWith("rgb(")) fields.set("bg", encodeURIComponent(hexOf(behind)));
     return textOf(fields);
+  }
+
+  /** The fields of the attribute `link`. */
+  get #linked() {
+    return fieldsOf((this.getAttribute("link") ?? "").replace(/^.*#/, ""));
+  }
+
+  /** `light` or `dark`, as the page has it where the element is. */
+  get #theme() {
+    return getComputedStyle(this.#view).color === "rgb(0, 0, 0)" ? "light" : "dark";
   }
 
   #tell(type, detail) {
     this.#transport.update();
     this.dispatchEvent(new CustomEvent(type, { detail }));
+    if (type === "pause" && this.ended) this.dispatchEvent(new CustomEvent("ended"));
   }
 
   #tellProgress(part) {
@@ -254,6 +270,7 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     this.#showPoster(false);
     this.#tellProgress(1);
     this.#nameCanvas();
+    for (const work of this.#later.splice(0)) work(this.#life.api.bindpose);
     this.#tell("load");
     if (!this.#isNear && this.#sight) this.#life.setInSight(false);
   }
@@ -279,7 +296,9 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     const canvas = this.#view.querySelector("canvas");
     const name = this.state().model?.name;
     canvas?.setAttribute("role", this.ui === "full" ? "application" : "img");
-    canvas?.setAttribute("aria-label", this.getAttribute("alt") ?? (name ? `3D view of ${name}` : "3D view"));
+    const words = this.getAttribute("alt") ?? (name ? `3D view of ${name}` : "3D view");
+    canvas?.setAttribute("aria-label", words);
+    this.#transport.bar.setAttribute("aria-label", `Timeline: ${words}`);
   }
 
   get #clip() {
@@ -291,15 +310,17 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     const value = this.getAttribute(attribute);
     if (attribute === "loop") return value === null ? "once" : value || "loop";
     if (value === null) return null;
-    if (attribute === "skeleton") return 1;
-    const listed = attribute === "camera" ? value.trim().split(/[\s,]+/).join() : value;
-    return attribute === "camera" ? listed : encodeURIComponent(listed);
+    if (attribute === "skeleton") return Number(!["0", "false"].includes(value));
+    if (attribute === "camera") return value.trim().split(/[\s,]+/).join();
+    return encodeURIComponent(attribute === "background" ? hexOf(value) : value);
   }
 
   #begin() {
     if (this.#life || !this.isConnected) return;
     this.#life = new Life(this, this.#teller, this.#view, this.#kept);
     this.#kept = null;
+    this.#over.progress.hidden = !this.src;
+    this.#over.progress.querySelector("progress").removeAttribute("value"); // Until something is known.
     void this.#life.run();
   }
 
@@ -317,13 +338,14 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
   #follow(name) {
     const life = this.#life;
     if (!life?.files || life.over) return;
-    const fields = fieldsOf(life.moment());
-    const changed = name === "link" ? fieldsOf((this.getAttribute("link") ?? "").replace(/^.*#/, "")) : [[FIELDS[name], this.#valueOf(name)]];
-    for (const [field, value] of changed) {
-      fields.delete(field);
-      if (value !== null) fields.set(field, value);
+    if (name === "link") life.follow(textOf(this.#linked), true);
+    else if (this.#valueOf(name) !== null) life.follow(textOf([[FIELDS[name], this.#valueOf(name)]]), true);
+    else {
+      // It is as a first visit has it.
+      const fields = fieldsOf(life.moment());
+      fields.delete(FIELDS[name]);
+      life.follow(textOf(fields));
     }
-    life.viewer.followLink(textOf(fields));
     this.#transport.update();
   }
 
@@ -342,6 +364,23 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     if (address) image.src = address;
     poster.hidden = !isShown;
   }
+}
+
+// The other attributes are properties of their names; those that need no value are also set by `true` and `false`.
+for (const attribute of [...BindposeViewerElement.observedAttributes, "autoplay"]) {
+  const name = attribute.replace(/-(.)/g, (_, letter) => letter.toUpperCase());
+  if (name in BindposeViewerElement.prototype) continue;
+  Object.defineProperty(BindposeViewerElement.prototype, name, {
+    get() {
+      return this.getAttribute(attribute) ?? "";
+    },
+    set(value) {
+      if (value === false || value === null) this.removeAttribute(attribute);
+      else this.setAttribute(attribute, value === true ? "" : value);
+    },
+    enumerable: true,
+    configurable: true,
+  });
 }
 
 /** What a viewer says that is in no page. */

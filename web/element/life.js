@@ -37,8 +37,8 @@ export const textOf = (fields) => [...fields].map(([name, value]) => `${name}=${
 
 /**
  * A viewer from when its element came into a page until it leaves it: `host` is the element, `view` what its canvas lies in, `kept` what an earlier life was
- * ended with. `teller` has what the element does for it: `event(type)`, `progress(part)`, `load()`, `error(error)`, `camera(state)`, `nameCanvas()`, and
- * `moment()`, the link to what its attributes ask for.
+ * ended with. `teller` has what the element does for it: `event(type)`, `progress(part)`, `load()`, `error(error)`, `camera(state)`, `nameCanvas()`,
+ * `moment()`, the link to what its attributes ask for, and `theme()`.
  */
 export class Life {
   constructor(host, teller, view, kept) {
@@ -76,7 +76,7 @@ export class Life {
     const { module } = await programOf(name, (part) => this.teller.progress(part / 2));
     const isFull = name === this.full();
     if (this.over) throw new Error("the element left its page");
-    this.viewer = new module.Viewer({ ui: "full" }, (type, detail) => this.hear(type, detail));
+    this.viewer = new module.Viewer({ ui: "full", theme: this.teller.theme() }, (type, detail) => this.hear(type, detail));
     const canvas = document.createElement("canvas");
     canvas.tabIndex = 0;
     const box = this.isFull ? document.createElement("div") : this.view;
@@ -118,7 +118,7 @@ export class Life {
         const made = document.createElement("bindpose-viewer");
         made.setAttribute("src", this.host.src);
         made.setAttribute("link", this.viewer.link(0).text);
-        await navigator.clipboard.writeText(made.outerHTML).then(() => this.viewer.tell("Element copied"), (error) => this.teller.error(error));
+        await navigator.clipboard.writeText(made.outerHTML).then(() => this.viewer.tell("Copied as an element"), (error) => this.teller.error(error));
       },
     };
   }
@@ -212,10 +212,20 @@ export class Life {
       return state;
     }
     this.files = files;
-    if (moment !== null) this.viewer.followLink(moment);
+    if (moment !== null) this.follow(moment);
     this.isShown = true;
     this.teller.load();
     return this.api.bindpose.state();
+  }
+
+  /** Shows the moment of a link, or a change of what is seen, as far as the model and the viewer know it. */
+  follow(moment, isChange = false) {
+    const leftOut = this.viewer.followLink(moment, isChange);
+    if (leftOut.length) this.warnOf(leftOut);
+  }
+
+  warnOf(fields) {
+    console.warn(`<bindpose-viewer>: not understood, or not in ${this.api.bindpose.state().model?.name}: ${fields.join(", ")}`, this.host);
   }
 
   /** What the viewer tells. */

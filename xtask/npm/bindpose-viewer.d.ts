@@ -151,16 +151,37 @@ export interface BindposeViewerEventMap extends HTMLElementEventMap {
   error: CustomEvent<{ message: string }> & ErrorEvent;
   play: CustomEvent<null>;
   pause: CustomEvent<null>;
+  /** After `pause`, where the clip ends. */
+  ended: CustomEvent<null> & Event;
   timeupdate: CustomEvent<null>;
   "camera-change": CustomEvent<CameraState>;
 }
 
-/** `<bindpose-viewer>`: its attributes are those of the README. */
+/**
+ * `<bindpose-viewer>`: its attributes, each a property too, are those of the README. What is asked before the model is there (`currentTime = 0.5`, `play()`) is
+ * done then.
+ */
 export class BindposeViewerElement extends HTMLElement {
   /** Addresses of the model and its pictures, with spaces between. */
   src: string;
   ui: "transport" | "none" | "full";
-  loading: "auto" | "lazy";
+  loading: string;
+  alt: string;
+  poster: string;
+  interaction: string;
+  link: string;
+  camera: string;
+  light: string;
+  background: string;
+  viewMode: string;
+  bone: string;
+  speed: string;
+  get skeleton(): string;
+  set skeleton(shown: string | boolean);
+  get loop(): string;
+  set loop(how: string | boolean);
+  get autoplay(): string;
+  set autoplay(plays: string | boolean);
   /** Read when it starts. */
   readonly backend: "auto" | "webgpu" | "webgl2";
   play(): void;
@@ -178,7 +199,10 @@ export class BindposeViewerElement extends HTMLElement {
   readonly clips: string[];
   readonly error: Error | null;
   state(): State | EarlyState;
-  /** The books' toRoot of a bone in the pose on show: 16 numbers, row by row for row vectors; the translation is at 12 to 14. */
+  /**
+   * The books' toRoot of a bone in the pose on show: 16 numbers, row by row for row vectors, in the file's space and units; the translation is at 12 to 14, its
+   * height at 13 where `state().model.upAxis` is `y`, else at 14.
+   */
   boneToRoot(bone: number): Float32Array | undefined;
   open(files: Iterable<File | NamedBytes>): Promise<State>;
   snapshot(options?: SnapshotOptions): Promise<Blob>;

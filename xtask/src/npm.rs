@@ -30,7 +30,7 @@ pub(crate) fn write(site: &Site, licenses: &str, folder: &Path) -> Result<(), Fa
     }
     let sources = dist::sources(site)?;
     for address in loaded_by(ELEMENT, &sources) {
-        dist::write_file(folder, address, &sources[address])?;
+        dist::write_file(folder, address, &without_way_back(address, &sources[address]))?;
     }
     for name in BESIDE {
         let path = crate::root().join("xtask/npm").join(name);
@@ -44,6 +44,16 @@ pub(crate) fn write(site: &Site, licenses: &str, folder: &Path) -> Result<(), Fa
     }
     dist::write_file(folder, licenses::NAME, licenses.as_bytes())?;
     Ok(())
+}
+
+/// The page of codes leads back to a page that is not in the package.
+fn without_way_back(address: &str, bytes: &[u8]) -> Vec<u8> {
+    if !address.ends_with("/codes.html") {
+        return bytes.to_vec();
+    }
+    String::from_utf8_lossy(bytes)
+        .replace(&format!("<a href=\"../{PAGE}\">Bindpose</a>"), "Bindpose")
+        .into_bytes()
 }
 
 /// The same of what the checks build.
@@ -77,6 +87,14 @@ fn loaded_by<'a>(first: &'a str, sources: &'a BTreeMap<String, Vec<u8>>) -> BTre
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_page_of_codes_leads_nowhere_else() {
+        let bytes = fs::read(crate::root().join("web/codes.html")).expect("it is there");
+        let has_way_back = |bytes: &[u8]| String::from_utf8_lossy(bytes).contains(PAGE);
+        assert!(has_way_back(&bytes) && !has_way_back(&without_way_back("web/codes.html", &bytes)));
+        assert_eq!(without_way_back("web/other.html", &bytes), bytes);
+    }
 
     #[test]
     fn the_package_has_what_the_element_loads_and_no_more() {

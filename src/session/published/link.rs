@@ -42,11 +42,7 @@ impl Session {
         if self.open_model().is_none() {
             return Link::default();
         }
-        let mut now = Linked {
-            view: self.view_state(),
-            quality: self.quality.mode(),
-            panels,
-        };
+        let mut now = self.seen_now(panels);
         let look = &mut now.view.appearance;
         if look.light == Light::Studio && look.split.is_none() {
             // The book's lights turn while a clip plays, also where nobody sees them.
@@ -62,10 +58,36 @@ impl Session {
 
     /// What a link says of the open model, and the names of what in it is damaged, unknown or not of this model.
     pub fn read_link(&self, text: &str) -> (Linked, Vec<String>) {
-        let mut linked = self.first_visit();
+        self.read_fields(text, self.first_visit(), false)
+    }
+
+    /// The same where what it does not name, or names wrongly, stays as it is now, with these panels open. Another clip begins at its start.
+    pub fn read_change(&self, text: &str, panels: &[String]) -> (Linked, Vec<String>) {
+        let name = |field: &str| field.split('=').next().unwrap_or_default().to_owned();
+        let read = |text: &str| {
+            let has_clip = text.split('&').any(|field| name(field) == "clip");
+            self.read_fields(text, self.seen_now(panels.to_vec()), !has_clip)
+        };
+        let (_, left_out) = read(text);
+        let understood: Vec<_> = text
+            .split('&')
+            .filter(|field| !left_out.contains(&name(field)))
+            .collect();
+        (read(&understood.join("&")).0, left_out)
+    }
+
+    fn seen_now(&self, panels: Vec<String>) -> Linked {
+        Linked {
+            view: self.view_state(),
+            quality: self.quality.mode(),
+            panels,
+        }
+    }
+
+    /// What `linked` becomes by the fields of a link. Without `has_time` it stands at the clip's start, unless they say when.
+    fn read_fields(&self, text: &str, mut linked: Linked, mut has_time: bool) -> (Linked, Vec<String>) {
         let mut left_out = BTreeSet::new();
         let mut camera = None;
-        let mut has_time = false;
         // No page writes one so long. Each field costs time.
         let (text, rest) = text.split_at(text.floor_char_boundary(2 * MAX_LINK_LEN));
         left_out.extend((!rest.is_empty()).then(|| format!("all behind {} characters", 2 * MAX_LINK_LEN)));

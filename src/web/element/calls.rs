@@ -4,6 +4,8 @@ use glam::Vec2;
 use wasm_bindgen::prelude::*;
 
 use super::keys;
+use crate::scene::Theme;
+use crate::session::Command;
 use crate::web::field;
 use crate::web::shared::Shared;
 use crate::web::viewer::Viewer;
@@ -24,6 +26,14 @@ impl Viewer {
     pub fn set_visible(&self, visible: bool) {
         self.shared.face.set_out_of_sight(!visible);
         self.shared.request_repaint();
+    }
+
+    /// Draws for a theme, `light` or `dark`, in place of that of the options.
+    #[wasm_bindgen(js_name = setTheme)]
+    pub fn set_theme(&self, name: &str) {
+        let Some(theme) = Theme::from_name(name) else { return };
+        self.shared.face.choose_theme(theme);
+        self.shared.apply(Command::SetTheme(theme));
     }
 
     /// Takes an event of the canvas: `pointerdown`, `pointermove`, `pointerup`, `pointercancel`, `click`, `wheel` or `keydown`. Returns whether

@@ -11,7 +11,7 @@ use crate::web::{field, matches_media};
 
 #[derive(Default)]
 pub(in crate::web) struct Face {
-    theme: Option<Theme>,
+    theme: Cell<Option<Theme>>,
     pub(super) pointers: RefCell<Pointers>,
     /// Since the last frame.
     had_input: Cell<bool>,
@@ -23,19 +23,24 @@ impl Face {
     pub(in crate::web) fn new(options: &JsValue) -> Self {
         let theme = field(options, "theme").as_string();
         Self {
-            theme: theme.and_then(|name| Theme::from_name(&name)),
+            theme: Cell::new(theme.and_then(|name| Theme::from_name(&name))),
             ..Self::default()
         }
     }
 
     /// The theme that was chosen.
     pub(in crate::web) fn theme(&self) -> Option<Theme> {
-        self.theme
+        self.theme.get()
+    }
+
+    pub(super) fn choose_theme(&self, theme: Theme) {
+        self.theme.set(Some(theme));
     }
 
     /// The one that was chosen, else the system's.
     pub(super) fn shown_theme(&self) -> Theme {
         self.theme
+            .get()
             .unwrap_or_else(|| match matches_media("(prefers-color-scheme: light)") {
                 true => Theme::Light,
                 false => Theme::Dark,

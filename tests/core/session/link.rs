@@ -48,6 +48,42 @@ fn a_first_visit_has_an_empty_link() {
 }
 
 #[test]
+fn a_change_leaves_the_rest_as_it_is() {
+    let mut session = opened(moving("a.m3d"));
+    follow(
+        &mut session,
+        "clip=Turn&t=0.75&play=0&speed=0.5&light=book&cam=70,12,4.2",
+    );
+    let camera = *session.camera();
+    let mut change = |text: &str| {
+        let (linked, left_out) = session.read_change(text, &[]);
+        session.apply(Command::Restore(Box::new(linked.view)));
+        (
+            session.clip().map(|clip| clip.name.clone()),
+            session.playback().time_secs(),
+            *session.camera() == camera,
+            left_out,
+        )
+    };
+    let turn = Some("Turn".to_owned());
+    assert_eq!(change("exposure=1"), (turn.clone(), 0.75, true, vec![]));
+    assert_eq!(
+        change("bone=999&clip=Nothing&cam=up&t=x"),
+        (
+            turn.clone(),
+            0.75,
+            true,
+            ["bone", "cam", "clip", "t"].map(String::from).to_vec()
+        )
+    );
+    assert_eq!(change("t=0.25"), (turn, 0.25, true, vec![]));
+    let first = opened(moving("a.m3d")).clip().map(|clip| clip.name.clone());
+    let name = first.clone().expect("it has clips");
+    assert_eq!(change(&format!("clip={name}")), (first, 0.0, true, vec![]));
+    assert!(text(&session).contains("speed=0.5"), "{}", text(&session));
+}
+
+#[test]
 fn a_link_is_written_as_a_person_would_write_it() {
     let mut session = opened(moving("a.m3d"));
     for command in [
