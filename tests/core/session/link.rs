@@ -76,7 +76,7 @@ fn a_change_leaves_the_rest_as_it_is() {
             ["bone", "cam", "clip", "t"].map(String::from).to_vec()
         )
     );
-    assert_eq!(change("t=0.25"), (turn, 0.25, true, vec![]));
+    assert_eq!(change("t=1.25"), (turn, 1.25, true, vec![]));
     let first = opened(moving("a.m3d")).clip().map(|clip| clip.name.clone());
     let name = first.clone().expect("it has clips");
     assert_eq!(change(&format!("clip={name}")), (first, 0.0, true, vec![]));
