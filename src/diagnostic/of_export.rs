@@ -195,6 +195,31 @@ pub const ALL: &[ExportCode] = &[
         "Bake the pictures that use the second UV map into ones for the first.",
     ),
     loss(
+        "materials-left-out",
+        "A `.txt` model has no materials.",
+        "Write a `.m3d` or a `.glb`.",
+    ),
+    loss(
+        "subsets-joined",
+        "A `.txt` model has no subsets: all triangles are drawn with one material.",
+        "Write a `.m3d` or a `.glb`.",
+    ),
+    loss(
+        "tex-coords-left-out",
+        "A `.txt` model has no texture coordinates.",
+        "Write a `.m3d` or a `.glb`.",
+    ),
+    loss(
+        "bones-left-out",
+        "A `.txt` model has no bones, and its vertices no weights.",
+        "Write a `.m3d` or a `.glb`.",
+    ),
+    loss(
+        "clips-left-out",
+        "A `.txt` model does not move.",
+        "Write a `.m3d` or a `.glb`.",
+    ),
+    loss(
         "joint-names",
         "The format numbers its bones and has no names for them.",
         "Nothing: on the page names are kept beside the file.",

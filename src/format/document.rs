@@ -12,15 +12,18 @@ pub enum Dialect {
     D3d11,
     /// The Blender exporter of imm_engine: dashes, short labels, z up.
     Imm,
+    /// The books' static models, `car.txt` and `skull.txt`: vertices with positions and normals alone, and triangles.
+    Text,
 }
 
 impl Dialect {
-    /// The short word that outputs use: `d3d12`, `d3d11`, `imm`.
+    /// The short word that outputs use: `d3d12`, `d3d11`, `imm`, `txt`.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::D3d12 => "d3d12",
             Self::D3d11 => "d3d11",
             Self::Imm => "imm",
+            Self::Text => "txt",
         }
     }
 }
@@ -161,6 +164,8 @@ pub struct LineMap {
     pub vertices: Vec<u32>,
     /// The vertices whose fields are not on lines that follow one another, in order, and the line of each field.
     pub vertices_apart: Vec<(u32, [u32; 6])>,
+    /// All fields of a vertex are on its first line.
+    pub vertices_on_one_line: bool,
     /// Line of each triangle.
     pub triangles: Vec<u32>,
     /// Line of each bone offset.
@@ -174,6 +179,9 @@ pub struct LineMap {
 impl LineMap {
     /// Line of a field of each vertex.
     pub fn vertex_lines(&self, field: VertexField) -> Vec<u32> {
+        if self.vertices_on_one_line {
+            return self.vertices.clone();
+        }
         let field = field as usize;
         let mut lines: Vec<u32> = self.vertices.iter().map(|line| line + field as u32).collect();
         for &(vertex, of_fields) in &self.vertices_apart {
@@ -185,6 +193,9 @@ impl LineMap {
     }
 
     fn vertex_line(&self, vertex: u32, field: VertexField) -> Option<u32> {
+        if self.vertices_on_one_line {
+            return self.vertices.get(vertex as usize).copied();
+        }
         let apart = self.vertices_apart.binary_search_by_key(&vertex, |(apart, _)| *apart);
         match apart {
             Ok(place) => Some(self.vertices_apart[place].1[field as usize]),

@@ -1,6 +1,7 @@
 //! What a file is, by its beginning: whether it may be a model, and what it is instead, so that the message can say so.
 
 use super::cursor::is_space;
+use super::text_model;
 use super::label::{Section, is_ruler, same, whole};
 use crate::diagnostic::{Diagnostic, codes};
 
@@ -151,13 +152,16 @@ pub fn begins_like_another(bytes: &[u8]) -> bool {
 /// Bytes in which a model has begun if it ever does: room for a page of blank lines or comment above its header.
 const BEGINNING_LEN: usize = 4096;
 
-/// Whether a file begins as a model does: its first lines have the ruler of the header, or a count of materials.
+/// Whether a file begins as a model does: its first lines have the ruler of the header, or a count of materials; or the first one
+/// counts the vertices of a text model.
 ///
 /// A quick look for files of any name and content. What it accepts [`parse`](super::parse) may still refuse.
 pub fn begins_like_model(bytes: &[u8]) -> bool {
     let beginning = &bytes[..bytes.len().min(BEGINNING_LEN)];
     let mut lines = beginning.split(|byte| matches!(byte, b'\n' | b'\r'));
-    lines.any(|line| is_header_ruler(line) || is_material_count(line))
+    let first = beginning.split(|byte| matches!(byte, b'\n' | b'\r')).find(|line| !line.trim_ascii().is_empty());
+    first.is_some_and(|line| text_model::is_first_line(without_mark(line)))
+        || lines.any(|line| is_header_ruler(line) || is_material_count(line))
 }
 
 fn is_header_ruler(line: &[u8]) -> bool {

@@ -25,6 +25,8 @@
 //! bone      = "Bone" n "#Keyframes:" count "{" { "Time:" t "Pos:" x y z "Scale:" x y z "Quat:" x y z w } "}"
 //! ```
 //!
+//! The static models of the books' demos, `car.txt` and `skull.txt`, have a grammar of their own: `text_model`.
+//!
 //! The imm dialect says `P: T: N: T: W: I:` for the lines of a vertex, `B0:` and `P0:` for bones, `B0 #K:` and `T: P: S: Q:`
 //! for keys. All spellings are understood everywhere. Rows come in the number that the header announces, no fewer and no more.
 //!
@@ -47,6 +49,7 @@ mod number;
 pub(crate) mod quick;
 mod reader;
 mod sections;
+mod text_model;
 mod write;
 
 pub(crate) use cursor::Cursor;
@@ -116,6 +119,18 @@ pub async fn parse_in(bytes: &[u8], slices: &Slices) -> Result<Parsed, Fault> {
     }
     if let Some(stranger) = likeness::recognise(text) {
         return Err(at_start(stranger.diagnostic()));
+    }
+    if text_model::begins(&reader) {
+        let (document, lines) = text_model::read(&mut reader).await?;
+        if !zeros.is_empty() {
+            note_zeros(&mut reader, zeros.len())?;
+        }
+        return Ok(Parsed {
+            document,
+            lines,
+            diagnostics: reader.kinds.into_diagnostics(),
+            quick: QuickRows::default(),
+        });
     }
     let counts = sections::header(&mut reader).await?;
     let (materials, material_lines) = sections::materials(&mut reader, counts.materials).await?;

@@ -19,6 +19,12 @@ pub fn write(document: &Document) -> String {
 /// The same, in slices.
 pub async fn write_in(document: &Document, slices: &Slices) -> String {
     let mut text = String::new();
+    if document.dialect == Dialect::Text {
+        // Writing to a String does not fail.
+        let written = text_model(&mut text, document, slices).await;
+        debug_assert!(written.is_ok());
+        return text;
+    }
     let mut writer = Writer {
         text: &mut text,
         imm: document.dialect == Dialect::Imm,
@@ -27,6 +33,24 @@ pub async fn write_in(document: &Document, slices: &Slices) -> String {
     let written = writer.document(document, slices).await;
     debug_assert!(written.is_ok());
     text
+}
+
+/// As `car.txt` is laid out.
+async fn text_model(text: &mut String, document: &Document, slices: &Slices) -> fmt::Result {
+    writeln!(text, "VertexCount: {}", document.vertices.len())?;
+    writeln!(text, "TriangleCount: {}", document.triangles.len())?;
+    writeln!(text, "VertexList (pos, normal)\n{{")?;
+    for (index, vertex) in document.vertices.iter().enumerate() {
+        slices.pause_before(index).await;
+        let [[x, y, z], [nx, ny, nz]] = [vertex.position, vertex.normal];
+        writeln!(text, "\t{}", Numbers(&[x, y, z, nx, ny, nz]).to_string().trim_start())?;
+    }
+    writeln!(text, "}}\nTriangleList\n{{")?;
+    for (index, [a, b, c]) in document.triangles.iter().enumerate() {
+        slices.pause_before(index).await;
+        writeln!(text, "\t{a} {b} {c}")?;
+    }
+    writeln!(text, "}}")
 }
 
 struct Writer<'a> {

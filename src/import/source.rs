@@ -20,7 +20,7 @@ pub enum FileFormat {
 }
 
 impl FileFormat {
-    /// The name that outputs use: `d3d12`, `d3d11`, `imm`, `glb` or `gltf`.
+    /// The name that outputs use: `d3d12`, `d3d11`, `imm`, `txt`, `glb` or `gltf`.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::M3d(dialect) => dialect.as_str(),
@@ -35,16 +35,17 @@ impl FileFormat {
             Self::M3d(Dialect::D3d12) => "D3D12 book",
             Self::M3d(Dialect::D3d11) => "D3D11 book",
             Self::M3d(Dialect::Imm) => "imm exporter",
+            Self::M3d(Dialect::Text) => "the books' text",
             Self::Glb => "GLB",
             Self::Gltf => "glTF",
         }
     }
 
-    /// How it is spelled, where it is of the books' format.
+    /// How it is spelled, where it is a `.m3d`.
     pub fn dialect(self) -> Option<Dialect> {
         match self {
+            Self::M3d(Dialect::Text) | Self::Glb | Self::Gltf => None,
             Self::M3d(dialect) => Some(dialect),
-            Self::Glb | Self::Gltf => None,
         }
     }
 }

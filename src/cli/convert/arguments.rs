@@ -13,7 +13,7 @@ use crate::session::{ExportFormat, ExportPlan};
 
 /// Write a model as another file, changed as asked.
 ///
-/// The ends of the names say the formats: .m3d is the text of the books, .glb is binary glTF. What changes and what the format cannot
+/// The ends of the names say the formats: .m3d is the text of the books, .txt that of their static models, .glb is binary glTF. What changes and what the format cannot
 /// hold is told; all losses are known before anything is written.
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = OUTPUT)]
@@ -21,7 +21,7 @@ pub(in crate::cli) struct Arguments {
     /// Model to read, or - for standard input.
     #[arg(value_name = "IN")]
     pub(super) input: PathBuf,
-    /// File to write: .m3d or .glb.
+    /// File to write: .m3d, .glb or .txt.
     #[arg(value_name = "OUT")]
     pub(super) output: PathBuf,
     /// Which book's .m3d is written [default: that of IN, else d3d12].
@@ -108,8 +108,8 @@ Edits are made in this order: clips, fix, range, close-loop, reduce, scale, up a
 JSON: an object
   schemaVersion   1; it grows when a key changes its meaning or goes
   input, output   the paths as given
-  format          \"m3d\" or \"glb\"
-  dialect         \"d3d11\" or \"d3d12\"; null for .glb
+  format          \"m3d\", \"glb\" or \"txt\"
+  dialect         \"d3d11\" or \"d3d12\"; \"txt\" for .txt; null for .glb
   changes         array: what is otherwise than in IN, in the order of the edits; code and message of each
   losses          array: what OUT does not hold, or holds otherwise; code, message and count of each
   bytes           size of OUT; 0 where nothing was written
@@ -145,6 +145,9 @@ impl Arguments {
         if self.writes_glb() {
             return ExportFormat::Glb;
         }
+        if has_extension(&self.output, "txt") {
+            return ExportFormat::Text;
+        }
         match (self.dialect, of_input) {
             (Some(Book::D3d11), _) | (None, Some(Dialect::D3d11)) => ExportFormat::D3d11,
             _ => ExportFormat::D3d12,
@@ -170,7 +173,7 @@ impl Arguments {
         // A .glb is brought into its one space as it is written.
         match format {
             ExportFormat::Glb => edits,
-            ExportFormat::D3d12 | ExportFormat::D3d11 => Edits {
+            ExportFormat::D3d12 | ExportFormat::D3d11 | ExportFormat::Text => Edits {
                 keys_for_all: !self.keep_empty,
                 ..edits.in_space_of_the_books(model)
             },
@@ -188,10 +191,22 @@ pub(super) fn check_use(arguments: &Arguments) -> Result<(), Failure> {
         }
     };
     let writes_glb = arguments.writes_glb();
+    let writes_text = has_extension(&arguments.output, "txt");
     refused(
-        !writes_glb && !has_extension(&arguments.output, "m3d"),
-        "OUT ends in .m3d or .glb, which says its format",
+        !writes_glb && !writes_text && !has_extension(&arguments.output, "m3d"),
+        "OUT ends in .m3d, .glb or .txt, which says its format",
     )?;
+    let not_for_text = [
+        (arguments.dialect.is_some(), "--dialect"),
+        (arguments.for_book, "--for-book"),
+        (arguments.textures_out.is_some(), "--textures-out"),
+    ];
+    for (is_given, option) in not_for_text {
+        refused(
+            writes_text && is_given,
+            &format!("{option} is for .m3d; a .txt has positions, normals and triangles alone"),
+        )?;
+    }
     let only_m3d = [
         (arguments.dialect.is_some(), "--dialect"),
         (arguments.for_book, "--for-book"),

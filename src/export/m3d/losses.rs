@@ -16,6 +16,11 @@ use crate::model::{
 /// What a file of this dialect does not hold of a model, or holds otherwise. `names` are names that a person gave to bones.
 pub fn m3d_losses(model: &Model, names: &JointNames, dialect: Dialect) -> Vec<Loss> {
     let mut losses = Losses::default();
+    if dialect == Dialect::Text {
+        left_out_of_text(model, &mut losses);
+        space(model, dialect, &mut losses);
+        return losses.0;
+    }
     let copyright = model.copyright.as_deref().unwrap_or_default();
     losses.add(
         "copyright",
@@ -33,6 +38,29 @@ pub fn m3d_losses(model: &Model, names: &JointNames, dialect: Dialect) -> Vec<Lo
     surfaces(&materials, dialect, &mut losses);
     maps(&materials, &mut losses);
     losses.0
+}
+
+/// What a text model has no place for.
+fn left_out_of_text(model: &Model, losses: &mut Losses) {
+    let Model {
+        mesh, materials, clips, ..
+    } = model;
+    let has_look = |material: &&Material| **material != Material { name: material.name.clone(), ..Material::default() };
+    for (code, count, subject, rest) in [
+        ("materials-left-out", materials.iter().filter(has_look).count(), ["material is", "materials are"], "left out; the format has none."),
+        ("subsets-joined", mesh.submeshes.len().saturating_sub(1), ["more subset is", "more subsets are"], "drawn with the first; the format has no subsets."),
+        (
+            "tex-coords-left-out",
+            mesh.tex_coords.iter().filter(|tex_coords| **tex_coords != Default::default()).count(),
+            ["vertex has", "vertices have"],
+            "texture coordinates; the format has none.",
+        ),
+        ("vertex-colors", mesh.colors.len(), ["vertex has", "vertices have"], "a colour; the format has no vertex colours."),
+        ("bones-left-out", model.skeleton.joint_count(), ["bone is", "bones are"], "left out, and the weights of vertices; the format is for what stands still."),
+        ("clips-left-out", clips.len(), ["clip is", "clips are"], "left out; the format is for what stands still."),
+    ] {
+        losses.count(code, count, subject, rest);
+    }
 }
 
 fn extras(model: &Model, losses: &mut Losses) {
@@ -53,7 +81,7 @@ fn extras(model: &Model, losses: &mut Losses) {
 fn space(model: &Model, dialect: Dialect, losses: &mut Losses) {
     let up_axis = match dialect {
         Dialect::Imm => UpAxis::Z,
-        Dialect::D3d11 | Dialect::D3d12 => UpAxis::Y,
+        Dialect::D3d11 | Dialect::D3d12 | Dialect::Text => UpAxis::Y,
     };
     if model.up_axis != up_axis {
         let [written, taken] = [model.up_axis, up_axis].map(|axis| axis.label().to_lowercase());

@@ -239,12 +239,12 @@ fn pass_number_sign(reader: &mut Reader<'_>) {
 }
 
 /// Passes a `{`, or notes that it is missing.
-fn open(reader: &mut Reader<'_>) -> Result<(), Fault> {
+pub(in crate::format) fn open(reader: &mut Reader<'_>) -> Result<(), Fault> {
     brace(reader, '{')
 }
 
 /// Passes a `}`, or notes that it is missing. At the end of the file that is an error, since more may be missing.
-fn close(reader: &mut Reader<'_>) -> Result<(), Fault> {
+pub(in crate::format) fn close(reader: &mut Reader<'_>) -> Result<(), Fault> {
     brace(reader, '}')
 }
 

@@ -9,7 +9,7 @@ mod triangles;
 mod vertices;
 
 pub(super) use bones::{hierarchy, offsets};
-pub(super) use clips::clips;
+pub(super) use clips::{clips, close, open};
 pub(super) use header::header;
 pub(super) use materials::materials;
 pub(super) use subsets::subsets;

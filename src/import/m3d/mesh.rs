@@ -6,7 +6,7 @@ use super::influences::influences_from_document;
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::limits::MOST_VERTICES;
 use crate::diagnostic::{Fault, Subject, codes};
-use crate::format::{Document, LineMap, Vertex, VertexField};
+use crate::format::{Dialect, Document, LineMap, Vertex, VertexField};
 use crate::import::normals::{handedness_of, make_normals_unit, mend_normals};
 use crate::import::tangents::mend_tangents;
 use crate::model::{Handedness, Mesh, Skeleton};
@@ -59,6 +59,11 @@ pub(super) async fn mesh_from_document(
         diagnostics,
     );
     mesh.influences = influences_from_document(document, lines, skeleton, diagnostics, slices).await?;
+    if document.dialect == Dialect::Text {
+        // It has none, and no map that asks for them.
+        mesh.tangents = Vec::new();
+        return Ok((mesh, handedness));
+    }
     mend_tangents(&mut mesh, lines_of(VertexField::Tangent), diagnostics, slices).await;
     Ok((mesh, handedness))
 }

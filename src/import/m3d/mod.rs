@@ -78,7 +78,7 @@ pub async fn from_document_in(
     let clips = clips::clips_from_document(document, lines, &skeleton, &mut diagnostics, slices).await?;
     let up_axis = match document.dialect {
         Dialect::Imm => UpAxis::Z,
-        Dialect::D3d11 | Dialect::D3d12 => UpAxis::Y,
+        Dialect::D3d11 | Dialect::D3d12 | Dialect::Text => UpAxis::Y,
     };
     let model = Model {
         materials,

@@ -2,7 +2,7 @@
 
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Code, Subject, codes};
-use crate::format::{self, Document, LineMap, Subset};
+use crate::format::{self, Dialect, Document, LineMap, Subset};
 use crate::model::{AlphaMode, Material, Reflectance, Submesh, unique_names};
 
 /// The ranges to draw. May add one default material for subsets that have none.
@@ -20,6 +20,13 @@ pub(super) fn submeshes_from_document(
         }
         if materials.is_empty() {
             materials.push(default_material(materials));
+        }
+        if document.dialect == Dialect::Text {
+            return vec![Submesh {
+                triangle_start: 0,
+                triangle_count,
+                material: 0,
+            }];
         }
         diagnostics.add(
             &codes::NO_SUBSETS,

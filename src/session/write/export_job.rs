@@ -23,6 +23,8 @@ modes! {
         D3d12 = "d3d12", ".m3d D3D12";
         /// The format of the DirectX 11 book.
         D3d11 = "d3d11", ".m3d D3D11";
+        /// The static models of the books, positions and normals alone.
+        Text = "txt", ".txt static";
     }
 }
 
@@ -33,12 +35,17 @@ impl ExportFormat {
             Self::Glb => None,
             Self::D3d12 => Some(Dialect::D3d12),
             Self::D3d11 => Some(Dialect::D3d11),
+            Self::Text => Some(Dialect::Text),
         }
     }
 
     /// The extension of its files.
     pub fn extension(self) -> &'static str {
-        if self == Self::Glb { "glb" } else { "m3d" }
+        match self {
+            Self::Glb => "glb",
+            Self::D3d12 | Self::D3d11 => "m3d",
+            Self::Text => "txt",
+        }
     }
 }
 
@@ -201,7 +208,11 @@ impl ExportJob {
                 MapFiles::default()
             }
             Some(dialect) => {
-                let files = plan_maps(&mut edited.model, &maps, asked, &mut plan);
+                let files = match dialect {
+                    // It names no maps.
+                    Dialect::Text => MapFiles::default(),
+                    _ => plan_maps(&mut edited.model, &maps, asked, &mut plan),
+                };
                 plan.maps = files.waiting.len();
                 let of_format = export::m3d_losses(&edited.model, &edited.names, dialect);
                 plan.losses.extend(of_format);
@@ -298,7 +309,7 @@ impl PlannedExport {
 
 /// `soldier-d3d12`: files for both books can lie in one folder.
 fn stem_of(stem: &str, format: ExportFormat) -> String {
-    if format.dialect().is_none() {
+    if matches!(format, ExportFormat::Glb | ExportFormat::Text) {
         return stem.to_owned();
     }
     let endings = ExportFormat::ALL.map(|other| format!("-{}", other.name()));

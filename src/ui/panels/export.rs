@@ -80,7 +80,10 @@ fn choices(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     choice.shown = true;
     let is_saving = session.export().is_some_and(|export| export.saving.is_some());
     ui.add_enabled_ui(!is_saving, |ui| {
-        let formats = ExportFormat::ALL.map(|format| (format, format.label()));
+        // What moves would stand still in a text model.
+        let is_still = open.model.skeleton.joint_count() == 0;
+        let formats = ExportFormat::ALL.into_iter().filter(|&format| is_still || format != ExportFormat::Text);
+        let formats: Vec<_> = formats.map(|format| (format, format.label())).collect();
         choose(ui, "Format", &formats, &mut choice.options.format);
         ui.add_space(6.0);
         demo(ui, &mut choice.options);
