@@ -7,6 +7,7 @@ mod likeness;
 mod limits;
 mod numbers;
 mod real_files;
+mod text_model;
 mod values;
 mod write;
 
