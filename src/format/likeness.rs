@@ -1,8 +1,8 @@
 //! What a file is, by its beginning: whether it may be a model, and what it is instead, so that the message can say so.
 
 use super::cursor::is_space;
-use super::text_model;
 use super::label::{Section, is_ruler, same, whole};
+use super::text_model;
 use crate::diagnostic::{Diagnostic, codes};
 
 /// What a file is instead.
@@ -159,8 +159,7 @@ const BEGINNING_LEN: usize = 4096;
 pub fn begins_like_model(bytes: &[u8]) -> bool {
     let beginning = &bytes[..bytes.len().min(BEGINNING_LEN)];
     let mut lines = beginning.split(|byte| matches!(byte, b'\n' | b'\r'));
-    let first = beginning.split(|byte| matches!(byte, b'\n' | b'\r')).find(|line| !line.trim_ascii().is_empty());
-    first.is_some_and(|line| text_model::is_first_line(without_mark(line)))
+    text_model::is_first_line(without_mark(beginning).trim_ascii_start())
         || lines.any(|line| is_header_ruler(line) || is_material_count(line))
 }
 

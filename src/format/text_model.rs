@@ -21,7 +21,9 @@ const LABELS: [&str; 4] = ["VertexCount", "TriangleCount", "VertexList", "Triang
 
 /// Whether a file begins so.
 pub(super) fn begins(reader: &Reader<'_>) -> bool {
-    reader.peek_label().is_some_and(|(label, _)| same(label.text, LABELS[0]))
+    reader
+        .peek_label()
+        .is_some_and(|(label, _)| same(label.text, LABELS[0]))
 }
 
 /// Whether a line is the first one of such a file.
@@ -52,6 +54,7 @@ pub(super) async fn read(reader: &mut Reader<'_>) -> Result<(Document, LineMap),
     for row in 0..vertex_count {
         reader.pause_every(row as usize).await;
         let token = row_token(reader, "vertices", row, vertex_count)?;
+        reader.cursor.skip_space();
         let ([x, y, z, nx, ny, nz], _) = reader.numbers(Value::Number(LABELS[2]), 6, [0.0; 6])?;
         document.vertices.push(Vertex {
             position: [x, y, z],
@@ -124,7 +127,11 @@ fn row_token<'a>(reader: &Reader<'a>, rows: &'static str, row: u32, count: u32) 
 /// Passes the brace behind a list, which has as many rows as announced.
 async fn end(reader: &mut Reader<'_>, rows: &'static str, count: u32) -> Result<(), Fault> {
     let mut surplus = 0;
-    while reader.cursor.peek_token().is_some_and(|token| looks_like_number(token.text)) {
+    while reader
+        .cursor
+        .peek_token()
+        .is_some_and(|token| looks_like_number(token.text))
+    {
         reader.pause_every(surplus).await;
         reader.cursor.skip_space();
         reader.cursor.rest_of_line();
@@ -137,6 +144,7 @@ async fn end(reader: &mut Reader<'_>, rows: &'static str, count: u32) -> Result<
 }
 
 fn triangle(reader: &mut Reader<'_>, vertices: u32) -> Result<[u32; 3], Fault> {
+    reader.cursor.skip_space();
     let mut triangle = [0; 3];
     for index in &mut triangle {
         let number = reader.whole(Value::VertexIndex, 0, i64::from(vertices) - 1)?;

@@ -538,14 +538,40 @@ fn standard_input_is_read() {
 }
 
 #[test]
+fn a_text_model_goes_to_m3d_and_back_and_says_what_it_cannot_hold() {
+    let [txt, m3d, back, again] = ["still.txt", "still.m3d", "back.txt", "again.txt"].map(|name| out("text", name));
+    let told = convert(FIGURE, &txt, &[]);
+    assert_eq!((&told["format"], &told["dialect"]), (&"txt".into(), &"txt".into()));
+    let losses = codes(&told["losses"]);
+    for code in [
+        "materials-left-out",
+        "tex-coords-left-out",
+        "bones-left-out",
+        "clips-left-out",
+    ] {
+        assert!(losses.contains(&code), "{code}: {losses:?}");
+    }
+    assert_eq!(info(&txt)["counts"]["bones"], 0);
+    assert_eq!(info(&txt)["counts"]["triangles"], info(FIGURE)["counts"]["triangles"]);
+    // The figure is right-handed, which the books' programs are not.
+    assert_eq!(codes(&convert(&txt, &m3d, &[])["changes"]), ["handedness-changed"]);
+    assert_eq!(codes(&convert(&m3d, &back, &[])["losses"]), [""; 0]);
+    assert_eq!(codes(&convert(&back, &again, &[])["changes"]), [""; 0]);
+    let [first, second] = [&back, &again].map(|path| std::fs::read_to_string(path).expect("it is written"));
+    assert!(first == second, "the same to the byte");
+}
+
+#[test]
 fn wrong_use_says_what_is_wrong_and_writes_nothing() {
     let m3d = out("wrong", "out.m3d");
     let glb = out("wrong", "out.glb");
+    let txt = out("wrong", "out.txt");
     let none = out("wrong", "out.obj");
     let lost = format!("{m3d}/no/such/out.m3d");
     #[rustfmt::skip]
     let cases = [
-        (&none, "", "OUT ends in .m3d or .glb"),
+        (&none, "", "OUT ends in .m3d, .glb or .txt"),
+        (&txt, "--for-book", "--for-book is for .m3d"),
         (&glb, "--dialect d3d11", "--dialect is for .m3d"),
         (&glb, "--for-book", "--for-book is for .m3d"),
         (&glb, "--textures-out x", "--textures-out is for .m3d"),

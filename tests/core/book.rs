@@ -154,7 +154,7 @@ proptest! {
         }
         let book = match document.dialect {
             Dialect::D3d12 => Book::D3d12,
-            Dialect::D3d11 | Dialect::Imm => Book::D3d11,
+            Dialect::D3d11 | Dialect::Imm | Dialect::Text => Book::D3d11,
         };
         let text = write(&document);
         let meant = parse(text.as_bytes()).expect("what is written can be read").document;

@@ -28,7 +28,11 @@ pub(super) fn document(model: &Model, dialect: Dialect, looks: &[Look]) -> Docum
     let rests = rests_apart(model);
     let material_names = unique_words(of_subsets(model).map(|material| material.name.as_str()));
     let clip_names = unique_words(model.clips.iter().map(|clip| clip.name.as_str()));
-    let of_subsets = model.mesh.submeshes.iter().map(|submesh| submesh.material as usize);
+    let submeshes = match dialect {
+        Dialect::Text => &[],
+        _ => &model.mesh.submeshes[..],
+    };
+    let of_subsets = submeshes.iter().map(|submesh| submesh.material as usize);
     let materials = of_subsets.map(|material| (&model.materials[material], &looks[material]));
     Document {
         dialect,

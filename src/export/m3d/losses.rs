@@ -45,19 +45,53 @@ fn left_out_of_text(model: &Model, losses: &mut Losses) {
     let Model {
         mesh, materials, clips, ..
     } = model;
-    let has_look = |material: &&Material| **material != Material { name: material.name.clone(), ..Material::default() };
+    let has_look = |material: &&Material| {
+        **material
+            != Material {
+                name: material.name.clone(),
+                ..Material::default()
+            }
+    };
     for (code, count, subject, rest) in [
-        ("materials-left-out", materials.iter().filter(has_look).count(), ["material is", "materials are"], "left out; the format has none."),
-        ("subsets-joined", mesh.submeshes.len().saturating_sub(1), ["more subset is", "more subsets are"], "drawn with the first; the format has no subsets."),
+        (
+            "materials-left-out",
+            materials.iter().filter(has_look).count(),
+            ["material is", "materials are"],
+            "left out; the format has none.",
+        ),
+        (
+            "subsets-joined",
+            mesh.submeshes.len().saturating_sub(1),
+            ["more subset is", "more subsets are"],
+            "drawn with the first; the format has no subsets.",
+        ),
         (
             "tex-coords-left-out",
-            mesh.tex_coords.iter().filter(|tex_coords| **tex_coords != Default::default()).count(),
+            mesh.tex_coords
+                .iter()
+                .filter(|tex_coords| **tex_coords != Default::default())
+                .count(),
             ["vertex has", "vertices have"],
             "texture coordinates; the format has none.",
         ),
-        ("vertex-colors", mesh.colors.len(), ["vertex has", "vertices have"], "a colour; the format has no vertex colours."),
-        ("bones-left-out", model.skeleton.joint_count(), ["bone is", "bones are"], "left out, and the weights of vertices; the format is for what stands still."),
-        ("clips-left-out", clips.len(), ["clip is", "clips are"], "left out; the format is for what stands still."),
+        (
+            "vertex-colors",
+            mesh.colors.len(),
+            ["vertex has", "vertices have"],
+            "a colour; the format has no vertex colours.",
+        ),
+        (
+            "bones-left-out",
+            model.skeleton.joint_count(),
+            ["bone is", "bones are"],
+            "left out, and the weights of vertices; the format is for what stands still.",
+        ),
+        (
+            "clips-left-out",
+            clips.len(),
+            ["clip is", "clips are"],
+            "left out; the format is for what stands still.",
+        ),
     ] {
         losses.count(code, count, subject, rest);
     }

@@ -39,6 +39,11 @@ impl ExportFormat {
         }
     }
 
+    /// Whether the books' programs for skinned models read it.
+    pub fn is_m3d(self) -> bool {
+        matches!(self, Self::D3d12 | Self::D3d11)
+    }
+
     /// The extension of its files.
     pub fn extension(self) -> &'static str {
         match self {

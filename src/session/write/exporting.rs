@@ -173,7 +173,7 @@ impl Session {
             },
             close_loop_secs: options.close_loop_secs,
             reduce: options.reduce,
-            for_book: options.for_book && is_of_book,
+            for_book: options.for_book && options.format.is_m3d(),
             ..Edits::default()
         };
         match self.open_model() {

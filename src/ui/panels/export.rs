@@ -82,7 +82,12 @@ fn choices(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
     ui.add_enabled_ui(!is_saving, |ui| {
         // What moves would stand still in a text model.
         let is_still = open.model.skeleton.joint_count() == 0;
-        let formats = ExportFormat::ALL.into_iter().filter(|&format| is_still || format != ExportFormat::Text);
+        let formats = ExportFormat::ALL
+            .into_iter()
+            .filter(|&format| is_still || format != ExportFormat::Text);
+        if !is_still && choice.options.format == ExportFormat::Text {
+            choice.options.format = ExportFormat::default();
+        }
         let formats: Vec<_> = formats.map(|format| (format, format.label())).collect();
         choose(ui, "Format", &formats, &mut choice.options.format);
         ui.add_space(6.0);
@@ -181,7 +186,7 @@ fn edits(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
 
 /// The switch for what the books' programs need, and what that means.
 fn demo(ui: &mut Ui, options: &mut ExportOptions) {
-    let is_of_book = options.format.dialect().is_some();
+    let is_of_book = options.format.is_m3d();
     ui.add_enabled_ui(is_of_book, |ui| {
         let demo = switch_row(ui, "For the book's demo", "", is_of_book && options.for_book)
             .on_hover_text("Size, names, bones and keys as the books' programs need them");
@@ -191,6 +196,7 @@ fn demo(ui: &mut Ui, options: &mut ExportOptions) {
     });
     let keeps_none = options.clips.as_ref().is_some_and(Vec::is_empty);
     let words = match (is_of_book, options.for_book) {
+        (false, _) if options.format == ExportFormat::Text => "The demos of what stands still read it.",
         (false, _) => "A demo of the books reads .m3d only.",
         (true, true) if keeps_none => "No clip is kept: the demo shows the model standing still.",
         (true, true) => "The demo plays one clip, Take1: the first one that is kept. Maps come along as DDS.",
@@ -284,7 +290,7 @@ fn outcome(ui: &mut Ui, export: Option<Export<'_>>, mended: usize, unfolded: &mu
     if let Some((refusal, options)) = export.and_then(|export| Some((export.refusal?, export.options))) {
         section_name(ui, "Cannot be written");
         sentence(ui, refusal, tokens.error);
-        if options.for_book && options.format.dialect().is_some() {
+        if options.for_book && options.format.is_m3d() {
             let words = "What the demo cannot hold is written when \u{201c}For the book's demo\u{201d} is off.";
             sentence(ui, words, tokens.muted);
         }

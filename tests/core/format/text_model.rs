@@ -16,7 +16,10 @@ fn a_text_model_is_read_and_written_as_it_was() {
     assert_eq!(document.vertices[1].position, [0.0, 1.0, 0.0]);
     assert_eq!(document.vertices[1].normal, [0.0, 0.0, -1.0]);
     assert_eq!(document.triangles, [[0, 1, 2]]);
-    assert_eq!((parsed.lines.vertices, parsed.lines.triangles), (vec![5, 6, 7], vec![11]));
+    assert_eq!(
+        (parsed.lines.vertices, parsed.lines.triangles),
+        (vec![5, 6, 7], vec![11])
+    );
     assert!(parsed.diagnostics.is_empty(), "{:?}", parsed.diagnostics);
     assert_eq!(write(document), TRIANGLE);
     let imported = import::import(TRIANGLE.as_bytes()).expect("a model");
@@ -59,12 +62,30 @@ fn refused(from: &str, to: &str) -> (&'static str, Option<(u32, u32)>, Option<St
 fn what_is_wrong_is_told_with_its_place() {
     let found = |text: &str| Some(text.to_owned());
     assert_eq!(refused("0 1 2", "0 1 3"), ("not-in-range", Some((11, 6)), found("3")));
-    assert_eq!(refused("VertexCount: 3", "VertexCount: 4"), ("row-count", Some((1, 14)), found("3 vertices")));
-    assert_eq!(refused("VertexCount: 3", "VertexCount: 2"), ("row-count", Some((1, 14)), found("3 vertices")));
-    assert_eq!(refused("TriangleCount: 1", "TriangleCount: 2"), ("row-count", Some((2, 16)), found("1 triangle")));
-    assert_eq!(refused("TriangleCount: 1", "TriangleCount: 4294967295"), ("row-count", Some((2, 16)), found("1 triangle")));
-    assert_eq!(refused("\t0 1 0 0 0 -1", "\t0 one 0 0 0 -1"), ("not-a-number", Some((6, 4)), found("one")));
-    assert_eq!(refused("TriangleList", "Triangles"), ("wrong-label", Some((9, 1)), found("Triangles")));
+    assert_eq!(
+        refused("VertexCount: 3", "VertexCount: 4"),
+        ("row-count", Some((1, 14)), found("3 vertices"))
+    );
+    assert_eq!(
+        refused("VertexCount: 3", "VertexCount: 2"),
+        ("row-count", Some((1, 14)), found("3 vertices"))
+    );
+    assert_eq!(
+        refused("TriangleCount: 1", "TriangleCount: 2"),
+        ("row-count", Some((2, 16)), found("1 triangle"))
+    );
+    assert_eq!(
+        refused("TriangleCount: 1", "TriangleCount: 4294967295"),
+        ("row-count", Some((2, 16)), found("1 triangle"))
+    );
+    assert_eq!(
+        refused("\t0 1 0 0 0 -1", "\t0 one 0 0 0 -1"),
+        ("not-a-number", Some((6, 4)), found("one"))
+    );
+    assert_eq!(
+        refused("TriangleList", "Triangles"),
+        ("wrong-label", Some((9, 1)), found("Triangles"))
+    );
     assert_eq!(refused("TriangleList\n{\n\t0 1 2\n}\n", "").0, "unexpected-end");
     assert_eq!(refused("\t1 0 0 0 0 -1\n}", "\t1 0 0").0, "value-missing");
 }
@@ -79,14 +100,25 @@ fn every_beginning_of_a_file_is_an_answer() {
 #[test]
 fn the_books_own_models_are_read() {
     for (name, vertices, triangles) in [("car.txt", 1860, 1850), ("skull.txt", 31_076, 60_339)] {
-        let Some(bytes) = shared_bytes(&format!("models/text/{name}")) else { continue };
+        let Some(bytes) = shared_bytes(&format!("models/text/{name}")) else {
+            continue;
+        };
         let imported = import::import(&bytes).expect("a model");
         assert_eq!(
             (imported.model.mesh.vertex_count(), imported.model.mesh.triangle_count()),
             (vertices, triangles)
         );
-        assert!(imported.diagnostics.iter().all(|diagnostic| diagnostic.code != "no-subsets"), "{name}");
+        assert!(
+            imported
+                .diagnostics
+                .iter()
+                .all(|diagnostic| diagnostic.code != "no-subsets"),
+            "{name}"
+        );
         let parsed = parse(&bytes).expect("sound");
-        assert_eq!(parse(write(&parsed.document).as_bytes()).expect("sound").document, parsed.document);
+        assert_eq!(
+            parse(write(&parsed.document).as_bytes()).expect("sound").document,
+            parsed.document
+        );
     }
 }

@@ -452,7 +452,7 @@ fn green_of_normal_maps_is_written_as_it_was_chosen() {
         assert_eq!(told, flipped, "{format:?}");
         drawn_green(&reopened(file))
     };
-    for format in ExportFormat::ALL {
+    for format in [ExportFormat::Glb, ExportFormat::D3d12, ExportFormat::D3d11] {
         let [plain, flipped] = [false, true].map(|flipped| written_as(&mut session, format, flipped));
         let differ = |(plain, flipped): (&f32, &f32)| (plain + flipped).abs() < 0.01 && plain.abs() > 0.5;
         assert!(
