@@ -43,6 +43,30 @@ async function watchReads(page) {
   });
 }
 
+test("a static model of the books opens, and goes out as it came; a text that is none is told", { draws: true }, async (page) => {
+  const { folder, path } = copyOfSample("box.txt");
+  const corners = [...Array(8).keys()].map((n) => [n & 1, (n >> 1) & 1, n >> 2].map((side) => 2 * side - 1));
+  const rows = corners.map((at) => `\t${at.join(" ")} ${at.map((side) => (side * Math.sqrt(1 / 3)).toFixed(6)).join(" ")}`);
+  const faces = ["0 2 1", "1 2 3", "4 5 6", "5 7 6", "0 1 4", "1 5 4", "2 6 3", "3 6 7", "0 4 2", "2 4 6", "1 3 5", "3 7 5"];
+  const text = `VertexCount: 8\r\nTriangleCount: 12\r\nVertexList (pos, normal)\r\n{\r\n${rows.join("\r\n")}\r\n}\r\nTriangleList\r\n{\r\n\t${faces.join("\r\n\t")}\r\n}\r\n`;
+  writeFileSync(path, text);
+  const { outcome, model, notices, book } = await dropAndWait(page, [path]);
+  assert.equal(outcome, "load");
+  assert.deepEqual([model.dialect, model.counts.triangles, model.counts.bones, book.d3d12, book.converted.fits], ["txt", 12, 0, null, true]);
+  assert.deepEqual(notices.filter(({ severity }) => severity !== "note"), []);
+  assertDrawn(await picture(page));
+  await keep(page, "text-model");
+  const { name, bytes, losses } = await page.evaluate(() => bindpose.export({ format: "txt" }).then(({ name, bytes, losses }) => ({ name, losses, bytes: new TextDecoder().decode(bytes) })));
+  assert.deepEqual([name, losses], ["box.txt", []]);
+  const numbers = (text) => text.match(/-?[\d.]+/g).map(Number);
+  numbers(bytes).forEach((number, index) => assert.ok(Math.abs(number - numbers(text)[index]) < 1e-5, `number ${index}`));
+  const letter = join(folder, "letter.txt");
+  writeFileSync(letter, "Dear reader,\n");
+  const told = await dropAndWait(page, [letter]);
+  assert.deepEqual([told.outcome, told.error.code], ["error", "not-m3d"]);
+  assert.equal((await state(page)).model.name, "box.txt", "what was on screen stays");
+});
+
 test("a dropped folder opens with the paths in it", { own: true }, async (page) => {
   const { folder } = copyOfSample("pack", "models", "deep", "hero.m3d");
   writeFileSync(join(folder, "pack", "readme.md"), "not for the viewer");

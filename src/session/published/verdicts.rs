@@ -51,6 +51,9 @@ pub(in crate::session) fn missing_maps(maps: &Maps) -> Option<&[String]> {
 }
 
 async fn of_books(open: &OpenModel, maps: &Maps, slices: &Slices) -> Vec<Verdict> {
+    if open.format.dialect().is_none() {
+        return Vec::new();
+    }
     let bytes = &open.file.bytes;
     let count = Book::ALL.len();
     // Reading the file again takes about as long as the program of a book does.
