@@ -76,7 +76,7 @@ async fn run(canvas: HtmlCanvasElement, chosen: Chosen, shared: &Rc<Shared>, sta
         device: started.device,
         queue: started.queue,
         drawn: started.drawn,
-        context_watch: context_watch,
+        context_watch,
     })
 }
 
