@@ -17,7 +17,7 @@ import { printView } from "./printing.js";
 import { backend, compile, fetchProgram, first, options } from "./program.js";
 import { keepDrawn } from "./restart.js";
 import { saveFile, savePicture } from "./saving.js";
-import { fetchFrom, fetchOwn, readAgain, rememberSources } from "./sources.js";
+import { decoded, fetchFrom, fetchOwn, readAgain, rememberSources } from "./sources.js";
 
 /** The sample: the model, then its maps. Addresses may carry a hash, names never do. */
 const SAMPLE = {
@@ -448,7 +448,7 @@ async function fetchNamed(addresses) {
   };
   bindpose.ready.then(() => {
     if (stop.signal.aborted) return;
-    fetching = viewer.beginFetching(decodeURIComponent(addresses[0].split(/[?#]/)[0].split("/").pop()));
+    fetching = viewer.beginFetching(decoded(addresses[0].split(/[?#]/)[0].split("/").pop()));
     viewer.noteFetched(fetching, ...before);
   }, () => {});
   // A server that answers nothing is given up too.

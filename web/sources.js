@@ -17,6 +17,15 @@ export function recordOf(item) {
   return { name, bytes };
 }
 
+/** A part of an address as people read it, or as it is where it cannot be read so. */
+export function decoded(text) {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return text;
+  }
+}
+
 /** The file at an address of this site. */
 export async function fetchOwn(address, name) {
   const response = await fetch(address);
@@ -62,7 +71,7 @@ async function namedBy({ name, bytes }, url) {
   try {
     const { buffers = [], images = [] } = JSON.parse(await bytes.text());
     const paths = new Set([...buffers, ...images].map(({ uri }) => uri).filter((uri) => typeof uri === "string" && !uri.startsWith("data:")));
-    const named = [...paths].map((path) => [decodeURIComponent(path), new URL(path, url)]);
+    const named = [...paths].map((path) => [decoded(path), new URL(path, url)]);
     return named.filter(([, address]) => address.origin === url.origin);
   } catch {
     return []; // The viewer tells what is wrong with it.
@@ -101,7 +110,7 @@ export async function fetchFrom(addresses, { began, got, signal }) {
     if (room < 0) throw new Error(`${url.host} sends more than ${MOST_BYTES >> 20} MiB, the most that can be opened at once`);
     return { name, bytes: new Blob(pieces) };
   };
-  const asked = addresses.map(addressOf).map((url) => [decodeURIComponent(url.pathname.split("/").pop()), url]);
+  const asked = addresses.map(addressOf).map((url) => [decoded(url.pathname.split("/").pop()), url]);
   const orNone = (one) =>
     fetchOne(one).catch((error) => {
       if (signal.aborted) throw error;

@@ -83,6 +83,7 @@ test("what a server does not give is told by what happened", { bare: true, expec
     for (const [address, words] of [
       [`${server}/closed/figure.m3d`, `${host} does not let other pages read /closed/figure.m3d`],
       [`${server}/models/other.m3d`, `${host} has no /models/other.m3d`],
+      [`${server}/models/100%.m3d`, `${host} has no /models/100%.m3d`],
       [`${server}/failing/figure.m3d`, `${host} answered 503 for /failing/figure.m3d`],
       [`${server}/broken/figure.m3d`, `${host} broke off after 1000 of `],
       ["http://127.0.0.1:9/figure.m3d", "127.0.0.1:9 did not answer"],
