@@ -256,9 +256,14 @@ test("a poster and progress are seen until the model is, also those of the page;
 test("what is asked early is done when the model is there; what is asked again is shown again; a wrong name is a warning", {
   draws: true,
   ...pageOf(`<meta name="color-scheme" content="dark"><bindpose-viewer id="a" src="web/sample/figure.m3d web/nothing.png"></bindpose-viewer>
+    <script>
+      // Before the module is there.
+      const early = document.getElementById("a");
+      early.clip = "Run";
+      early.bone = "5";
+    </script>
     <script type="module">
       const viewer = document.getElementById("a");
-      viewer.clip = "Run";
       viewer.currentTime = 0.25;
       viewer.loop = true;
     </script>`),
@@ -267,8 +272,8 @@ test("what is asked early is done when the model is there; what is asked again i
   const warned = [];
   page.on("console", (message) => message.type() === "warning" && message.text().includes("bindpose-viewer") && warned.push(message.text()));
   await hears(page, "a", "load");
-  const { clip, currentTime, yaw } = await seen(page, "a");
-  assert.deepEqual([clip, currentTime], ["Run", 0.25], "and the picture that is not there leaves the model");
+  const { clip, currentTime, yaw, bone } = await seen(page, "a");
+  assert.deepEqual([clip, currentTime, bone], ["Run", 0.25, 5], "and the picture that is not there leaves the model");
   const set = (name, value) => page.evaluate(([name, value]) => void (document.getElementById("a")[name] = value), [name, value]);
   const camera = () => page.evaluate(() => document.getElementById("a").state().camera);
   await set("camera", "right");
@@ -289,6 +294,10 @@ test("what is asked early is done when the model is there; what is asked again i
   assert.equal((await seen(page, "a")).clip, "Run");
   await page.waitForTimeout(50);
   assert.match(warned.join(), /not understood, or not in figure\.m3d: bone .*: clip/);
+  await set("bone", null);
+  await set("skeleton", true);
+  await set("skeleton", false);
+  assert.deepEqual([await camera(), (await seen(page, "a")).bones], [dragged, false], "nor do those that are taken away");
   await set("camera", "right");
   assert.deepEqual(await camera(), right);
   await set("link", "clip=Walk&t=0.5&bones=1");
@@ -296,8 +305,8 @@ test("what is asked early is done when the model is there; what is asked again i
   await set("link", "clip=Walk&t=0.5&bones=1");
   const again = await seen(page, "a");
   assert.deepEqual([again.clip, again.currentTime, again.bones], ["Walk", 0.5, true]);
-  await set("skeleton", "false");
-  assert.equal((await seen(page, "a")).bones, false);
+  await set("skeleton", false);
+  assert.equal((await seen(page, "a")).bones, false, "bones of a link, too");
 
   // The theme is the page's, where the element is; a colour of a style is behind the model.
   const corner = () =>
@@ -327,6 +336,9 @@ test("what is asked early is done when the model is there; what is asked again i
   });
   await hears(page, "a", "load", 2);
   assert.deepEqual(await corner(), [10, 90, 20]);
+  await page.evaluate(() => document.getElementById("a").style.setProperty("--bindpose-background", "rgb(90 20 10)"));
+  await page.waitForTimeout(200);
+  assert.deepEqual(await corner(), [90, 20, 10], "a style that changes");
 });
 
 test("in a flex box, in what is folded away, hidden and shown, a viewer has its size and draws only in sight", {

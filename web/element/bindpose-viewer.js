@@ -12,6 +12,8 @@ const FIELDS = {
   clip: "clip", "current-time": "t", speed: "speed", loop: "loop", camera: "cam", light: "light", background: "bg", "view-mode": "view",
   bone: "bone", skeleton: "bones",
 };
+/** What an attribute that is taken away leaves, where that is something. */
+const FIRST = { bone: "", bones: 0, light: "studio", bg: "backdrop", view: "lit", speed: 1 };
 const OTHERS = ["src", "link", "ui", "alt", "poster", "interaction", "loading"];
 
 /** What shows is in sight when it is this near to the window. */
@@ -82,11 +84,21 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     this.#transport.bar.hidden = this.ui !== "transport";
     this.#transport.update();
     letScroll(this.#view);
-    this.#view.addEventListener("transitionend", () => this.#life?.viewer?.setTheme?.(this.#theme));
+    // The styles of the page have changed.
+    frame.addEventListener("transitionend", ({ target }) => {
+      if (target === this.#view) this.#life?.viewer?.setTheme?.(this.#theme);
+      if (target === frame && this.#life?.isShown && !this.hasAttribute("background")) this.#life.follow(`bg=${this.#behind ?? FIRST.bg}`, true);
+    });
     this.#sight = globalThis.IntersectionObserver && new IntersectionObserver((entries) => this.#see(entries.at(-1).isIntersecting), { rootMargin: NEAR });
   }
 
   connectedCallback() {
+    // What scripts set before the module was there hides what the element has by these names.
+    for (const name of Object.keys(this).filter((name) => name in BindposeViewerElement.prototype)) {
+      const value = this[name];
+      delete this[name];
+      this[name] = value;
+    }
     this.#showPoster(true);
     this.#sight?.observe(this);
     if (this.loading !== "lazy" || this.#isNear) this.#begin();
@@ -236,14 +248,20 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     }
     fields.set("play", Number(this.hasAttribute("autoplay") && !prefersStill()));
     for (const [field, value] of this.#linked) fields.set(field, value);
-    const behind = getComputedStyle(this.#view.closest(".frame")).backgroundColor;
-    if (!fields.has("bg") && getComputedStyle(this).getPropertyValue("--bindpose-background") && behind.startsWith("rgb(")) fields.set("bg", encodeURIComponent(hexOf(behind)));
+    if (!fields.has("bg") && this.#behind) fields.set("bg", this.#behind);
     return textOf(fields);
   }
 
   /** The fields of the attribute `link`. */
   get #linked() {
     return fieldsOf((this.getAttribute("link") ?? "").replace(/^.*#/, ""));
+  }
+
+  /** The colour that the page's styles have behind the model, as links have it; `null` for none. */
+  get #behind() {
+    const { backgroundColor } = getComputedStyle(this.#view.closest(".frame"));
+    const isNamed = getComputedStyle(this).getPropertyValue("--bindpose-background") !== "";
+    return isNamed && backgroundColor.startsWith("rgb(") ? encodeURIComponent(hexOf(backgroundColor)) : null;
   }
 
   /** `light` or `dark`, as the page has it where the element is. */
@@ -338,14 +356,9 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
   #follow(name) {
     const life = this.#life;
     if (!life?.files || life.over) return;
+    const value = this.#valueOf(name) ?? FIRST[FIELDS[name]];
     if (name === "link") life.follow(textOf(this.#linked), true);
-    else if (this.#valueOf(name) !== null) life.follow(textOf([[FIELDS[name], this.#valueOf(name)]]), true);
-    else {
-      // It is as a first visit has it.
-      const fields = fieldsOf(life.moment());
-      fields.delete(FIELDS[name]);
-      life.follow(textOf(fields));
-    }
+    else if (value !== undefined) life.follow(textOf([[FIELDS[name], value]]), true);
     this.#transport.update();
   }
 
@@ -375,7 +388,9 @@ for (const attribute of [...BindposeViewerElement.observedAttributes, "autoplay"
       return this.getAttribute(attribute) ?? "";
     },
     set(value) {
-      if (value === false || value === null) this.removeAttribute(attribute);
+      // Bones that a link shows are hidden too.
+      if (value === false && attribute === "skeleton") this.setAttribute(attribute, "false");
+      else if (value === false || value === null) this.removeAttribute(attribute);
       else this.setAttribute(attribute, value === true ? "" : value);
     },
     enumerable: true,

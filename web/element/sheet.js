@@ -6,7 +6,7 @@ export const SHEET = `
 /* A page's theme is known by the colour of .view, which bindpose-viewer.js reads. */
 .frame { all: initial; color-scheme: inherit; position: relative; width: 100%; height: 100%; aspect-ratio: 4 / 3; display: flex; flex-direction: column; container-type: size; overflow: hidden;
   font: 13px/1.4 system-ui, sans-serif; color: var(--bindpose-text, light-dark(#1b2029, #e7eaf0)); background: var(--bindpose-background, light-dark(#e3e6eb, #22262e));
-  border-radius: var(--bindpose-radius, 0); --accent: var(--bindpose-accent, light-dark(#1f6fd0, #5aa9ff)); }
+  border-radius: var(--bindpose-radius, 0); transition: background-color 1ms; --accent: var(--bindpose-accent, light-dark(#1f6fd0, #5aa9ff)); }
 .stage { position: relative; flex: 1; min-height: 0; }
 .view, .view canvas, .over { position: absolute; inset: 0; width: 100%; height: 100%; }
 .view { color: light-dark(#000, #fff); transition: color 1ms; }
