@@ -48,6 +48,7 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     theme: () => this.#theme,
   };
   #life = null;
+  #wasBehind = null;
   #later = []; // What was asked of a model that is not there yet.
   #kept = null;
   #view;
@@ -87,7 +88,9 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     // The styles of the page have changed.
     frame.addEventListener("transitionend", ({ target }) => {
       if (target === this.#view) this.#life?.viewer?.setTheme?.(this.#theme);
-      if (target === frame && this.#life?.isShown && !this.hasAttribute("background")) this.#life.follow(`bg=${this.#behind ?? FIRST.bg}`, true);
+      if (target !== frame || !this.#life?.isShown || this.#behind === this.#wasBehind || this.hasAttribute("background")) return;
+      this.#wasBehind = this.#behind;
+      this.#life.follow(`bg=${this.#behind ?? FIRST.bg}`, true);
     });
     this.#sight = globalThis.IntersectionObserver && new IntersectionObserver((entries) => this.#see(entries.at(-1).isIntersecting), { rootMargin: NEAR });
   }
@@ -248,6 +251,7 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     }
     fields.set("play", Number(this.hasAttribute("autoplay") && !prefersStill()));
     for (const [field, value] of this.#linked) fields.set(field, value);
+    this.#wasBehind = this.#behind;
     if (!fields.has("bg") && this.#behind) fields.set("bg", this.#behind);
     return textOf(fields);
   }
