@@ -46,6 +46,7 @@ pub mod contact_sheet;
 pub mod diagnostic;
 pub mod edit;
 pub mod export;
+pub mod fbx;
 pub mod format;
 pub mod gestures;
 pub mod gltf;

@@ -444,6 +444,20 @@ table! {
             "Turn the signs of a quaternion where its dot product with the one before is negative.", OnReading;
     }
 
+    /// What reading an FBX file gives ([`fbx`](crate::fbx)).
+    OF_FBX {
+        FBX_DAMAGED = "fbx-damaged", Error,
+            "A record of an FBX file is damaged.",
+            "The message says what does not fit. The file was not written or copied to its end, or another program changed it.",
+            "The file is not opened.",
+            "Copy or export the file again.";
+        FBX_VERSION = "fbx-version", Error,
+            "The file is of a version of FBX that is not read.",
+            "Versions before 6.1 are laid out differently.",
+            "The file is not opened.",
+            "Export it as FBX 2014 or later, or convert it with Autodesk's FBX Converter.";
+    }
+
     /// What reading a glTF file gives ([`gltf`](crate::gltf)), beside codes above.
     OF_GLTF {
         GLB_DAMAGED = "glb-damaged", Error,

@@ -9,6 +9,7 @@ mod codes;
 mod documents;
 mod edit;
 mod export;
+mod fbx;
 mod format;
 mod gestures;
 mod gltf;

@@ -1,0 +1,300 @@
+//! Files of text.
+
+use std::borrow::Cow;
+
+use super::array::{Array, Content};
+use super::{Document, Growing, Place, Record, Value, check_version};
+use crate::diagnostic::{Fault, Position};
+use crate::slices::Slices;
+
+/// More numbers in a row than these are an array, as those of version 6.1 are that have no `*`.
+const MOST_SINGLE: usize = 16;
+
+/// Whether the first line that is no blank is a comment which names FBX, or a record of its header.
+pub(super) fn begins(bytes: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    let line = bytes.split(|byte| matches!(byte, b'\n' | b'\r')).next().unwrap_or_default();
+    (line.starts_with(b";") && memchr::memmem::find(line, b"FBX").is_some()) || line.starts_with(b"FBXHeaderExtension")
+}
+
+struct Reader<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    line: u32,
+    line_start: usize,
+}
+
+pub(super) async fn parse<'a>(bytes: &'a [u8], slices: &Slices) -> Result<Document<'a>, Fault> {
+    let mut reader = Reader {
+        bytes,
+        at: bytes.len() - bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).len(),
+        line: 1,
+        line_start: 0,
+    };
+    let told = version_of_comment(bytes);
+    if let Some(version) = told {
+        check_version(version, reader.place())?;
+    }
+    let mut growing = Growing::default();
+    for count in 0.. {
+        slices.pause_before(count).await;
+        reader.skip_space();
+        let place = reader.place();
+        match reader.peek() {
+            None => break,
+            Some(b'}') => {
+                reader.at += 1;
+                if !growing.close() {
+                    return Err(place.damaged("A } ends what did not begin."));
+                }
+            }
+            Some(_) => {
+                let record = reader.record()?;
+                reader.skip_space();
+                if reader.peek() == Some(b'{') {
+                    reader.at += 1;
+                    growing.open(record)?;
+                } else {
+                    growing.add(record);
+                }
+            }
+        }
+    }
+    if let Some(open) = growing.open.last() {
+        let message = format!("The file ends in {}, which begins in another line.", open.name);
+        return Err(reader.place().damaged(message));
+    }
+    let document = Document {
+        version: told.unwrap_or_default(),
+        is_binary: false,
+        records: growing.done,
+    };
+    let said = document
+        .find("FBXHeaderExtension")
+        .and_then(|header| header.find("FBXVersion"))
+        .and_then(|version| Some((u32::try_from(version.integer(0)?).ok()?, version.place)));
+    let Some((version, place)) = said else {
+        check_version(document.version, Place::At(Position { line: 1, column: 1 }))?;
+        return Ok(document);
+    };
+    check_version(version, place)?;
+    Ok(Document { version, ..document })
+}
+
+/// Of a first line such as `; FBX 7.3.0 project file`.
+fn version_of_comment(bytes: &[u8]) -> Option<u32> {
+    let line = bytes.split(|byte| matches!(byte, b'\n' | b'\r')).next()?;
+    let at = memchr::memmem::find(line, b"FBX ")?;
+    let mut parts = std::str::from_utf8(line.get(at + 4..)?).ok()?.split(['.', ' ']);
+    let mut part = || parts.next()?.parse::<u32>().ok().filter(|part| *part < 100);
+    Some(part()? * 1000 + part()? * 100)
+}
+
+impl<'a> Reader<'a> {
+    fn place(&self) -> Place {
+        let column = u32::try_from(self.at - self.line_start).unwrap_or(u32::MAX - 1);
+        Place::At(Position {
+            line: self.line,
+            column: column + 1,
+        })
+    }
+
+    fn peek(&self) -> Option<u8> {
+        self.bytes.get(self.at).copied()
+    }
+
+    /// Passes blanks, line ends and comments. Gives whether a line ended.
+    fn skip_space(&mut self) -> bool {
+        let line = self.line;
+        while let Some(byte) = self.peek() {
+            match byte {
+                b';' => self.at += self.bytes[self.at..].iter().take_while(|byte| **byte != b'\n').count(),
+                b'\n' => {
+                    self.at += 1;
+                    self.line += 1;
+                    self.line_start = self.at;
+                }
+                b' ' | b'\t' | b'\r' | 0 => self.at += 1,
+                _ => break,
+            }
+        }
+        self.line > line
+    }
+
+    /// What stands up to a character that ends a word.
+    fn word(&mut self) -> &'a [u8] {
+        let rest = &self.bytes[self.at..];
+        let ends = |byte: &u8| matches!(byte, b' ' | b'\t' | b'\r' | b'\n' | b',' | b':' | b'{' | b'}' | b'"' | b';' | b'*');
+        let len = rest.iter().position(ends).unwrap_or(rest.len());
+        self.at += len;
+        &rest[..len]
+    }
+
+    /// A name, its colon and its values.
+    fn record(&mut self) -> Result<Record<'a>, Fault> {
+        let place = self.place();
+        let name = String::from_utf8_lossy(self.word());
+        let has_blank = self.skip_space();
+        if name.is_empty() || has_blank || self.peek() != Some(b':') {
+            let found = match self.peek() {
+                Some(byte) if name.is_empty() => char::from(byte).escape_default().to_string(),
+                _ => name.into_owned(),
+            };
+            return Err(place.damaged(format!("A record was expected, such as \"Objects:\", and \"{found}\" stands here.")));
+        }
+        self.at += 1;
+        Ok(Record {
+            values: self.values()?,
+            name,
+            records: Vec::new(),
+            place,
+        })
+    }
+
+    /// The values behind a colon. They go on in other lines where a comma stands between.
+    fn values(&mut self) -> Result<Vec<Value<'a>>, Fault> {
+        let mut values = Vec::new();
+        let mut is_next_line = self.skip_space();
+        // `Content: ,` begins with one.
+        let mut has_comma = self.pass_comma();
+        while has_comma || (values.is_empty() && !is_next_line) {
+            match self.peek() {
+                None | Some(b'{' | b'}') => break,
+                Some(_) => values.push(self.value()?),
+            }
+            is_next_line = self.skip_space();
+            has_comma = self.pass_comma();
+        }
+        if values.len() <= MOST_SINGLE {
+            return Ok(values);
+        }
+        let integers = values.iter().map(|value| match value {
+            Value::Integer(integer) => Some(*integer),
+            _ => None,
+        });
+        let numbers = values.iter().map(|value| match value {
+            Value::Integer(integer) => Some(*integer as f64),
+            Value::Number(number) => Some(*number),
+            _ => None,
+        });
+        let integers: Option<Vec<_>> = integers.collect();
+        let content = integers.map(Content::Integers).or_else(|| numbers.collect::<Option<_>>().map(Content::Numbers));
+        Ok(match content {
+            Some(content) => vec![Value::Array(Array(content))],
+            None => values,
+        })
+    }
+
+    fn pass_comma(&mut self) -> bool {
+        let has_comma = self.peek() == Some(b',');
+        if has_comma {
+            self.at += 1;
+            self.skip_space();
+        }
+        has_comma
+    }
+
+    fn value(&mut self) -> Result<Value<'a>, Fault> {
+        let place = self.place();
+        match self.peek() {
+            Some(b'"') => self.quoted(),
+            Some(b'*') => self.array(),
+            _ => {
+                let word = self.word();
+                if word.is_empty() {
+                    let found = self.peek().map_or_else(String::new, |byte| char::from(byte).escape_default().to_string());
+                    return Err(place.damaged(format!("A value was expected, and \"{found}\" stands here.")));
+                }
+                Ok(number(word).unwrap_or(Value::Text(Cow::Borrowed(word))))
+            }
+        }
+    }
+
+    fn quoted(&mut self) -> Result<Value<'a>, Fault> {
+        let place = self.place();
+        let rest = &self.bytes[self.at + 1..];
+        let Some(len) = memchr::memchr(b'"', rest) else {
+            return Err(place.damaged("A text begins here and does not end."));
+        };
+        let text = &rest[..len];
+        self.line += memchr::memchr_iter(b'\n', text).count() as u32;
+        if let Some(last) = memchr::memrchr(b'\n', text) {
+            self.line_start = self.at + 1 + last + 1;
+        }
+        self.at += len + 2;
+        if memchr::memchr(b'&', text).is_none() {
+            return Ok(Value::Text(Cow::Borrowed(text)));
+        }
+        let text = String::from_utf8_lossy(text);
+        let plain = text.replace("&quot;", "\"").replace("&lf;", "\n").replace("&cr;", "\r");
+        Ok(Value::Text(Cow::Owned(plain.into_bytes())))
+    }
+
+    /// `*3 { a: 1,2,3 }`.
+    fn array(&mut self) -> Result<Value<'a>, Fault> {
+        let place = self.place();
+        self.at += 1;
+        let count = self.word();
+        self.skip_space();
+        let opens = self.peek() == Some(b'{');
+        self.at += usize::from(opens);
+        self.skip_space();
+        let is_named = opens && (self.peek() == Some(b'}') || (self.word() == b"a" && self.peek() == Some(b':')));
+        if !is_named {
+            return Err(place.damaged("Behind * and the count of an array \"{ a:\" was expected."));
+        }
+        let values = if self.peek() == Some(b':') {
+            self.at += 1;
+            self.values()?
+        } else {
+            Vec::new()
+        };
+        self.skip_space();
+        if self.peek() != Some(b'}') {
+            return Err(self.place().damaged("An array has more than numbers, or does not end."));
+        }
+        self.at += 1;
+        let array = match <[Value<'a>; 1]>::try_from(values) {
+            Ok([Value::Array(array)]) => array,
+            Ok([single]) => numbers_of(vec![single]),
+            Err(values) => numbers_of(values),
+        };
+        let said = std::str::from_utf8(count).ok().and_then(|count| count.parse::<usize>().ok());
+        if said != Some(array.len()) {
+            let said = String::from_utf8_lossy(count);
+            return Err(place.damaged(format!("An array says that it has {said} numbers, and has {}.", array.len())));
+        }
+        Ok(Value::Array(array))
+    }
+}
+
+/// An array of few values; those that are no numbers are left out, so that their count tells of them.
+fn numbers_of(values: Vec<Value<'_>>) -> Array<'static> {
+    let numbers = values.into_iter().filter_map(|value| match value {
+        Value::Integer(integer) => Some(integer as f64),
+        Value::Number(number) => Some(number),
+        _ => None,
+    });
+    Array(Content::Numbers(numbers.collect()))
+}
+
+/// A number, whole or not; `None` for a word. Some writers have `1.#INF`.
+fn number(word: &[u8]) -> Option<Value<'static>> {
+    let is_number = matches!(word[0], b'0'..=b'9' | b'-' | b'+' | b'.');
+    if !is_number {
+        return None;
+    }
+    if word.len() < 20
+        && let Some(integer) = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok())
+    {
+        return Some(Value::Integer(integer));
+    }
+    if let Ok(number) = fast_float2::parse(word) {
+        return Some(Value::Number(number));
+    }
+    let text = std::str::from_utf8(word).ok()?;
+    let (_, special) = text.split_once('#')?;
+    let is_infinite = special.starts_with("INF");
+    let sign = if text.starts_with('-') { -1.0 } else { 1.0 };
+    Some(Value::Number(if is_infinite { sign * f64::INFINITY } else { f64::NAN }))
+}
