@@ -1,0 +1,304 @@
+//! A geometry of a file: polygons with what their corners have, as triangles over vertices that differ in something.
+
+use std::collections::HashMap;
+
+use crate::diagnostic::Fault;
+use crate::fbx::{Budget, Place, Record};
+use crate::import::scene::Vertices;
+
+/// Triangles of one material, by its place among those of the node.
+pub(super) struct Part {
+    pub(super) material: usize,
+    pub(super) triangles: Vec<[u32; 3]>,
+}
+
+/// A geometry as vertices and triangles.
+#[derive(Default)]
+pub(super) struct Geometry {
+    pub(super) vertices: Vertices,
+    /// The control point of each vertex: weights are of these.
+    pub(super) control_points: Vec<u32>,
+    pub(super) control_point_count: usize,
+    pub(super) parts: Vec<Part>,
+    /// Polygons of one or two corners.
+    pub(super) left_out: usize,
+}
+
+/// How the values of a layer belong to corners.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Mapping {
+    Corner,
+    ControlPoint,
+    Polygon,
+    All,
+}
+
+/// Values of corners: normals, texture coordinates and so on.
+struct Layer {
+    mapping: Mapping,
+    /// Which value each corner, control point or polygon has; empty where they are in that order themselves.
+    indices: Vec<i64>,
+    values: Vec<f64>,
+    width: usize,
+}
+
+/// Where a corner is.
+#[derive(Clone, Copy)]
+struct Corner {
+    index: usize,
+    control_point: u32,
+    polygon: usize,
+}
+
+impl Layer {
+    /// The first layer of this name, such as `LayerElementNormal` with `Normals` and `NormalsIndex`; `None` where there is none, or by edges.
+    fn first(record: &Record<'_>, [layer, values, indices]: [&str; 3], width: usize, budget: &Budget) -> Result<Option<Self>, Fault> {
+        let mut all = record.all(layer);
+        let Some(found) = all.next() else { return Ok(None) };
+        Self::read(found, values, indices, width, budget)
+    }
+
+    fn read(record: &Record<'_>, values: &str, indices: &str, width: usize, budget: &Budget) -> Result<Option<Self>, Fault> {
+        let word = |name: &str| record.find(name).and_then(|record| record.text(0)).unwrap_or_default();
+        let mapping = match &*word("MappingInformationType") {
+            "ByPolygonVertex" => Mapping::Corner,
+            "ByVertex" | "ByVertice" => Mapping::ControlPoint,
+            "ByPolygon" => Mapping::Polygon,
+            "AllSame" => Mapping::All,
+            _ => return Ok(None),
+        };
+        let is_indexed = word("ReferenceInformationType").starts_with("Index");
+        let indices = match record.find(indices).filter(|_| is_indexed) {
+            Some(indices) => indices.integers(budget)?,
+            None => Vec::new(),
+        };
+        let Some(values) = record.find(values) else { return Ok(None) };
+        Ok(Some(Self {
+            mapping,
+            indices,
+            values: values.numbers(budget)?,
+            width,
+        }))
+    }
+
+    /// Which value a corner has; `None` where the file has none for it.
+    fn index(&self, corner: Corner) -> Option<usize> {
+        let place = match self.mapping {
+            Mapping::Corner => corner.index,
+            Mapping::ControlPoint => corner.control_point as usize,
+            Mapping::Polygon => corner.polygon,
+            Mapping::All => 0,
+        };
+        let index = match self.indices.is_empty() {
+            true => place,
+            false => usize::try_from(*self.indices.get(place)?).ok()?,
+        };
+        (index < self.values.len() / self.width).then_some(index)
+    }
+
+    fn value<const WIDTH: usize>(&self, index: Option<usize>) -> [f32; WIDTH] {
+        let mut value = [0.0; WIDTH];
+        if let Some(index) = index {
+            let stored = &self.values[index * self.width..][..self.width.min(WIDTH)];
+            for (to, from) in value.iter_mut().zip(stored) {
+                *to = *from as f32;
+            }
+        }
+        value
+    }
+}
+
+/// The polygons of a geometry, each as a range of its corners.
+fn polygons(corners: &[i64]) -> impl Iterator<Item = std::ops::Range<usize>> {
+    let mut start = 0;
+    let ends = corners.iter().enumerate().filter(|(_, corner)| **corner < 0);
+    ends.map(move |(end, _)| std::mem::replace(&mut start, end + 1)..end + 1)
+}
+
+/// Reads a geometry.
+///
+/// # Errors
+/// When an array is damaged, or a corner names a control point that is not there.
+pub(super) fn read(record: &Record<'_>, budget: &Budget) -> Result<Geometry, Fault> {
+    let numbers = |name: &str| record.find(name).map_or_else(|| Ok(Vec::new()), |found| found.numbers(budget));
+    let positions = numbers("Vertices")?;
+    let (points, _) = positions.as_chunks::<3>();
+    let Some(corners_record) = record.find("PolygonVertexIndex") else {
+        return Ok(Geometry::default());
+    };
+    let corners = corners_record.integers(budget)?;
+    let layer = |names, width| Layer::first(record, names, width, budget);
+    let normals = layer(["LayerElementNormal", "Normals", "NormalsIndex"], 3)?;
+    let tangents = layer(["LayerElementTangent", "Tangents", "TangentsIndex"], 3)?;
+    let colors = layer(["LayerElementColor", "Colors", "ColorIndex"], 4)?;
+    let mut uv = record.all("LayerElementUV");
+    let mut next_uv = || uv.next().map_or(Ok(None), |found| Layer::read(found, "UV", "UVIndex", 2, budget));
+    let layers = [normals, next_uv()?, next_uv()?, colors, tangents];
+    let materials = material_layer(record, budget)?;
+
+    let mut geometry = Geometry {
+        control_point_count: points.len(),
+        ..Geometry::default()
+    };
+    let mut known: HashMap<(u32, [Option<usize>; 5]), u32> = HashMap::new();
+    let mut parts: HashMap<usize, usize> = HashMap::new();
+    let mut of_polygon: Vec<u32> = Vec::new();
+    for (polygon, range) in polygons(&corners).enumerate() {
+        of_polygon.clear();
+        for index in range {
+            let stored = corners[index];
+            // The last corner of a polygon is stored as its complement.
+            let control_point = if stored < 0 { !stored } else { stored };
+            let point = usize::try_from(control_point).ok().and_then(|index| points.get(index));
+            let Some(&point) = point else {
+                return Err(out_of_range(corners_record.place, control_point, points.len()));
+            };
+            let corner = Corner {
+                index,
+                control_point: control_point as u32,
+                polygon,
+            };
+            let values = layers.each_ref().map(|layer| layer.as_ref()?.index(corner));
+            let next = geometry.control_points.len() as u32;
+            let vertex = *known.entry((corner.control_point, values)).or_insert(next);
+            if vertex == next {
+                geometry.control_points.push(corner.control_point);
+                push(&mut geometry.vertices, point, &layers, values);
+            }
+            of_polygon.push(vertex);
+        }
+        if of_polygon.len() < 3 {
+            geometry.left_out += 1;
+            continue;
+        }
+        let corner = Corner {
+            index: 0,
+            control_point: 0,
+            polygon,
+        };
+        let material = materials.as_ref().and_then(|layer| layer.material(corner)).unwrap_or(0);
+        let part = *parts.entry(material).or_insert(geometry.parts.len());
+        if part == geometry.parts.len() {
+            geometry.parts.push(Part {
+                material,
+                triangles: Vec::new(),
+            });
+        }
+        let positions = &geometry.vertices.positions;
+        triangulate(&of_polygon, positions, &mut geometry.parts[part].triangles);
+    }
+    geometry.parts.sort_by_key(|part| part.material);
+    Ok(geometry)
+}
+
+fn out_of_range(place: Place, index: i64, count: usize) -> Fault {
+    let message = format!("A polygon names control point {index}, but there are {count}.");
+    Box::new(place.says(&crate::diagnostic::codes::VERTEX_OUT_OF_RANGE, message))
+}
+
+/// Adds a vertex; streams that the geometry does not have stay empty.
+fn push(vertices: &mut Vertices, point: [f64; 3], layers: &[Option<Layer>; 5], values: [Option<usize>; 5]) {
+    let [normals, uv, second_uv, colors, tangents] = layers;
+    let [normal, first, second, color, tangent] = values;
+    vertices.positions.push(point.map(|number| number as f32));
+    if let Some(layer) = normals {
+        vertices.normals.push(layer.value(normal));
+    }
+    // v runs upwards in FBX.
+    let turned = |[u, v]: [f32; 2]| [u, 1.0 - v];
+    if let Some(layer) = uv {
+        vertices.tex_coords.push(turned(layer.value(first)));
+    }
+    if let Some(layer) = second_uv {
+        vertices.second_tex_coords.push(turned(layer.value(second)));
+    }
+    if let Some(layer) = colors {
+        vertices.colors.push(if color.is_some() { layer.value(color) } else { [1.0; 4] });
+    }
+    if let Some(layer) = tangents {
+        let [x, y, z] = layer.value(tangent);
+        vertices.tangents.push([x, y, z, 1.0]);
+    }
+}
+
+/// The materials of polygons: indices without values.
+struct MaterialLayer {
+    mapping: Mapping,
+    indices: Vec<i64>,
+}
+
+impl MaterialLayer {
+    fn material(&self, corner: Corner) -> Option<usize> {
+        let place = if self.mapping == Mapping::Polygon { corner.polygon } else { 0 };
+        usize::try_from(*self.indices.get(place)?).ok()
+    }
+}
+
+fn material_layer(record: &Record<'_>, budget: &Budget) -> Result<Option<MaterialLayer>, Fault> {
+    let Some(layer) = record.find("LayerElementMaterial") else {
+        return Ok(None);
+    };
+    let mapping = layer.find("MappingInformationType").and_then(|record| record.text(0));
+    let mapping = match mapping.as_deref() {
+        Some("ByPolygon") => Mapping::Polygon,
+        _ => Mapping::All,
+    };
+    let Some(indices) = layer.find("Materials") else { return Ok(None) };
+    Ok(Some(MaterialLayer {
+        mapping,
+        indices: indices.integers(budget)?,
+    }))
+}
+
+/// Cuts a polygon into triangles whose corners run as its own do.
+fn triangulate(polygon: &[u32], positions: &[[f32; 3]], triangles: &mut Vec<[u32; 3]>) {
+    if let &[a, b, c] = polygon {
+        triangles.push([a, b, c]);
+        return;
+    }
+    let outline: Vec<glam::DVec3> = polygon
+        .iter()
+        .map(|&vertex| glam::Vec3::from_array(positions[vertex as usize]).as_dvec3())
+        .collect();
+    let mut left: Vec<usize> = (0..polygon.len()).collect();
+    // Newell's normal: the sum of the areas seen along each axis.
+    let normal: glam::DVec3 = (0..outline.len()).map(|at| outline[at].cross(outline[(at + 1) % outline.len()])).sum();
+    let mut at = 0;
+    let mut tried = 0;
+    let mut budget = MOST_TESTS;
+    // What is left when the tests are used up is cut like a fan.
+    while left.len() > 3 && budget > 0 {
+        let count = left.len();
+        let [before, ear, after] = [(at + count - 1) % count, at % count, (at + 1) % count].map(|place| left[place]);
+        // An outline that crosses itself has no ear at the end.
+        let is_cut = tried >= count || is_ear(&outline, &left, [before, ear, after], normal, &mut budget);
+        if is_cut {
+            triangles.push([before, ear, after].map(|place| polygon[place]));
+            left.remove(at % count);
+            tried = 0;
+            at = if at == 0 { 0 } else { at - 1 };
+        } else {
+            tried += 1;
+            at = (at + 1) % count;
+        }
+    }
+    let fan = left[1..].array_windows();
+    triangles.extend(fan.map(|&[b, c]| [left[0], b, c].map(|place| polygon[place])));
+}
+
+/// Tests of a corner against a triangle in one polygon: enough for one of a thousand corners, whatever its shape.
+const MOST_TESTS: usize = 1_000_000;
+
+/// Whether a corner can be cut off: it bends outwards, and no other corner lies in it.
+fn is_ear(outline: &[glam::DVec3], left: &[usize], [a, b, c]: [usize; 3], normal: glam::DVec3, budget: &mut usize) -> bool {
+    *budget = budget.saturating_sub(1);
+    let side = |from: glam::DVec3, to: glam::DVec3, point: glam::DVec3| (to - from).cross(point - from).dot(normal);
+    let corners @ [pa, pb, pc] = [a, b, c].map(|place| outline[place]);
+    if side(pa, pb, pc) <= 0.0 {
+        return false;
+    }
+    *budget = budget.saturating_sub(left.len());
+    let is_inside = |point: glam::DVec3| side(pa, pb, point) >= 0.0 && side(pb, pc, point) >= 0.0 && side(pc, pa, point) >= 0.0;
+    let others = left.iter().filter(|place| ![a, b, c].contains(place));
+    !others.map(|&place| outline[place]).any(|point| !corners.contains(&point) && is_inside(point))
+}

@@ -1,0 +1,194 @@
+//! The objects of a file, what they hang on, and their properties.
+//!
+//! Files from 7.0 on number their objects; those of 6.1 go by name and class. A property that an object does not have it has from the template of its
+//! class in `Definitions`.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+use glam::DVec3;
+
+use crate::fbx::{Document, Place, Record};
+
+/// An object by its number among all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) struct ObjectIndex(pub(super) u32);
+
+impl ObjectIndex {
+    pub(super) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// An object.
+#[derive(Clone, Debug)]
+pub(super) struct Object<'f, 'a> {
+    pub(super) record: &'f Record<'a>,
+    pub(super) name: Cow<'f, str>,
+    /// `Mesh`, `LimbNode`, `Skin`, `Cluster`, …
+    pub(super) kind: Cow<'f, str>,
+    /// Those of its own.
+    properties: Option<&'f Record<'a>>,
+    /// Those of its class.
+    template: Option<&'f Record<'a>>,
+    /// What hangs on it, in the file's order.
+    pub(super) children: Vec<Connection>,
+    /// What it hangs on.
+    pub(super) parents: Vec<Connection>,
+}
+
+/// That an object hangs on another one.
+#[derive(Clone, Debug)]
+pub(super) struct Connection {
+    /// The other one.
+    pub(super) to: ObjectIndex,
+    /// The property on which it hangs; empty for the object itself.
+    pub(super) property: String,
+}
+
+/// All objects of a file.
+#[derive(Debug, Default)]
+pub(super) struct Objects<'f, 'a> {
+    pub(super) all: Vec<Object<'f, 'a>>,
+    /// What hangs on the scene itself.
+    pub(super) of_scene: Vec<ObjectIndex>,
+    /// Where ids come a second time.
+    pub(super) doubled: Vec<Place>,
+    /// Where connections name what is not there.
+    pub(super) missing: Vec<Place>,
+}
+
+/// What names an object: its number, or in 6.1 its name as the file has it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+enum Key<'f> {
+    Number(i64),
+    Name(&'f [u8]),
+}
+
+fn key<'f>(record: &'f Record<'_>, index: usize) -> Option<Key<'f>> {
+    let number = record.integer(index).map(Key::Number);
+    number.or_else(|| record.bytes(index).map(Key::Name))
+}
+
+impl Key<'_> {
+    fn is_scene(&self) -> bool {
+        match self {
+            Self::Number(number) => *number == 0,
+            Self::Name(name) => matches!(*name, b"Model::Scene" | b"Scene\0\x01Model"),
+        }
+    }
+}
+
+impl<'f, 'a> Objects<'f, 'a> {
+    pub(super) fn of(document: &'f Document<'a>) -> Self {
+        let mut objects = Self::default();
+        let mut by_key = HashMap::new();
+        let templates = templates(document);
+        for record in document.find("Objects").into_iter().flat_map(|objects| &objects.records) {
+            let Some(key) = key(record, 0) else { continue };
+            // Those of 6.1 have no number before the name.
+            let at_name = usize::from(matches!(key, Key::Number(_)));
+            let (name, _) = record.name_and_class(at_name).unwrap_or_default();
+            let properties = record.find("Properties70").or_else(|| record.find("Properties60"));
+            if by_key.contains_key(&key) {
+                objects.doubled.push(record.place);
+                continue;
+            }
+            by_key.insert(key, ObjectIndex(objects.all.len() as u32));
+            objects.all.push(Object {
+                record,
+                name,
+                kind: record.text(at_name + 1).unwrap_or_default(),
+                properties,
+                template: templates.get(&*record.name).copied(),
+                children: Vec::new(),
+                parents: Vec::new(),
+            });
+        }
+        let connections = document.find("Connections").into_iter().flat_map(|all| &all.records);
+        for record in connections.filter(|record| matches!(&*record.name, "C" | "Connect")) {
+            let (Some(child), Some(parent)) = (key(record, 1), key(record, 2)) else { continue };
+            let [of_child, of_parent] = [&child, &parent].map(|key| by_key.get(key).copied());
+            match (of_child, of_parent) {
+                (Some(child), Some(parent)) => {
+                    let property = record.text(3).unwrap_or_default().into_owned();
+                    let connection = |to| Connection {
+                        to,
+                        property: property.clone(),
+                    };
+                    objects.all[parent.index()].children.push(connection(child));
+                    objects.all[child.index()].parents.push(connection(parent));
+                }
+                (Some(child), None) if parent.is_scene() => objects.of_scene.push(child),
+                _ => objects.missing.push(record.place),
+            }
+        }
+        objects
+    }
+
+    pub(super) fn get(&self, index: ObjectIndex) -> &Object<'f, 'a> {
+        &self.all[index.index()]
+    }
+
+    /// The objects of a class, such as `Model`.
+    pub(super) fn of_class<'s>(&'s self, class: &'s str) -> impl Iterator<Item = (ObjectIndex, &'s Object<'f, 'a>)> {
+        let all = (0u32..).map(ObjectIndex).zip(&self.all);
+        all.filter(move |(_, object)| object.record.name == class)
+    }
+
+    /// Of a class and a kind, what hangs on an object, in the file's order.
+    pub(super) fn children<'s>(
+        &'s self,
+        of: &'s Object<'f, 'a>,
+        class: &'s str,
+    ) -> impl Iterator<Item = (ObjectIndex, &'s Object<'f, 'a>)> {
+        let children = of.children.iter().map(|child| (child.to, self.get(child.to)));
+        children.filter(move |(_, object)| object.record.name == class)
+    }
+}
+
+/// The properties that objects of each class have, by its name.
+fn templates<'f, 'a>(document: &'f Document<'a>) -> HashMap<Cow<'f, str>, &'f Record<'a>> {
+    let types = document.find("Definitions").into_iter().flat_map(|all| all.all("ObjectType"));
+    let of_type = |record: &'f Record<'a>| {
+        let properties = record.find("PropertyTemplate")?.find("Properties70")?;
+        Some((record.text(0)?, properties))
+    };
+    types.filter_map(of_type).collect()
+}
+
+/// The record of a property, and where its values begin.
+fn property<'s, 'a>(properties: &'s Record<'a>, name: &str) -> Option<(&'s Record<'a>, usize)> {
+    let record = properties.records.iter().find(|record| record.bytes(0) == Some(name.as_bytes()))?;
+    // P: name, type, label, flags, values; Property: name, type, flags, values.
+    Some((record, if record.name == "P" { 4 } else { 3 }))
+}
+
+impl<'f, 'a> Object<'f, 'a> {
+    fn property(&self, name: &str) -> Option<(&'f Record<'a>, usize)> {
+        let lists = [self.properties, self.template];
+        lists.into_iter().flatten().find_map(|list| property(list, name))
+    }
+
+    /// A property of the object's own or of its class.
+    pub(super) fn number(&self, name: &str) -> Option<f64> {
+        let (record, at) = self.property(name)?;
+        record.number(at)
+    }
+
+    /// A property with three numbers.
+    pub(super) fn vector(&self, name: &str) -> Option<DVec3> {
+        let (record, at) = self.property(name)?;
+        Some(DVec3::new(record.number(at)?, record.number(at + 1)?, record.number(at + 2)?))
+    }
+
+    pub(super) fn integer(&self, name: &str) -> Option<i64> {
+        let (record, at) = self.property(name)?;
+        record.integer(at)
+    }
+
+    pub(super) fn text(&self, name: &str) -> Option<Cow<'f, str>> {
+        let (record, at) = self.property(name)?;
+        record.text(at)
+    }
+}
