@@ -110,10 +110,15 @@ impl<'a> Reader<'a> {
     /// What stands before a record, which ends at `limit` at the latest; `None` where a list of records ends.
     fn head(&mut self, limit: usize) -> Result<Option<Head>, Fault> {
         let place = self.place();
-        let [end, value_count, values_len] = [self.size()?, self.size()?, self.size()?];
+        let [mut end, value_count, values_len] = [self.size()?, self.size()?, self.size()?];
         if end == 0 {
-            self.take(1)?;
-            return Ok(None);
+            let name_len = u64::from(self.take(1)?[0]);
+            if name_len == 0 {
+                return Ok(None);
+            }
+            // Maya has some that say no end; nothing is in them.
+            end = (self.at as u64).saturating_add(name_len).saturating_add(values_len);
+            self.at -= 1;
         }
         let is_within = |end: u64| end > self.at as u64 && end <= limit as u64;
         if !is_within(end) || values_len > end - self.at as u64 {

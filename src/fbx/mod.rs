@@ -102,7 +102,7 @@ impl Place {
 impl<'a> Record<'a> {
     /// The first record of this name in it.
     pub fn find(&self, name: &str) -> Option<&Record<'a>> {
-        self.all(name).next()
+        self.records.iter().find(|record| record.name == name)
     }
 
     /// The records of this name in it.

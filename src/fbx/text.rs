@@ -154,7 +154,8 @@ impl<'a> Reader<'a> {
     /// The values behind a colon. They go on in other lines where a comma stands between.
     fn values(&mut self) -> Result<Vec<Value<'a>>, Fault> {
         let mut values = Vec::new();
-        let mut is_next_line = self.skip_space();
+        // Some begin in the next line, where no record begins with such a character.
+        let mut is_next_line = self.skip_space() && !matches!(self.peek(), Some(b'0'..=b'9' | b'-' | b'"' | b'*'));
         // `Content: ,` begins with one.
         let mut has_comma = self.pass_comma();
         while has_comma || (values.is_empty() && !is_next_line) {
@@ -273,7 +274,8 @@ fn numbers_of(values: Vec<Value<'_>>) -> Array<'static> {
     let numbers = values.into_iter().filter_map(|value| match value {
         Value::Integer(integer) => Some(integer as f64),
         Value::Number(number) => Some(number),
-        _ => None,
+        Value::Text(word) => not_finite(&word),
+        Value::Array(_) => None,
     });
     Array(Content::Numbers(numbers.collect()))
 }
@@ -292,9 +294,17 @@ fn number(word: &[u8]) -> Option<Value<'static>> {
     if let Ok(number) = fast_float2::parse(word) {
         return Some(Value::Number(number));
     }
-    let text = std::str::from_utf8(word).ok()?;
-    let (_, special) = text.split_once('#')?;
-    let is_infinite = special.starts_with("INF");
-    let sign = if text.starts_with('-') { -1.0 } else { 1.0 };
-    Some(Value::Number(if is_infinite { sign * f64::INFINITY } else { f64::NAN }))
+    not_finite(word).map(Value::Number)
+}
+
+/// What writers have for numbers that are none: `1.#INF`, `-inf`, `nan(ind)`, `snan`, …
+fn not_finite(word: &[u8]) -> Option<f64> {
+    let word = std::str::from_utf8(word).ok()?.to_ascii_lowercase();
+    let plain = word.trim_start_matches(['-', '+']).trim_start_matches(['0', '1', '.', '#']);
+    let sign = if word.starts_with('-') { -1.0 } else { 1.0 };
+    if plain.starts_with("inf") {
+        return Some(sign * f64::INFINITY);
+    }
+    let is_nan = ["nan", "snan", "qnan", "ind"].iter().any(|start| plain.starts_with(start));
+    is_nan.then_some(f64::NAN)
 }
