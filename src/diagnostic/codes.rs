@@ -456,6 +456,26 @@ table! {
             "Versions before 6.1 are laid out differently.",
             "The file is not opened.",
             "Export it as FBX 2014 or later, or convert it with Autodesk's FBX Converter.";
+        FBX_RULE_BROKEN = "fbx-rule-broken", Warning,
+            "A part of an FBX file is not as it should be.",
+            "The message names the part and what was done. Programs that mend such files in other ways show something else.",
+            "Drawn with what the message says.",
+            "Export the file again, or mend it in the program that made it.";
+        FBX_EMPTY = "fbx-empty", Warning,
+            "The file has neither a mesh nor a skeleton.",
+            "Nothing that the file shows has triangles or bones.",
+            "Nothing is drawn.",
+            "Export it with the meshes or the skeleton selected.";
+        FBX_LEFT_OUT = "fbx-left-out", Note,
+            "The file has something that is not taken from it.",
+            "The message names it. A model has triangles, four bones for a vertex, materials and clips of joints, and nothing else.",
+            "The rest of the file is drawn.",
+            "Nothing, unless it is missed: then bake it into the mesh, the skeleton or a clip in the program that made it.";
+        FBX_OBJECTS_MERGED = "fbx-objects-merged", Note,
+            "Several objects become one mesh.",
+            "Each keeps its subsets and its materials.",
+            "Drawn as they stand in the scene.",
+            "Nothing.";
     }
 
     /// What reading a glTF file gives ([`gltf`](crate::gltf)), beside codes above.

@@ -57,6 +57,14 @@ impl Budget {
         Self(Cell::new(LEAST + GROWTH * len as u64))
     }
 
+    /// Takes what is made of the file besides.
+    ///
+    /// # Errors
+    /// When there is no room left.
+    pub fn keep(&self, bytes: u64, place: Place) -> Result<(), Fault> {
+        self.take(bytes, place)
+    }
+
     fn take(&self, bytes: u64, place: Place) -> Result<(), Fault> {
         let left = self.0.get().checked_sub(bytes);
         let left = left.ok_or_else(|| place.damaged("The arrays of the file would become many times as large as the file."))?;

@@ -4,6 +4,7 @@
 //! [`Model`](crate::model::Model)'s to prove. Nodes, skins and meshes go through one `scene`, normals and tangents are
 //! computed for any format, and what only a format knows of its file, such as places, stays in [`Source`].
 
+mod fbx;
 mod gltf;
 mod imported;
 mod keys;
@@ -25,7 +26,7 @@ use crate::slices::{Slices, at_once};
 ///
 /// A quick look. What it accepts [`import`] may still refuse.
 pub fn begins_like_model(bytes: &[u8]) -> bool {
-    m3d::begins_like_model(bytes) || gltf::begins_like_model(bytes)
+    m3d::begins_like_model(bytes) || gltf::begins_like_model(bytes) || fbx::begins_like_model(bytes)
 }
 
 /// Whether a file begins as glTF does, in either form.
@@ -56,6 +57,8 @@ pub fn import_beside(bytes: &[u8], find: FindFile<'_>) -> Result<Imported, Box<R
 pub async fn import_in(bytes: &[u8], find: FindFile<'_>, slices: &Slices) -> Result<Imported, Box<Refused>> {
     if gltf::begins_like_model(bytes) {
         gltf::import(bytes, find, slices).await
+    } else if fbx::begins_like_model(bytes) {
+        fbx::import(bytes, find, slices).await
     } else {
         m3d::import(bytes, slices).await
     }
@@ -65,6 +68,8 @@ pub async fn import_in(bytes: &[u8], find: FindFile<'_>, slices: &Slices) -> Res
 pub fn files_beside(bytes: &[u8]) -> Vec<String> {
     if gltf::begins_like_model(bytes) {
         gltf::files_beside(bytes)
+    } else if fbx::begins_like_model(bytes) {
+        fbx::files_beside(bytes)
     } else {
         Vec::new()
     }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::fbx::places::Places as FbxPlaces;
 use super::gltf::places::Places as GltfPlaces;
 use crate::diagnostic::Places;
 use crate::format::{self, Dialect, Parsed};
@@ -17,15 +18,22 @@ pub enum FileFormat {
     Glb,
     /// glTF as JSON text.
     Gltf,
+    /// FBX.
+    Fbx {
+        /// Or text.
+        is_binary: bool,
+    },
 }
 
 impl FileFormat {
-    /// The name that outputs use: `d3d12`, `d3d11`, `imm`, `txt`, `glb` or `gltf`.
+    /// The name that outputs use: `d3d12`, `d3d11`, `imm`, `txt`, `glb`, `gltf`, `fbx` or `fbx-text`.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::M3d(dialect) => dialect.as_str(),
             Self::Glb => "glb",
             Self::Gltf => "gltf",
+            Self::Fbx { is_binary: true } => "fbx",
+            Self::Fbx { is_binary: false } => "fbx-text",
         }
     }
 
@@ -38,13 +46,15 @@ impl FileFormat {
             Self::M3d(Dialect::Text) => "the books' text",
             Self::Glb => "GLB",
             Self::Gltf => "glTF",
+            Self::Fbx { is_binary: true } => "FBX",
+            Self::Fbx { is_binary: false } => "FBX as text",
         }
     }
 
     /// How it is spelled, where it is a `.m3d`.
     pub fn dialect(self) -> Option<Dialect> {
         match self {
-            Self::M3d(Dialect::Text) | Self::Glb | Self::Gltf => None,
+            Self::M3d(Dialect::Text) | Self::Glb | Self::Gltf | Self::Fbx { .. } => None,
             Self::M3d(dialect) => Some(dialect),
         }
     }
@@ -63,6 +73,7 @@ enum Kind {
     /// As it was parsed, until that is forgotten.
     M3d(Option<Arc<Parsed>>),
     Gltf(Arc<GltfPlaces>),
+    Fbx(Arc<FbxPlaces>),
 }
 
 impl Source {
@@ -80,6 +91,13 @@ impl Source {
         }
     }
 
+    pub(super) fn fbx(is_binary: bool, places: FbxPlaces) -> Self {
+        Self {
+            format: FileFormat::Fbx { is_binary },
+            kind: Kind::Fbx(Arc::new(places)),
+        }
+    }
+
     /// What the file says and where, if it is of the books' format. `bytes` are the file's; they are parsed again if that was forgotten.
     pub fn parsed(&self, bytes: &[u8]) -> Option<Arc<Parsed>> {
         at_once(self.parsed_in(bytes, &Slices::ENDLESS))
@@ -90,7 +108,7 @@ impl Source {
         match &self.kind {
             Kind::M3d(Some(parsed)) => Some(Arc::clone(parsed)),
             Kind::M3d(None) => format::parse_in(bytes, slices).await.ok().map(Arc::new),
-            Kind::Gltf(_) => None,
+            Kind::Gltf(_) | Kind::Fbx(_) => None,
         }
     }
 
@@ -98,6 +116,7 @@ impl Source {
     pub fn places(&self, bytes: &[u8]) -> Arc<dyn Places> {
         match &self.kind {
             Kind::Gltf(places) => Arc::clone(places) as Arc<dyn Places>,
+            Kind::Fbx(places) => Arc::clone(places) as Arc<dyn Places>,
             Kind::M3d(_) => self.parsed(bytes).unwrap_or_default(),
         }
     }
@@ -106,7 +125,7 @@ impl Source {
     pub fn effort(&self) -> Effort {
         match &self.kind {
             Kind::Gltf(places) => places.effort,
-            Kind::M3d(_) => Effort::default(),
+            Kind::M3d(_) | Kind::Fbx(_) => Effort::default(),
         }
     }
 

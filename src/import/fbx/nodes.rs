@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-use super::objects::{ObjectIndex, Objects};
-use super::transform::{Inherit, Transform};
+use super::objects::{Object, ObjectIndex, Objects};
+use super::transform::{Inherit, Local, Parts, Transform};
 use crate::fbx::Document;
 use crate::import::scene::{self, Scene};
-use crate::model::{LocalJoint, Tag};
+use crate::model::Tag;
 
 /// Nodes, with what only FBX knows of them.
 pub(super) struct Nodes {
@@ -19,32 +19,10 @@ pub(super) struct Nodes {
     pub(super) objects: Vec<ObjectIndex>,
     /// Of each object: its node.
     pub(super) node_of: Vec<Option<u32>>,
-    /// Nodes that are below themselves: they hang on the scene.
+    /// Nodes that were below themselves: they hang on the scene.
     pub(super) tangled: Vec<ObjectIndex>,
     /// Axes of the file -> x right, y up, z towards the viewer.
-    pub(super) model_from_file: DMat3,
-    /// Centimetres of a unit.
-    pub(super) unit_cm: f64,
-}
-
-/// The parts of a node's local transform at a time.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Parts {
-    pub(super) translation: DVec3,
-    /// Degrees.
-    pub(super) rotation: DVec3,
-    pub(super) scale: DVec3,
-}
-
-impl Transform {
-    /// Those of the node where no clip moves it.
-    pub(super) fn parts(&self) -> Parts {
-        Parts {
-            translation: self.translation,
-            rotation: self.rotation,
-            scale: self.scale,
-        }
-    }
+    model_from_file: DMat3,
 }
 
 impl Nodes {
@@ -59,141 +37,166 @@ impl Nodes {
             parents.filter(|parent| parent.property.is_empty()).find_map(|parent| node_of[parent.to.index()])
         };
         let mut parents: Vec<Option<u32>> = models.iter().map(parent).collect();
-        let mut order = scene::parents_first(&parents, Some);
-        let mut tangled = Vec::new();
-        if order.len() < parents.len() {
-            let mut is_reached = vec![false; parents.len()];
-            for &node in &order {
-                is_reached[node as usize] = true;
-            }
-            for node in 0..parents.len() {
-                if !is_reached[node] && is_below_itself(node as u32, &parents) {
-                    tangled.push(models[node]);
-                    parents[node] = None;
-                }
-            }
-            order = scene::parents_first(&parents, Some);
-        }
+        let tangled = untangle(&mut parents).into_iter().map(|node| models[node as usize]).collect();
         let transforms: Vec<Transform> = models.iter().map(|&model| Transform::of(objects.get(model))).collect();
-        let (model_from_file, unit_cm) = settings(document);
         let mut nodes = Self {
             scene: Scene {
+                order: scene::parents_first(&parents, Some),
                 parents,
-                order,
                 ..Scene::default()
             },
             transforms,
             objects: models,
             node_of,
             tangled,
-            model_from_file,
-            unit_cm,
+            model_from_file: axes(document),
         };
-        let parts: Vec<Parts> = nodes.transforms.iter().map(Transform::parts).collect();
-        let (local, model_from_node) = nodes.placed(&parts);
-        nodes.scene.nodes = nodes
-            .objects
-            .iter()
-            .enumerate()
-            .map(|(node, &object)| scene::Node {
-                tag: Tag {
-                    name: objects.get(object).name.clone().into_owned(),
-                    extras: None,
-                },
-                local: LocalJoint::from_matrix(&local[node]),
-                model_from_node: model_from_node[node],
-                in_scene: true,
-                is_moved: false,
-                bone: None,
-            })
-            .collect();
-        nodes.scene.meshes = objects
-            .of_class("Geometry")
-            .map(|(_, object)| {
-                Arc::new(Tag {
-                    name: object.name.clone().into_owned(),
-                    extras: None,
-                })
-            })
-            .collect();
+        nodes.place(objects);
         nodes
     }
 
-    /// Each node relative to its parent and to the model, with these parts.
-    ///
-    /// A node may have its parent's scale in other ways than whole. Where `Ps` is the scale of all nodes above it, and `ps` the parent's own, it is
-    /// `T · Ps⁻¹ · R · Ps · S` or `T · ps⁻¹ · R · S` then: Autodesk's `FbxTransform::EInheritType`.
-    pub(super) fn placed(&self, parts: &[Parts]) -> (Vec<DAffine3>, Vec<DAffine3>) {
-        let count = parts.len();
-        let mut local = vec![DAffine3::IDENTITY; count];
-        let mut model = vec![DAffine3::IDENTITY; count];
-        let mut scales = vec![DVec3::ONE; count];
-        let root = DAffine3::from_mat3(self.model_from_file);
+    /// Fills the scene's nodes with where they are at rest.
+    fn place(&mut self, objects: &Objects<'_, '_>) {
+        let rest = |node: u32| self.transforms[node as usize].parts();
+        let mut model_from_node = vec![DAffine3::IDENTITY; self.objects.len()];
         for &node in &self.scene.order {
-            let node = node as usize;
-            let Parts { translation, rotation, scale } = parts[node];
-            let transform = &self.transforms[node];
-            let plain = transform.parent_from_node(translation, rotation, scale);
-            let parent = self.scene.parents[node].map(|parent| parent as usize);
-            local[node] = match (parent, transform.inherit) {
-                (None, _) => root * plain,
-                (Some(_), Inherit::Whole) => plain,
-                (Some(parent), Inherit::NoScale) => without(plain, parts[parent].scale, DVec3::ONE),
-                (Some(parent), Inherit::ScaleAfterRotation) => {
-                    let turned = transform.parent_from_node(translation, rotation, DVec3::ONE);
-                    let between = without(turned, scales[parent], scales[parent]);
-                    DAffine3 {
-                        matrix3: between.matrix3 * DMat3::from_diagonal(scale),
-                        translation: plain.translation,
-                    }
-                }
-            };
-            scales[node] = scale * parent.map_or(DVec3::ONE, |parent| scales[parent]);
-            model[node] = parent.map_or(local[node], |parent| model[parent] * local[node]);
+            let local = self.local_matrix(node, &rest);
+            let parent = self.scene.parents[node as usize];
+            model_from_node[node as usize] = parent.map_or(local, |parent| model_from_node[parent as usize] * local);
         }
-        (local, model)
+        let nodes = (0u32..).zip(&self.objects).map(|(node, &object)| scene::Node {
+            tag: tag(objects.get(object)),
+            local: self.local(node, &rest).joint(),
+            model_from_node: model_from_node[node as usize],
+            in_scene: true,
+            is_moved: false,
+            bone: None,
+        });
+        self.scene.nodes = nodes.collect();
     }
-}
 
-/// `before⁻¹ · M · after` for the turning part. A scale of 0 stays: nothing undoes it.
-fn without(matrix: DAffine3, before: DVec3, after: DVec3) -> DAffine3 {
-    let undone = before.map(|part| if part == 0.0 { 1.0 } else { part.recip() });
-    DAffine3 {
-        matrix3: DMat3::from_diagonal(undone) * matrix.matrix3 * DMat3::from_diagonal(after),
-        ..matrix
-    }
-}
-
-/// Whether going up from a node leads to it again. A way is no longer than there are nodes.
-fn is_below_itself(node: u32, parents: &[Option<u32>]) -> bool {
-    let mut at = parents[node as usize];
-    for _ in 0..parents.len() {
-        match at {
-            None => return false,
-            Some(above) if above == node => return true,
-            Some(above) => at = parents[above as usize],
+    /// Where a node is relative to its parent, with these parts of it and of those above. What no rotation and scale make is brought to the nearest.
+    pub(super) fn local(&self, node: u32, parts: &dyn Fn(u32) -> Parts) -> Local {
+        let plain = self.transforms[node as usize].local(parts(node));
+        match self.scene.parents[node as usize] {
+            None if self.model_from_file == DMat3::IDENTITY => plain,
+            None if self.model_from_file.determinant() > 0.0 => Local {
+                translation: self.model_from_file * plain.translation,
+                rotation: DQuat::from_mat3(&self.model_from_file) * plain.rotation,
+                ..plain
+            },
+            Some(parent) if self.inherit(node) == Inherit::Whole || self.scale_below(parent, parts) == DVec3::ONE => plain,
+            _ => Local::of_matrix(self.local_matrix(node, parts)),
         }
     }
-    false
+
+    fn local_matrix(&self, node: u32, parts: &dyn Fn(u32) -> Parts) -> DAffine3 {
+        let plain = self.transforms[node as usize].local(parts(node));
+        let Some(parent) = self.scene.parents[node as usize] else {
+            return DAffine3::from_mat3(self.model_from_file) * plain.matrix();
+        };
+        if self.inherit(node) == Inherit::Whole {
+            return plain.matrix();
+        }
+        // In the parent's space, where its scale acts on what lies in it.
+        let undone = self.scale_below(parent, parts).map(|part| if part == 0.0 { 1.0 } else { part.recip() });
+        let scaled = Local {
+            translation: DVec3::ZERO,
+            scale: plain.scale * self.scale_from_above(node, parts),
+            ..plain
+        };
+        DAffine3 {
+            matrix3: DMat3::from_diagonal(undone) * scaled.matrix().matrix3,
+            translation: plain.translation,
+        }
+    }
+
+    fn inherit(&self, node: u32) -> Inherit {
+        self.transforms[node as usize].inherit
+    }
+
+    /// The scale that acts on what lies in a node: its own, and what it has from above by itself.
+    fn scale_below(&self, node: u32, parts: &dyn Fn(u32) -> Parts) -> DVec3 {
+        parts(node).scale * self.scale_from_above(node, parts)
+    }
+
+    /// The scale that a node has from those above in another way than by lying in them.
+    fn scale_from_above(&self, node: u32, parts: &dyn Fn(u32) -> Parts) -> DVec3 {
+        let mut scale = DVec3::ONE;
+        let mut node = node;
+        while let (inherit @ (Inherit::ScaleAfterRotation | Inherit::NoScale), Some(parent)) =
+            (self.inherit(node), self.scene.parents[node as usize])
+        {
+            if inherit == Inherit::ScaleAfterRotation {
+                scale *= parts(parent).scale;
+            }
+            node = parent;
+        }
+        scale
+    }
+
+    /// The nodes on whose parts the place of a node depends, itself first.
+    pub(super) fn moved_by(&self, node: u32) -> Vec<u32> {
+        let mut nodes = vec![node];
+        let mut at = node;
+        while let (Inherit::ScaleAfterRotation | Inherit::NoScale, Some(parent)) = (self.inherit(at), self.scene.parents[at as usize]) {
+            nodes.push(parent);
+            at = parent;
+        }
+        nodes
+    }
 }
 
-/// Axes and unit of the file.
-fn settings(document: &Document<'_>) -> (DMat3, f64) {
+/// Name of an object.
+pub(super) fn tag(object: &Object<'_, '_>) -> Tag {
+    Tag {
+        name: object.name.clone().into_owned(),
+        extras: None,
+    }
+}
+
+pub(super) fn mesh_tag(object: &Object<'_, '_>) -> Arc<Tag> {
+    Arc::new(tag(object))
+}
+
+/// Takes a node of each circle off its parent; which these are.
+fn untangle(parents: &mut [Option<u32>]) -> Vec<u32> {
+    // By which walk upwards a node was reached first.
+    let mut walks = vec![0u32; parents.len()];
+    let mut tangled = Vec::new();
+    for start in 0..parents.len() as u32 {
+        let walk = start + 1;
+        let mut at = Some(start);
+        while let Some(node) = at {
+            let reached = std::mem::replace(&mut walks[node as usize], walk);
+            if reached == walk {
+                parents[node as usize] = None;
+                tangled.push(node);
+            }
+            at = if reached == 0 { parents[node as usize] } else { None };
+            if reached != 0 {
+                walks[node as usize] = reached;
+            }
+        }
+    }
+    tangled
+}
+
+/// The file's axes -> those of a model: its own words say which axis points to the right, up, and to the front.
+fn axes(document: &Document<'_>) -> DMat3 {
     let settings = document.find("GlobalSettings").or_else(|| document.find("Version5").and_then(|version| version.find("Settings")));
-    let properties = settings.and_then(|settings| settings.find("Properties70").or_else(|| settings.find("Properties60")));
-    let number = |name: &str, default: f64| {
+    let settings = settings.and_then(|settings| settings.find("Properties70").or_else(|| settings.find("Properties60")));
+    let integer = |name: &str, default: i64| {
         let of = |record: &&crate::fbx::Record<'_>| record.bytes(0) == Some(name.as_bytes());
-        let found = properties.and_then(|properties| properties.records.iter().find(of));
-        let found = found.and_then(|record| record.number(if record.name == "P" { 4 } else { 3 }));
-        found.filter(|number| number.is_finite()).unwrap_or(default)
+        let found = settings.and_then(|settings| settings.records.iter().find(of));
+        found.and_then(|record| record.integer(if record.name == "P" { 4 } else { 3 })).unwrap_or(default)
     };
-    let axis = |name: &str, default: f64| {
+    let axis = |name: &str, default: i64| {
         let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-        let axis = axes[(number(name, default) as usize).min(2)];
-        axis * if number(&format!("{name}Sign"), 1.0) < 0.0 { -1.0 } else { 1.0 }
+        let axis = axes[integer(name, default).clamp(0, 2) as usize];
+        axis * if integer(&format!("{name}Sign"), 1) < 0 { -1.0 } else { 1.0 }
     };
-    let [right, up, front] = [axis("CoordAxis", 0.0), axis("UpAxis", 1.0), axis("FrontAxis", 2.0)];
-    let rows = DMat3::from_cols(right, up, front).transpose();
-    let is_whole = rows.determinant().abs() == 1.0;
-    (if is_whole { rows } else { DMat3::IDENTITY }, number("UnitScaleFactor", 1.0))
+    let rows = DMat3::from_cols(axis("CoordAxis", 0), axis("UpAxis", 1), axis("FrontAxis", 2)).transpose();
+    // Some name an axis twice.
+    if rows.determinant().abs() == 1.0 { rows } else { DMat3::IDENTITY }
 }

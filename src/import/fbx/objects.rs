@@ -56,6 +56,7 @@ pub(super) struct Objects<'f, 'a> {
     pub(super) doubled: Vec<Place>,
     /// Where connections name what is not there.
     pub(super) missing: Vec<Place>,
+    by_key: HashMap<Key<'f>, ObjectIndex>,
 }
 
 /// What names an object: its number, or in 6.1 its name as the file has it.
@@ -123,7 +124,18 @@ impl<'f, 'a> Objects<'f, 'a> {
                 _ => objects.missing.push(record.place),
             }
         }
+        objects.by_key = by_key;
         objects
+    }
+
+    /// The object that the value of a record names.
+    pub(super) fn by_key(&self, record: &Record<'_>, index: usize) -> Option<ObjectIndex> {
+        self.by_key.get(&key(record, index)?).copied()
+    }
+
+    /// The object of this name with its class, as files of 6.1 have it.
+    pub(super) fn named(&self, name: &[u8]) -> Option<ObjectIndex> {
+        self.by_key.get(&Key::Name(name)).copied()
     }
 
     pub(super) fn get(&self, index: ObjectIndex) -> &Object<'f, 'a> {
@@ -185,10 +197,5 @@ impl<'f, 'a> Object<'f, 'a> {
     pub(super) fn integer(&self, name: &str) -> Option<i64> {
         let (record, at) = self.property(name)?;
         record.integer(at)
-    }
-
-    pub(super) fn text(&self, name: &str) -> Option<Cow<'f, str>> {
-        let (record, at) = self.property(name)?;
-        record.text(at)
     }
 }

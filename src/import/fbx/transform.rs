@@ -4,9 +4,10 @@
 //! rotation, pre-rotation, rotation, post-rotation, offset and pivot of the scaling, and scaling. Angles are in degrees. What hangs on a node, but not its
 //! children, has the geometric transform besides.
 
-use glam::{DAffine3, DQuat, DVec3};
+use glam::{DAffine3, DQuat, DVec3, EulerRot};
 
 use super::objects::Object;
+use crate::model::LocalJoint;
 
 /// In which order a node turns about its axes. Of `XYZ` it turns about x first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -52,16 +53,74 @@ impl RotationOrder {
     }
 }
 
-/// Which scale of its parent a node has.
+impl RotationOrder {
+    /// The angles in degrees about x, y and z of a rotation.
+    pub(super) fn degrees(self, rotation: DQuat) -> DVec3 {
+        // The first axis to turn about stands last.
+        let (order, [x, y, z]) = match self {
+            Self::Xyz => (EulerRot::ZYX, [2, 1, 0]),
+            Self::Xzy => (EulerRot::YZX, [2, 0, 1]),
+            Self::Yzx => (EulerRot::XZY, [0, 2, 1]),
+            Self::Yxz => (EulerRot::ZXY, [1, 2, 0]),
+            Self::Zxy => (EulerRot::YXZ, [1, 0, 2]),
+            Self::Zyx => (EulerRot::XYZ, [0, 1, 2]),
+        };
+        let angles: [f64; 3] = rotation.to_euler(order).into();
+        DVec3::new(angles[x], angles[y], angles[z]).map(f64::to_degrees)
+    }
+}
+
+/// Which scale of its parent a node has: Autodesk's `FbxTransform::EInheritType`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Inherit {
-    /// The parent's scale acts between rotation and scale of the node: `R · S_parent · S`.
+    /// `RrSs`: the parent's scale acts between rotation and scale of the node.
     ScaleAfterRotation,
-    /// That of any other scene: `S_parent · R · S`.
+    /// `RSrs`: that of any other scene.
     #[default]
     Whole,
-    /// The parent's own scale does not act on the node.
+    /// `Rrs`: the parent's own scale does not act on the node.
     NoScale,
+}
+
+/// What clips move of a node.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Parts {
+    pub(super) translation: DVec3,
+    /// Degrees, in the node's order.
+    pub(super) rotation: DVec3,
+    pub(super) scale: DVec3,
+}
+
+/// Where a node is relative to its parent.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Local {
+    pub(super) translation: DVec3,
+    pub(super) rotation: DQuat,
+    pub(super) scale: DVec3,
+}
+
+impl Local {
+    pub(super) fn matrix(self) -> DAffine3 {
+        DAffine3::from_scale_rotation_translation(self.scale, self.rotation, self.translation)
+    }
+
+    pub(super) fn of_matrix(matrix: DAffine3) -> Self {
+        let (scale, rotation, translation) = matrix.to_scale_rotation_translation();
+        Self {
+            translation,
+            rotation,
+            scale,
+        }
+    }
+
+    pub(super) fn joint(self) -> LocalJoint {
+        let joint = LocalJoint {
+            rotation: self.rotation.normalize().as_quat(),
+            translation: self.translation.as_vec3(),
+            scale: self.scale.as_vec3(),
+        };
+        if joint.is_finite() { joint } else { LocalJoint::from_matrix(&self.matrix()) }
+    }
 }
 
 /// The parts of a node's transform that no clip moves, and those that one may.
@@ -71,7 +130,7 @@ pub(super) struct Transform {
     /// Degrees.
     pub(super) rotation: DVec3,
     pub(super) scale: DVec3,
-    order: RotationOrder,
+    pub(super) order: RotationOrder,
     pub(super) inherit: Inherit,
     pre: DQuat,
     post_inverse: DQuat,
@@ -87,8 +146,14 @@ impl Transform {
     pub(super) fn of(object: &Object<'_, '_>) -> Self {
         let vector = |name: &str, default| object.vector(name).filter(|vector| vector.is_finite()).unwrap_or(default);
         let offset = |name: &str| vector(name, DVec3::ZERO);
-        let turned = |name: &str| RotationOrder::Xyz.rotation(offset(name));
-        let order = object.integer("RotationOrder").map_or_else(RotationOrder::default, RotationOrder::from_number);
+        // Orders and turns before and after count where the node says so, as all of 6.1 do.
+        let has_space = object.integer("RotationActive") != Some(0) && object.integer("RotationSpaceForLimitOnly").unwrap_or(0) == 0;
+        let turned = |name: &str| match has_space {
+            true => RotationOrder::Xyz.rotation(offset(name)),
+            false => DQuat::IDENTITY,
+        };
+        let order = object.integer("RotationOrder").filter(|_| has_space);
+        let order = order.map_or_else(RotationOrder::default, RotationOrder::from_number);
         Self {
             translation: offset("Lcl Translation"),
             rotation: offset("Lcl Rotation"),
@@ -107,23 +172,37 @@ impl Transform {
             scaling_pivot: offset("ScalingPivot"),
             node_from_geometry: DAffine3::from_scale_rotation_translation(
                 vector("GeometricScaling", DVec3::ONE),
-                turned("GeometricRotation"),
+                RotationOrder::Xyz.rotation(offset("GeometricRotation")),
                 offset("GeometricTranslation"),
             ),
         }
     }
 
-    /// The rotation by these angles in degrees, with what is turned before and after.
-    pub(super) fn whole_rotation(&self, degrees: DVec3) -> DQuat {
-        self.pre * self.order.rotation(degrees) * self.post_inverse
+    /// The parts of the node where no clip moves it.
+    pub(super) fn parts(&self) -> Parts {
+        Parts {
+            translation: self.translation,
+            rotation: self.rotation,
+            scale: self.scale,
+        }
+    }
+
+    /// Whether its place depends on how it turns and scales.
+    pub(super) fn has_pivots(&self) -> bool {
+        [self.rotation_pivot, self.scaling_pivot, self.scaling_offset].iter().any(|pivot| *pivot != DVec3::ZERO)
     }
 
     /// Relative to the parent, with these parts in place of the node's own.
-    pub(super) fn parent_from_node(&self, translation: DVec3, degrees: DVec3, scale: DVec3) -> DAffine3 {
-        let rotation = self.whole_rotation(degrees);
+    pub(super) fn local(&self, parts: Parts) -> Local {
+        let Parts { translation, rotation, scale } = parts;
+        let rotation = self.pre * self.order.rotation(rotation) * self.post_inverse;
         // Both pivots move what lies beyond them: `x` below is `Sp + S · (v − Sp) + Soff` at v = 0, and what is turned is `x − Rp`.
         let scaled = self.scaling_offset + self.scaling_pivot - scale * self.scaling_pivot;
         let origin = translation + self.rotation_offset + self.rotation_pivot + rotation * (scaled - self.rotation_pivot);
-        DAffine3::from_scale_rotation_translation(scale, rotation, origin)
+        Local {
+            translation: origin,
+            rotation,
+            scale,
+        }
     }
 }

@@ -1,0 +1,221 @@
+//! A layer of a stack: curves of nodes, and how they come over the layers below.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+
+use super::{Moved, named, node_of};
+use crate::diagnostic::Fault;
+use crate::fbx::Record;
+use crate::import::fbx::File;
+use crate::import::fbx::curves::Curve;
+use crate::import::fbx::nodes::Nodes;
+use crate::import::fbx::objects::{Object, Objects};
+use crate::import::fbx::transform::{Parts, Transform};
+
+/// What curves move of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Property {
+    Translation,
+    Rotation,
+    Scale,
+}
+
+impl Property {
+    fn named(name: &str) -> Option<Self> {
+        match name {
+            "Lcl Translation" | "T" => Some(Self::Translation),
+            "Lcl Rotation" | "R" => Some(Self::Rotation),
+            "Lcl Scaling" | "S" => Some(Self::Scale),
+            _ => None,
+        }
+    }
+
+    fn of(self, parts: &mut Parts) -> &mut DVec3 {
+        match self {
+            Self::Translation => &mut parts.translation,
+            Self::Rotation => &mut parts.rotation,
+            Self::Scale => &mut parts.scale,
+        }
+    }
+}
+
+/// A curve for each axis, and what stands where there is none.
+#[derive(Clone, Debug, Default)]
+struct Axes {
+    curves: [Option<Curve>; 3],
+    without: [Option<f64>; 3],
+}
+
+/// How a layer comes over those below: Autodesk's `FbxAnimLayer::EBlendMode`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Blend {
+    #[default]
+    Additive,
+    Override,
+    OverrideThrough,
+}
+
+/// A layer.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Layer {
+    blend: Blend,
+    /// Of the layer, 0…1.
+    weight: f64,
+    weight_curve: Option<Curve>,
+    /// Whether rotations follow each other, where angles add up otherwise; and whether scales multiply.
+    turns: bool,
+    multiplies: bool,
+    moved: Moved<Axes>,
+}
+
+impl Layer {
+    /// A layer of 7.x.
+    ///
+    /// # Errors
+    /// When an array of a curve is damaged.
+    pub(super) fn read(file: &File<'_, '_>, objects: &Objects<'_, '_>, nodes: &Nodes, layer: &Object<'_, '_>) -> Result<Self, Fault> {
+        let mut moved: Moved<Axes> = HashMap::new();
+        let mut weight_curve = None;
+        for (_, curve_node) in objects.children(layer, "AnimationCurveNode") {
+            let mut axes = Axes {
+                without: ["d|X", "d|Y", "d|Z"].map(|name| curve_node.number(name)),
+                ..Axes::default()
+            };
+            for child in &curve_node.children {
+                let curve = objects.get(child.to);
+                if curve.record.name != "AnimationCurve" {
+                    continue;
+                }
+                let axis = match child.property.as_str() {
+                    "d|X" | "d|Weight" => 0,
+                    "d|Y" => 1,
+                    "d|Z" => 2,
+                    _ => continue,
+                };
+                axes.curves[axis] = Some(Curve::read(curve.record, file.document, &file.budget)?);
+            }
+            for parent in &curve_node.parents {
+                match (Property::named(&parent.property), node_of(nodes, parent.to)) {
+                    (Some(property), Some(node)) => {
+                        moved.insert((node, property), axes.clone());
+                    }
+                    _ if parent.property == "Weight" => weight_curve = axes.curves[0].clone(),
+                    _ => (),
+                }
+            }
+        }
+        Ok(Self {
+            blend: match layer.integer("BlendMode") {
+                Some(1) => Blend::Override,
+                Some(2) => Blend::OverrideThrough,
+                _ => Blend::Additive,
+            },
+            weight: part_of(layer.number("Weight").unwrap_or(100.0)),
+            weight_curve,
+            turns: layer.integer("RotationAccumulationMode").unwrap_or(0) == 0,
+            multiplies: layer.integer("ScaleAccumulationMode").unwrap_or(0) == 0,
+            moved,
+        })
+    }
+
+    /// The one layer of a take of 6.1.
+    pub(super) fn of_take(take: &Record<'_>, objects: &Objects<'_, '_>, nodes: &Nodes) -> Self {
+        let mut moved: Moved<Axes> = HashMap::new();
+        for model in take.all("Model") {
+            let Some(node) = model.bytes(0).and_then(|name| objects.named(name)).and_then(|object| node_of(nodes, object)) else {
+                continue;
+            };
+            let transform = model.all("Channel").filter(|channel| named(channel) == "Transform");
+            for channel in transform.flat_map(|transform| transform.all("Channel")) {
+                let Some(property) = Property::named(&named(channel)) else { continue };
+                let mut axes = Axes::default();
+                for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
+                    let Some(of_axis) = channel.all("Channel").find(|channel| named(channel) == name) else {
+                        continue;
+                    };
+                    axes.without[axis] = of_axis.find("Default").and_then(|default| default.number(0));
+                    axes.curves[axis] = Some(Curve::read_take(of_axis)).filter(|curve| curve.times_secs().next().is_some());
+                }
+                moved.insert((node, property), axes);
+            }
+        }
+        Self {
+            moved,
+            ..Self::default()
+        }
+    }
+
+    /// Whether no curve moves a node.
+    pub(super) fn is_empty(&self) -> bool {
+        self.nodes().next().is_none()
+    }
+
+    /// The nodes that a curve moves.
+    pub(super) fn nodes(&self) -> impl Iterator<Item = u32> + '_ {
+        let moves = |axes: &Axes| axes.curves.iter().flatten().any(|curve| curve.times_secs().next().is_some());
+        self.moved.iter().filter(move |(_, axes)| moves(axes)).map(|(&(node, _), _)| node)
+    }
+
+    /// The times of the keys of some properties of a node.
+    pub(super) fn times_secs(&self, node: u32, properties: &[Property]) -> impl Iterator<Item = f64> {
+        let axes = properties.iter().filter_map(move |&property| self.moved.get(&(node, property)));
+        let curves = axes.flat_map(|axes| axes.curves.iter().flatten());
+        // How much of a layer counts changes what it moves.
+        let has_any = curves.clone().next().is_some();
+        curves.chain(self.weight_curve.iter().filter(move |_| has_any)).flat_map(Curve::times_secs)
+    }
+
+    /// Brings what it has at a time over the parts of a node; the lowest layer replaces them. `is_before` is 1 for just before that time.
+    pub(super) fn add_to(&self, parts: &mut Parts, (node, transform): (u32, &Transform), [secs, is_before]: [f64; 2], is_lowest: bool) {
+        let is_before = is_before != 0.0;
+        for property in [Property::Translation, Property::Rotation, Property::Scale] {
+            let Some(axes) = self.moved.get(&(node, property)) else { continue };
+            let below = property.of(parts);
+            let mut value = *below;
+            for axis in 0..3 {
+                let curve = axes.curves[axis].as_ref().and_then(|curve| curve.at(secs, is_before));
+                if let Some(number) = curve.or(axes.without[axis]) {
+                    value[axis] = number;
+                }
+            }
+            if is_lowest || (self.blend == Blend::Override && self.weight >= 1.0 && self.weight_curve.is_none()) {
+                *below = value;
+                continue;
+            }
+            let weight = self.weight_curve.as_ref().and_then(|curve| curve.at(secs, is_before)).map_or(self.weight, part_of);
+            *below = self.over(property, transform, [*below, value], weight);
+        }
+    }
+
+    fn over(&self, property: Property, transform: &Transform, [below, value]: [DVec3; 2], weight: f64) -> DVec3 {
+        let is_additive = self.blend == Blend::Additive;
+        let kept = if is_additive { 1.0 } else { 1.0 - weight };
+        match property {
+            Property::Scale if self.multiplies => power(below, kept) * power(value, weight),
+            Property::Rotation if self.turns => {
+                let [below, value] = [below, value].map(|degrees| transform.order.rotation(degrees));
+                let rotation = match is_additive {
+                    true => below * glam::DQuat::IDENTITY.slerp(value, weight),
+                    false => below.slerp(value, weight),
+                };
+                transform.order.degrees(rotation)
+            }
+            _ => below * kept + value * weight,
+        }
+    }
+}
+
+/// Of per cents.
+fn part_of(percent: f64) -> f64 {
+    let part = (percent / 100.0).clamp(0.0, 1.0);
+    if part > 0.99999 { 1.0 } else { part }
+}
+
+/// Each number to this power, with its sign.
+fn power(numbers: DVec3, exponent: f64) -> DVec3 {
+    match exponent {
+        1.0 => numbers,
+        _ => numbers.map(|number| number.abs().powf(exponent) * number.signum()),
+    }
+}

@@ -1,0 +1,77 @@
+//! What a model does not take from a file, told: one note for each kind.
+
+use std::collections::BTreeMap;
+
+use super::File;
+use super::nodes::Nodes;
+use super::objects::{Object, Objects};
+use crate::diagnostic::codes;
+use crate::diagnostic::collect::{counted, few};
+use crate::fbx::Place;
+
+/// Kinds of objects by how they are told of, for one and for many.
+fn kind(object: &Object<'_, '_>) -> Option<[&'static str; 2]> {
+    Some(match (&*object.record.name, &*object.kind) {
+        ("Geometry", "Shape") | ("Deformer", "BlendShapeChannel") => ["blend shape, which stands still", "blend shapes, which stand still"],
+        ("Geometry", "NurbsCurve" | "NurbsSurface" | "Nurb" | "TrimNurbsSurface" | "Line" | "Patch" | "Boundary") => {
+            ["NURBS surface, patch or line", "NURBS surfaces, patches or lines"]
+        }
+        ("Model", "Camera" | "CameraSwitcher") | ("NodeAttribute", "Camera") => ["camera", "cameras"],
+        ("Model", "Light") | ("NodeAttribute", "Light") => ["light", "lights"],
+        ("Constraint" | "Character" | "ControlSetPlug", _) => ["constraint or rig of a program", "constraints or rigs of a program"],
+        ("Deformer", "VertexCacheDeformer") | ("Cache", _) => ["cache of vertices", "caches of vertices"],
+        ("NodeAttribute", "LodGroup") => ["group of details, all of which are shown", "groups of details, all of which are shown"],
+        ("LayeredTexture", _) => ["layered texture, of which the first layer is shown", "layered textures, of which the first layer is shown"],
+        ("Audio" | "AudioLayer", _) => ["sound", "sounds"],
+        _ => return None,
+    })
+}
+
+/// Notes what of a file is not in the model.
+pub(super) fn note(file: &mut File<'_, '_>, objects: &Objects<'_, '_>, nodes: &Nodes) {
+    let mut kinds: BTreeMap<[&str; 2], (Place, Vec<String>)> = BTreeMap::new();
+    for object in &objects.all {
+        // Nodes have an attribute besides: each is told of once.
+        let is_attribute = object.record.name == "NodeAttribute" || object.kind == "BlendShapeChannel";
+        if let Some(kind) = kind(object) {
+            let (_, names) = kinds.entry(kind).or_insert_with(|| (object.record.place, Vec::new()));
+            if !is_attribute || object.kind == "LodGroup" {
+                names.push(object.name.clone().into_owned());
+            }
+        }
+    }
+    for ([one, many], (place, mut names)) in kinds {
+        names.retain(|name| !name.is_empty());
+        let count = names.len().max(1);
+        let listed = if names.is_empty() { "" } else { ": " };
+        let message = format!("Not taken: {}{listed}{}.", counted(count, one, many), few(&names));
+        file.note_of(place, &codes::FBX_LEFT_OUT, message);
+    }
+    if file.disagreeing > 0 {
+        let message = format!(
+            "{} bound in another way than the bind pose says; the skin is believed.",
+            counted(file.disagreeing, "bone is", "bones are")
+        );
+        file.note(&codes::FBX_LEFT_OUT, message);
+    }
+    let uses = &nodes.scene.uses;
+    if uses.len() > 1 {
+        let names: Vec<String> = uses.iter().map(|mesh| nodes.scene.nodes[mesh.node as usize].tag.name.clone()).collect();
+        let message = format!("{} objects become one mesh: {}.", uses.len(), few(&names));
+        file.note(&codes::FBX_OBJECTS_MERGED, message);
+    }
+    for (places, what) in [
+        (&objects.doubled, "has the number of another one; left out"),
+        (&objects.missing, "names what is not there; left out"),
+    ] {
+        if let Some(&place) = places.first() {
+            let message = format!("{} {what}.", counted(places.len(), "record", "records"));
+            file.note_of(place, &codes::FBX_RULE_BROKEN, message);
+        }
+    }
+    if let Some(&first) = nodes.tangled.first() {
+        let object = objects.get(first);
+        let message = format!("\"{}\" lies below itself; it hangs on the scene now.", object.name);
+        file.note_of(object.record.place, &codes::FBX_RULE_BROKEN, message);
+    }
+}

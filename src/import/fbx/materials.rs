@@ -1,0 +1,248 @@
+//! Materials of a file as ours: Lambert's, Phong's, and those of Stingray and 3ds Max that are metals or not.
+
+use glam::{Affine2, DAffine3, DVec3, Vec2};
+
+use super::File;
+use super::images::Images;
+use super::objects::{Object, ObjectIndex, Objects};
+use super::transform::RotationOrder;
+use crate::diagnostic::collect::{counted, few};
+use crate::diagnostic::{Subject, codes};
+use crate::model::{AlphaMode, Material, MaterialMap, Reflectance, Sampling, Wrap, unique_names};
+
+/// The names that programs give what we have, the most telling first. Where there are several, all but the first are of
+/// Autodesk's physical materials: Stingray's of Maya, and 3ds Max's of three kinds.
+mod names {
+    pub(super) const BASE_COLOR: &[&str] = &[
+        "Maya|base_color",
+        "Maya|baseColor",
+        "3dsMax|Parameters|base_color",
+        "3dsMax|main|baseColor",
+        "3dsMax|main|basecolor",
+        "DiffuseColor",
+        "Diffuse",
+    ];
+    pub(super) const METALLIC: &[&str] = &["Maya|metallic", "Maya|metalness", "3dsMax|Parameters|metalness", "3dsMax|main|metalness"];
+    pub(super) const ROUGHNESS: &[&str] = &[
+        "Maya|roughness",
+        "Maya|specularRoughness",
+        "3dsMax|Parameters|roughness",
+        "3dsMax|main|roughness",
+    ];
+    pub(super) const GLOSSINESS: &[&str] = &["3dsMax|main|glossiness", "3dsMax|main|Glossiness"];
+    pub(super) const EMISSIVE: &[&str] = &[
+        "Maya|emissive",
+        "Maya|emissionColor",
+        "3dsMax|Parameters|emit_color",
+        "3dsMax|main|emit_color",
+        "EmissiveColor",
+        "Emissive",
+    ];
+    pub(super) const COLOR_MAP: &[&str] = &[
+        "Maya|TEX_color_map",
+        "Maya|baseColor",
+        "3dsMax|Parameters|base_color_map",
+        "3dsMax|main|base_color_map",
+        "DiffuseColor",
+        "Diffuse",
+        // Those of 6.1 hang on the model.
+        "",
+    ];
+    pub(super) const NORMAL_MAP: &[&str] = &[
+        "Maya|TEX_normal_map",
+        "Maya|normalCamera",
+        "3dsMax|Parameters|bump_map",
+        "3dsMax|main|norm_map",
+        "NormalMap",
+        "Bump",
+    ];
+    pub(super) const OCCLUSION_MAP: &[&str] = &["Maya|TEX_ao_map", "3dsMax|main|ao_map"];
+    pub(super) const EMISSIVE_MAP: &[&str] = &[
+        "Maya|TEX_emissive_map",
+        "Maya|emissionColor",
+        "3dsMax|Parameters|emit_color_map",
+        "3dsMax|main|emit_color_map",
+        "EmissiveColor",
+        "Emissive",
+    ];
+    pub(super) const OPACITY_MAP: &[&str] = &[
+        "TransparentColor",
+        "TransparencyFactor",
+        "3dsMax|main|opacity_map",
+        "3dsMax|Parameters|cutout_map",
+    ];
+}
+
+/// The materials of a file, and which of them each object is.
+pub(super) struct Materials {
+    pub(super) materials: Vec<Material>,
+    /// Their objects, in the same order.
+    pub(super) objects: Vec<ObjectIndex>,
+}
+
+impl Materials {
+    /// The materials that hang on models, and behind them one of what has none.
+    pub(super) fn read(file: &mut File<'_, '_>, objects: &Objects<'_, '_>, images: &Images) -> Self {
+        let used = |object: &Object<'_, '_>| object.parents.iter().any(|parent| objects.get(parent.to).record.name == "Model");
+        let found = objects.of_class("Material").filter(|(_, object)| used(object));
+        let found: Vec<ObjectIndex> = found.map(|(index, _)| index).collect();
+        let names = found.iter().map(|&index| &*objects.get(index).name).chain(["default"]);
+        let names = unique_names(names, "material", |index, name| {
+            if let Some(&object) = found.get(index as usize) {
+                let message = format!("Another material has the same name; this one is shown as \"{name}\".");
+                let place = objects.get(object).record.place;
+                file.note_at(place, Subject::Material(index), &codes::DUPLICATE_MATERIAL_NAME, message);
+            }
+        });
+        let mut left_out = Vec::new();
+        let mut materials = Vec::with_capacity(names.len());
+        for (index, name) in names.into_iter().enumerate() {
+            materials.push(match found.get(index) {
+                Some(&object) => material(name, objects, object, images, &mut left_out),
+                None => Material {
+                    name,
+                    ..Material::default()
+                },
+            });
+        }
+        if !left_out.is_empty() {
+            let count = counted(left_out.len(), "map is", "maps are");
+            let message = format!("{count} of a kind that has no place in a model: {}.", few(&left_out));
+            file.note(&codes::FBX_LEFT_OUT, message);
+        }
+        Self {
+            materials,
+            objects: found,
+        }
+    }
+
+    /// The material of an object; the one behind all where it is none of them.
+    pub(super) fn index(&self, object: Option<ObjectIndex>) -> u32 {
+        let found = object.and_then(|object| self.objects.binary_search(&object).ok());
+        found.unwrap_or(self.objects.len()) as u32
+    }
+}
+
+fn color(object: &Object<'_, '_>, names: &[&str]) -> Option<[f32; 3]> {
+    let found = names.iter().find_map(|name| object.vector(name))?;
+    Some(found.as_vec3().to_array()).filter(|color| color.iter().all(|number| number.is_finite()))
+}
+
+fn number(object: &Object<'_, '_>, names: &[&str]) -> Option<f32> {
+    let found = names.iter().find_map(|name| object.number(name))? as f32;
+    Some(found).filter(|number| number.is_finite())
+}
+
+fn material(name: String, objects: &Objects<'_, '_>, index: ObjectIndex, images: &Images, left_out: &mut Vec<String>) -> Material {
+    let object = objects.get(index);
+    let maps = maps(objects, object, images);
+    let map = |names: &[&str]| {
+        let found = names.iter().find_map(|name| maps.iter().find(|(property, _)| property == name));
+        found.map(|(_, map)| map.clone())
+    };
+    let [diffuse_map, emissive_map, opacity_map] = [names::COLOR_MAP, names::EMISSIVE_MAP, names::OPACITY_MAP].map(map);
+    let one = |_: &MaterialMap| [1.0; 3];
+    let factor = |name: &str| number(object, &[name]).unwrap_or(1.0).max(0.0);
+    let diffuse = diffuse_map.as_ref().map(one).or_else(|| color(object, names::BASE_COLOR));
+    // A map stands in the place of the colour.
+    let emissive = emissive_map.as_ref().map(one).or_else(|| color(object, names::EMISSIVE)).unwrap_or_default();
+    let opacity = opacity(object);
+    let is_cut_by_own = opacity_map.as_ref().is_some_and(|map| diffuse_map.as_ref().is_some_and(|diffuse| diffuse.name == map.name));
+    let known = [names::COLOR_MAP, names::NORMAL_MAP, names::EMISSIVE_MAP, names::OCCLUSION_MAP].concat();
+    let is_left = |property: &str| !known.contains(&property) && !(is_cut_by_own && names::OPACITY_MAP.contains(&property));
+    left_out.extend(maps.iter().filter(|(property, _)| is_left(property)).map(|(property, _)| format!("{name}'s {property}")));
+    Material {
+        diffuse: diffuse.unwrap_or([0.8; 3]).map(|number| (number * factor("DiffuseFactor")).clamp(0.0, 1.0)),
+        opacity,
+        reflectance: Reflectance::MetallicRoughness {
+            metallic: number(object, names::METALLIC).unwrap_or(0.0).clamp(0.0, 1.0),
+            roughness: roughness(object),
+        },
+        alpha: match opacity < 1.0 || is_cut_by_own {
+            true => AlphaMode::Blend,
+            false => AlphaMode::Opaque,
+        },
+        emissive: emissive.map(|number| number.max(0.0) * factor("EmissiveFactor")),
+        normal_map: map(names::NORMAL_MAP),
+        occlusion_map: map(names::OCCLUSION_MAP),
+        diffuse_map,
+        emissive_map,
+        name,
+        ..Material::default()
+    }
+}
+
+/// Of Blinn's and Phong's exponent: `α² = 2 / (n + 2)`, and roughness is the root of α (Walter 2007; glTF 2.0, appendix B).
+fn roughness(object: &Object<'_, '_>) -> f32 {
+    let given = number(object, names::ROUGHNESS).or_else(|| number(object, names::GLOSSINESS).map(|gloss| 1.0 - gloss));
+    let of_exponent = || {
+        let is_lambert = object.record.find("ShadingModel").and_then(|model| model.text(0)).is_some_and(|model| model.eq_ignore_ascii_case("lambert"));
+        let exponent = number(object, &["ShininessExponent", "Shininess"]).filter(|_| !is_lambert)?;
+        Some((2.0 / (exponent.max(0.0) + 2.0)).sqrt().sqrt())
+    };
+    given.or_else(of_exponent).unwrap_or(1.0).clamp(0.0, 1.0)
+}
+
+/// How much is seen of it, 0…1. Some exporters say that nothing is, and mean all.
+fn opacity(object: &Object<'_, '_>) -> f32 {
+    let of_color = || {
+        let color = color(object, &["TransparentColor"]).unwrap_or([1.0; 3]);
+        let factor = number(object, &["TransparencyFactor"])?;
+        Some(1.0 - factor * (color[0] + color[1] + color[2]) / 3.0)
+    };
+    let opacity = of_color().or_else(|| number(object, &["Opacity"])).unwrap_or(1.0);
+    if opacity > 0.0 { opacity.min(1.0) } else { 1.0 }
+}
+
+/// The maps of a material by the properties on which they hang; those of its models without any by no name.
+fn maps(objects: &Objects<'_, '_>, material: &Object<'_, '_>, images: &Images) -> Vec<(String, MaterialMap)> {
+    let textures = |object: &Object<'_, '_>| {
+        let textures = object.children.iter().filter_map(|child| Some((child.property.clone(), texture(objects, child.to)?)));
+        textures.collect::<Vec<_>>()
+    };
+    let mut found = textures(material);
+    if found.is_empty() {
+        let models = material.parents.iter().map(|parent| objects.get(parent.to));
+        found = models.filter(|parent| parent.record.name == "Model").flat_map(textures).collect();
+    }
+    let named = found.into_iter().filter_map(|(property, texture)| {
+        let name = images.name(texture)?.to_owned();
+        let sampling = sampling(objects.get(texture));
+        Some((property, MaterialMap { name, sampling }))
+    });
+    named.collect()
+}
+
+/// A texture, or the first of a layered one.
+fn texture(objects: &Objects<'_, '_>, index: ObjectIndex) -> Option<ObjectIndex> {
+    let object = objects.get(index);
+    match &*object.record.name {
+        "Texture" => Some(index),
+        "LayeredTexture" => objects.children(object, "Texture").next().map(|(index, _)| index),
+        _ => None,
+    }
+}
+
+fn sampling(texture: &Object<'_, '_>) -> Sampling {
+    let vector = |name: &str, default| texture.vector(name).filter(|vector| vector.is_finite()).unwrap_or(default);
+    let [rotation_pivot, scaling_pivot] = ["TextureRotationPivot", "TextureScalingPivot"].map(|name| vector(name, DVec3::ZERO));
+    let at = DAffine3::from_translation;
+    let rotation = DAffine3::from_quat(RotationOrder::Xyz.rotation(vector("Rotation", DVec3::ZERO)));
+    let tex_coords_from_map = at(vector("Translation", DVec3::ZERO) + rotation_pivot)
+        * rotation
+        * at(scaling_pivot - rotation_pivot)
+        * DAffine3::from_scale(vector("Scaling", DVec3::ONE))
+        * at(-scaling_pivot);
+    let inverse = tex_coords_from_map.inverse();
+    let [x, y, origin] = [inverse.matrix3.x_axis, inverse.matrix3.y_axis, inverse.translation].map(|column| column.truncate().as_vec2());
+    let upright = Affine2::from_cols(x, y, origin);
+    // v runs upwards in FBX.
+    let turned = Affine2::from_cols(Vec2::X, Vec2::NEG_Y, Vec2::Y);
+    let map_from_mesh = turned * upright * turned;
+    let wrap = |name: &str| if texture.integer(name) == Some(1) { Wrap::Clamp } else { Wrap::Repeat };
+    Sampling {
+        map_from_mesh: if map_from_mesh.is_finite() { map_from_mesh } else { Affine2::IDENTITY },
+        wrap: [wrap("WrapModeU"), wrap("WrapModeV")],
+        ..Sampling::default()
+    }
+}

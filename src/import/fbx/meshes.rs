@@ -1,0 +1,157 @@
+//! The geometries of a file as one mesh: each on the nodes that have it, moved by its skin or by its node.
+
+use glam::DAffine3;
+
+use super::File;
+use super::geometry::{self, Geometry};
+use super::materials::Materials;
+use super::nodes::{self, Nodes};
+use super::objects::{ObjectIndex, Objects};
+use super::skins::{self, Bound};
+use crate::diagnostic::collect::{Diagnostics, counted};
+use crate::diagnostic::{Fault, codes};
+use crate::fbx::Place;
+use crate::import::scene::{MeshBuilder, MeshUse, Rig};
+use crate::model::{Influences, Mesh, Object};
+use crate::slices::{Slices, Stage};
+
+/// What is kept of a mesh on each node: all streams of a vertex, and three indices.
+const BYTES_PER_VERTEX: u64 = 104;
+const BYTES_PER_TRIANGLE: u64 = 12;
+
+/// The geometries that nodes have, with their skins.
+#[derive(Default)]
+pub(super) struct Meshes {
+    geometries: Vec<(ObjectIndex, Geometry)>,
+    /// Of each use of a mesh, in the scene's order.
+    bound: Vec<Option<Bound>>,
+}
+
+/// The meshes of a scene as one.
+pub(super) struct Meshed {
+    pub(super) mesh: Mesh,
+    pub(super) objects: Vec<(MeshUse, Object)>,
+    /// Of each submesh: where its geometry begins.
+    pub(super) places: Vec<Place>,
+}
+
+impl Meshes {
+    /// Reads the geometries and skins of a file, and tells the scene of them.
+    ///
+    /// # Errors
+    /// When an array is damaged, or a corner names a control point that is not there.
+    pub(super) async fn read(file: &mut File<'_, '_>, objects: &Objects<'_, '_>, nodes: &mut Nodes, slices: &Slices) -> Result<Self, Fault> {
+        let mut meshes = Self::default();
+        let mut uses: Vec<(ObjectIndex, u32)> = Vec::new();
+        for (node, &object) in (0u32..).zip(&nodes.objects) {
+            let model = objects.get(object);
+            // In files of 6.1 a model is its own geometry.
+            let own = model.record.find("Vertices").map(|_| object);
+            let hanging = objects.children(model, "Geometry").filter(|(_, geometry)| geometry.record.find("Vertices").is_some());
+            let hanging = hanging.filter(|(_, geometry)| geometry.kind != "Shape").map(|(index, _)| index);
+            uses.extend(own.into_iter().chain(hanging).map(|geometry| (geometry, node)));
+        }
+        uses.sort();
+        for (at, &(index, node)) in uses.iter().enumerate() {
+            slices.pause_at(Stage::Building, at, uses.len()).await;
+            if meshes.geometries.last().is_none_or(|(before, _)| *before != index) {
+                let object = objects.get(index);
+                let geometry = geometry::read(object.record, &file.budget)?;
+                if geometry.left_out > 0 {
+                    let message = format!(
+                        "{} of \"{}\" with fewer than three corners; left out.",
+                        counted(geometry.left_out, "polygon", "polygons"),
+                        object.name
+                    );
+                    file.note_of(object.record.place, &codes::FBX_LEFT_OUT, message);
+                }
+                nodes.scene.meshes.push(nodes::mesh_tag(object));
+                meshes.geometries.push((index, geometry));
+            }
+            let mesh = meshes.geometries.len() - 1;
+            let geometry = &meshes.geometries[mesh].1;
+            if geometry.parts.is_empty() {
+                continue;
+            }
+            let triangles: usize = geometry.parts.iter().map(|part| part.triangles.len()).sum();
+            let bytes = BYTES_PER_VERTEX * geometry.control_points.len() as u64 + BYTES_PER_TRIANGLE * triangles as u64;
+            file.budget.keep(bytes, objects.get(index).record.place)?;
+            let mut bound = skins::read(file, objects, nodes, (index, node), geometry.control_point_count)?;
+            let skin = bound.as_mut().map(|bound| {
+                nodes.scene.skins.push(Some(bound.skin.clone()));
+                nodes.scene.skins.len() - 1
+            });
+            nodes.scene.uses.push(MeshUse {
+                mesh,
+                node,
+                skin,
+                is_on_node: skin.is_none(),
+            });
+            meshes.bound.push(bound);
+        }
+        Ok(meshes)
+    }
+
+    /// The mesh of the scene, and its objects.
+    ///
+    /// # Errors
+    /// When there are more vertices than numbers for them.
+    pub(super) async fn mesh(
+        &self,
+        nodes: &Nodes,
+        (objects, materials): (&Objects<'_, '_>, &Materials),
+        rig: &Rig,
+        diagnostics: &mut Diagnostics,
+        slices: &Slices,
+    ) -> Result<Meshed, Fault> {
+        let scene = &nodes.scene;
+        let normal_maps = materials.materials.iter().any(|material| material.normal_map.is_some());
+        let mut builder = MeshBuilder::new(normal_maps, false);
+        let mut places = Vec::new();
+        for (at, (mesh, bound)) in scene.uses.iter().zip(&self.bound).enumerate() {
+            slices.pause_at(Stage::Building, at, scene.uses.len()).await;
+            let (object, geometry) = &self.geometries[mesh.mesh];
+            let place = objects.get(*object).record.place;
+            let start = builder.vertex_count() as u32;
+            let influences = influences(&mut builder, geometry, bound.as_ref(), rig, mesh);
+            let node_from_geometry = match bound {
+                // A skin's matrices have it.
+                Some(_) => DAffine3::IDENTITY,
+                None => nodes.transforms[mesh.node as usize].node_from_geometry,
+            };
+            let placement = rig.placement(mesh, bound.is_some()) * node_from_geometry;
+            let too_many = || Box::new(place.says(&codes::FBX_DAMAGED, "There are more vertices or triangles than numbers for them."));
+            builder.add_vertices(&geometry.vertices, influences, &placement, too_many)?;
+            let is_mirrored = placement.matrix3.determinant() < 0.0;
+            let of_node: Vec<ObjectIndex> = objects.children(objects.get(nodes.objects[mesh.node as usize]), "Material").map(|(index, _)| index).collect();
+            for part in &geometry.parts {
+                slices.pause().await;
+                let material = materials.index(of_node.get(part.material).copied());
+                builder.add_triangles(part.triangles.iter().copied(), (start, is_mirrored), material, too_many)?;
+                places.push(place);
+            }
+            builder.end_object(*mesh);
+        }
+        Ok(Meshed {
+            objects: builder.objects(scene),
+            mesh: builder.finish(diagnostics, slices).await?,
+            places,
+        })
+    }
+}
+
+fn influences(builder: &mut MeshBuilder, geometry: &Geometry, bound: Option<&Bound>, rig: &Rig, mesh: &MeshUse) -> Vec<Influences> {
+    let count = geometry.control_points.len();
+    let (Some(bound), Some(joints)) = (bound, rig.slots(mesh, true)) else {
+        let influences = rig.influences_on(mesh.node);
+        return influences.map_or_else(Vec::new, |influences| vec![influences; count]);
+    };
+    let first = builder.vertex_count() as u32;
+    let mut pairs = Vec::new();
+    let all = (first..).zip(&geometry.control_points).map(|(vertex, &point)| {
+        pairs.clear();
+        pairs.extend(bound.pairs(point).iter().map(|&(weight, slot)| (weight, joints[slot as usize])));
+        builder.weights.strongest(vertex, &mut pairs)
+    });
+    all.collect()
+}

@@ -1,0 +1,204 @@
+//! What ufbx, a C library that reads FBX, makes of the same files: where all vertices are, at rest and in each clip.
+
+use bindpose::anim::{CompiledClip, PoseBuffers, skin_positions};
+use bindpose::import::{Imported, import};
+use bindpose::model::Model;
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+use ufbx::{Anim, CoordinateAxis, EvaluateOpts, LoadOpts, Mesh, Node, Scene};
+
+use super::files;
+
+/// Of the model's size.
+const TOLERANCE: f64 = 1e-4;
+
+/// Files that are not compared, each with its reason.
+const OUT_OF_SCOPE: &[(&str, &str)] = &[];
+
+fn matrix(matrix: &ufbx::Matrix) -> DAffine3 {
+    DAffine3::from_cols_array(&[
+        matrix.m00, matrix.m10, matrix.m20, matrix.m01, matrix.m11, matrix.m21, matrix.m02, matrix.m12, matrix.m22, matrix.m03, matrix.m13,
+        matrix.m23,
+    ])
+}
+
+/// The file's axes -> right, up, front.
+fn axes(scene: &Scene) -> DMat3 {
+    let axis = |axis: CoordinateAxis| match axis {
+        CoordinateAxis::PositiveX => Some(DVec3::X),
+        CoordinateAxis::NegativeX => Some(DVec3::NEG_X),
+        CoordinateAxis::PositiveY => Some(DVec3::Y),
+        CoordinateAxis::NegativeY => Some(DVec3::NEG_Y),
+        CoordinateAxis::PositiveZ => Some(DVec3::Z),
+        CoordinateAxis::NegativeZ => Some(DVec3::NEG_Z),
+        CoordinateAxis::Unknown => None,
+    };
+    let axes = &scene.settings.axes;
+    let all = [axis(axes.right), axis(axes.up), axis(axes.front)];
+    match all {
+        [Some(right), Some(up), Some(front)] => DMat3::from_cols(right, up, front).transpose(),
+        _ => DMat3::IDENTITY,
+    }
+}
+
+/// Where the points of a node's mesh are that faces use, with the four greatest weights.
+fn points(scene: &Scene, node: &Node, mesh: &Mesh, out: &mut Vec<DVec3>) {
+    let axes = axes(scene);
+    let geometry_to_world = matrix(&node.geometry_to_world);
+    let skin = mesh.skin_deformers.iter().next().filter(|skin| !skin.clusters.is_empty());
+    let mut is_used = vec![false; mesh.num_vertices];
+    for face in mesh.faces.iter().filter(|face| face.num_indices >= 3) {
+        for corner in face.index_begin..face.index_begin + face.num_indices {
+            is_used[mesh.vertex_indices[corner as usize] as usize] = true;
+        }
+    }
+    for (index, position) in mesh.vertices.iter().enumerate().filter(|(index, _)| is_used[*index]) {
+        let position = DVec3::new(position.x, position.y, position.z);
+        let mut placed = geometry_to_world.transform_point3(position);
+        if let Some(skin) = skin {
+            let vertex = &skin.vertices[index];
+            let first = vertex.weight_begin as usize;
+            let mut weights: Vec<(f64, u32)> = (first..first + vertex.num_weights as usize)
+                .map(|weight| (skin.weights[weight].weight, skin.weights[weight].cluster_index))
+                .filter(|(weight, _)| *weight > 0.0)
+                .collect();
+            weights.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+            weights.truncate(4);
+            let sum: f64 = weights.iter().map(|(weight, _)| weight).sum();
+            if sum > 0.0 {
+                placed = weights
+                    .iter()
+                    .map(|&(weight, cluster)| matrix(&skin.clusters[cluster as usize].geometry_to_world).transform_point3(position) * (weight / sum))
+                    .sum();
+            }
+        }
+        out.push(axes * placed);
+    }
+}
+
+fn all_points(scene: &Scene) -> Vec<DVec3> {
+    let mut all = Vec::new();
+    for node in scene.nodes.iter() {
+        if let Some(mesh) = &node.mesh {
+            points(scene, node, mesh, &mut all);
+        }
+    }
+    all
+}
+
+fn at(scene: &Scene, anim: &Anim, secs: f64) -> Vec<DVec3> {
+    let opts = EvaluateOpts::default();
+    let evaluated = ufbx::evaluate_scene(scene, anim, secs, opts).expect("it is evaluated");
+    all_points(&evaluated)
+}
+
+/// Ours at rest, or at a time of a clip.
+fn ours(model: &Model, clip: Option<(&CompiledClip, f32)>) -> Vec<DVec3> {
+    let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
+    match clip {
+        Some((clip, secs)) => pose.evaluate(&model.skeleton, clip, secs),
+        None => pose.set_rest_pose(&model.skeleton),
+    }
+    let mut positions: Vec<Vec3> = model.mesh.positions.clone();
+    if model.skeleton.joint_count() > 0 {
+        skin_positions(&model.mesh, &pose.palette, &mut positions);
+    }
+    positions.into_iter().map(Vec3::as_dvec3).collect()
+}
+
+/// Which of theirs each of ours may be: the nearest at rest, and all that are as near.
+fn matches(ours: &[DVec3], theirs: &[DVec3], within: f64) -> (Vec<Vec<u32>>, f64) {
+    let mut order: Vec<u32> = (0..theirs.len() as u32).collect();
+    order.sort_by(|a, b| theirs[*a as usize].x.total_cmp(&theirs[*b as usize].x));
+    let mut worst = 0f64;
+    let mut is_met = vec![false; theirs.len()];
+    let found = ours.iter().map(|&point| {
+        let start = order.partition_point(|&index| theirs[index as usize].x < point.x - within);
+        let near: Vec<u32> = order[start..]
+            .iter()
+            .take_while(|&&index| theirs[index as usize].x <= point.x + within)
+            .copied()
+            .filter(|&index| theirs[index as usize].distance(point) <= within)
+            .collect();
+        let nearest = near.iter().map(|&index| theirs[index as usize].distance(point)).fold(f64::INFINITY, f64::min);
+        worst = worst.max(nearest);
+        near.iter().for_each(|&index| is_met[index as usize] = true);
+        near
+    });
+    let found = found.collect();
+    if is_met.contains(&false) {
+        worst = f64::INFINITY;
+    }
+    (found, worst)
+}
+
+fn size(points: &[DVec3]) -> f64 {
+    let least = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let greatest = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    least.distance(greatest).max(1e-9)
+}
+
+/// How far a file is off, as a part of its size: at rest, and in each clip.
+fn compare(bytes: &[u8], imported: &Imported) -> Result<Vec<(String, f64)>, String> {
+    let scene = ufbx::load_memory(bytes, LoadOpts::default()).map_err(|error| format!("ufbx does not read it: {}", &*error.description))?;
+    let model = &imported.model;
+    let theirs = all_points(&scene);
+    if theirs.is_empty() || model.mesh.positions.is_empty() {
+        return match (theirs.len(), model.mesh.positions.len()) {
+            (0, 0) => Ok(Vec::new()),
+            counts => Err(format!("{counts:?} points")),
+        };
+    }
+    let size = size(&theirs);
+    let (candidates, at_rest) = matches(&ours(model, None), &theirs, 20.0 * TOLERANCE * size);
+    let mut off = vec![("rest".to_owned(), at_rest / size)];
+    if at_rest.is_infinite() {
+        return Ok(off);
+    }
+    for stack in scene.anim_stacks.iter() {
+        let Some(clip) = model.clips.iter().find(|clip| *clip.name == *stack.element.name) else { continue };
+        let compiled = CompiledClip::new(clip);
+        let mut worst = 0f64;
+        for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
+            let secs = clip.start_secs + (clip.end_secs - clip.start_secs) * part;
+            let theirs = at(&scene, &stack.anim, f64::from(secs));
+            for (point, candidates) in ours(model, Some((&compiled, secs))).iter().zip(&candidates) {
+                let nearest = candidates.iter().map(|&index| theirs[index as usize].distance(*point)).fold(f64::INFINITY, f64::min);
+                worst = worst.max(nearest);
+            }
+        }
+        off.push((clip.name.clone(), worst / size));
+    }
+    Ok(off)
+}
+
+#[test]
+fn vertices_are_where_ufbx_has_them() {
+    let mut wrong = Vec::new();
+    for (name, bytes) in files("files").into_iter().chain(files("mixamo")) {
+        if let Some((_, reason)) = OUT_OF_SCOPE.iter().find(|(file, _)| *file == name) {
+            println!("{name}: not compared: {reason}");
+            continue;
+        }
+        let imported = match import(&bytes) {
+            Ok(imported) => imported,
+            Err(refused) => {
+                println!("{name}: {}", refused.error.message);
+                if ufbx::load_memory(&bytes, LoadOpts::default()).is_ok() && refused.error.code != "fbx-version" {
+                    wrong.push(format!("{name}: refused: {}", refused.error.message));
+                }
+                continue;
+            }
+        };
+        match compare(&bytes, &imported) {
+            Ok(off) => {
+                let listed: Vec<String> = off.iter().map(|(clip, off)| format!("{clip} {off:.1e}")).collect();
+                println!("{name}: {}", listed.join(", "));
+                if off.iter().any(|(_, off)| off.is_nan() || *off > TOLERANCE) {
+                    wrong.push(format!("{name}: {}", listed.join(", ")));
+                }
+            }
+            Err(why) => wrong.push(format!("{name}: {why}")),
+        }
+    }
+    assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
+}
