@@ -161,6 +161,8 @@ impl<'a> Reader<'a> {
         while has_comma || (values.is_empty() && !is_next_line) {
             match self.peek() {
                 None | Some(b'{' | b'}') => break,
+                // One that has no values.
+                Some(_) if self.is_at_record() => break,
                 Some(_) => values.push(self.value()?),
             }
             is_next_line = self.skip_space();
@@ -184,6 +186,13 @@ impl<'a> Reader<'a> {
             Some(content) => vec![Value::Array(Array(content))],
             None => values,
         })
+    }
+
+    /// Whether a name with its colon stands here.
+    fn is_at_record(&self) -> bool {
+        let rest = &self.bytes[self.at..];
+        let len = rest.iter().position(|byte| !byte.is_ascii_alphanumeric() && !matches!(byte, b'_' | b'-')).unwrap_or(rest.len());
+        len > 0 && rest.get(len) == Some(&b':')
     }
 
     fn pass_comma(&mut self) -> bool {
@@ -286,7 +295,7 @@ fn number(word: &[u8]) -> Option<Value<'static>> {
     if !is_number {
         return None;
     }
-    if word.len() < 20
+    if word.len() <= 20
         && let Some(integer) = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok())
     {
         return Some(Value::Integer(integer));

@@ -14,7 +14,7 @@ use super::File;
 use super::curves::TICKS_PER_SEC;
 use super::nodes::Nodes;
 use super::objects::{ObjectIndex, Objects};
-use super::transform::{Local, Parts};
+use super::transform::{Local, Parts, Transform, is_even};
 use crate::diagnostic::codes;
 use crate::diagnostic::collect::counted;
 use crate::diagnostic::{Fault, Subject};
@@ -69,36 +69,49 @@ impl Stack {
 
     /// Marks the nodes that it moves.
     pub(super) fn mark_moved(&self, nodes: &mut Nodes) {
-        for node in self.layers.iter().flat_map(Layer::nodes) {
-            nodes.scene.nodes[node as usize].is_moved = true;
+        let mut is_moved = vec![false; nodes.transforms.len()];
+        self.layers.iter().flat_map(Layer::models).for_each(|model| is_moved[model as usize] = true);
+        for node in 0..nodes.scene.nodes.len() as u32 {
+            let by_own = is_moved[nodes.model_of(node) as usize];
+            nodes.scene.nodes[node as usize].is_moved |= by_own;
         }
     }
 
-    /// The parts of a node at a time.
-    fn parts(&self, nodes: &Nodes, node: u32, secs: f64, is_before: bool) -> Parts {
-        let transform = &nodes.transforms[node as usize];
+    /// Whether the scale of a model differs by axis at some key.
+    pub(super) fn scales_unevenly(&self, model: u32, transform: &Transform) -> bool {
+        let mut times = self.key_times_secs(model, &[Property::Scale]);
+        times.any(|secs| !is_even(self.parts(transform, model, secs, false).scale))
+    }
+
+    fn key_times_secs(&self, model: u32, properties: &[Property]) -> impl Iterator<Item = f64> {
+        self.layers.iter().flat_map(move |layer| layer.times_secs(model, properties, self.span()))
+    }
+
+    /// From when to when it is, where it says so.
+    fn span(&self) -> Option<[f64; 2]> {
+        self.span_secs.filter(|[start, end]| start < end)
+    }
+
+    /// The parts of a model at a time.
+    fn parts(&self, transform: &Transform, model: u32, secs: f64, is_before: bool) -> Parts {
         let mut parts = transform.parts();
         for (index, layer) in self.layers.iter().enumerate() {
-            layer.add_to(&mut parts, (node, transform), [secs, if is_before { 1.0 } else { 0.0 }], index == 0);
+            layer.add_to(&mut parts, (model, transform), [secs, if is_before { 1.0 } else { 0.0 }], index == 0);
         }
         parts
     }
 
     fn local(&self, nodes: &Nodes, node: u32, secs: f64, is_before: bool) -> Local {
-        nodes.local(node, &|node| self.parts(nodes, node, secs, is_before))
+        nodes.local(node, &|model| self.parts(&nodes.transforms[model as usize], model, secs, is_before))
     }
 
     /// The times at which something happens to a node: keys within the stack's span, and its ends.
     fn times(&self, nodes: &Nodes, node: u32, properties: &[Property]) -> Vec<f64> {
-        let moving = nodes.moved_by(node);
-        let keys = moving.iter().flat_map(|&node| {
-            let layers = self.layers.iter();
-            layers.flat_map(move |layer| layer.times_secs(node, properties))
-        });
-        let mut times: Vec<f64> = keys.collect();
+        let moving = nodes.moved_by(nodes.model_of(node));
+        let mut times: Vec<f64> = moving.iter().flat_map(|&model| self.key_times_secs(model, properties)).collect();
         times.sort_by(f64::total_cmp);
-        if let (Some([start, end]), Some(_)) = (self.span_secs.filter(|[start, end]| start < end), times.first()) {
-            times.retain(|secs| (start..=end).contains(secs));
+        if let (Some([start, end]), Some(_)) = (self.span(), times.first()) {
+            times.retain(|&secs| start < secs && secs < end);
             times.insert(0, start);
             times.push(end);
         }
@@ -111,7 +124,7 @@ impl Stack {
         let all = [Property::Translation, Property::Rotation, Property::Scale];
         let of = |property: Property| {
             let transform = &nodes.transforms[node as usize];
-            let is_alone = nodes.moved_by(node).len() == 1;
+            let is_alone = nodes.moved_by(nodes.model_of(node)).len() == 1;
             match property {
                 _ if !is_alone => &all[..],
                 Property::Translation if transform.has_pivots() => &all[..],

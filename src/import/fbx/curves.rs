@@ -8,6 +8,9 @@ use crate::fbx::{Budget, Document, Record, Value};
 /// Ticks of a second, as Autodesk's `FbxTime` counts.
 pub(super) const TICKS_PER_SEC: f64 = 46_186_158_000.0;
 
+/// So many keys are added at most where a curve repeats them.
+const MOST_REPEATED: usize = 10_000;
+
 /// Of a tangent without a weight of its own: a third of the way to the next key.
 const PLAIN_WEIGHT: f64 = 1.0 / 3.0;
 
@@ -187,6 +190,28 @@ impl Curve {
     /// Its keys' times, in seconds.
     pub(super) fn times_secs(&self) -> impl Iterator<Item = f64> + '_ {
         self.keys.iter().map(|key| key.secs)
+    }
+
+    /// The same, and those at which it repeats them within a span, up to [`MOST_REPEATED`].
+    pub(super) fn times_within(&self, span: Option<[f64; 2]>) -> impl Iterator<Item = f64> + '_ {
+        let ends = self.keys.first().zip(self.keys.last()).map_or([0.0; 2], |(first, last)| [first.secs, last.secs]);
+        let length = ends[1] - ends[0];
+        let [before, after] = match span {
+            Some([start, end]) if length > 0.0 => [ends[0] - start, end - ends[1]].map(|beyond| beyond.max(0.0)),
+            _ => [0.0; 2],
+        };
+        let turns = |beyond: f64, way: Beyond| match way {
+            Beyond::Constant | Beyond::Slope => 0,
+            _ => ((beyond / length).ceil() as usize).min(MOST_REPEATED / self.keys.len().max(1)),
+        };
+        let [before, after] = [turns(before, self.beyond[0]), turns(after, self.beyond[1])];
+        (0..=before + after).flat_map(move |turn| {
+            let turn = turn as f64 - before as f64;
+            // A mirrored turn has its keys the other way round.
+            let is_back = turn.rem_euclid(2.0) == 1.0 && self.beyond[usize::from(turn > 0.0)] == Beyond::Mirror;
+            let place = move |secs: f64| if is_back { ends[1] - secs } else { secs - ends[0] };
+            self.times_secs().map(move |secs| ends[0] + turn * length + place(secs))
+        })
     }
 
     /// The value at a time; just before it where the time is `is_before`. `None` without keys.

@@ -43,7 +43,7 @@ impl Meshes {
     pub(super) async fn read(file: &mut File<'_, '_>, objects: &Objects<'_, '_>, nodes: &mut Nodes, slices: &Slices) -> Result<Self, Fault> {
         let mut meshes = Self::default();
         let mut uses: Vec<(ObjectIndex, u32)> = Vec::new();
-        for (node, &object) in (0u32..).zip(&nodes.objects) {
+        for (node, &object) in (0u32..).zip(nodes.models()) {
             let model = objects.get(object);
             // In files of 6.1 a model is its own geometry.
             let own = model.record.find("Vertices").map(|_| object);

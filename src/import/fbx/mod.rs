@@ -126,6 +126,10 @@ async fn model(
     let images = Images::read(&objects, find);
     let mut materials = Materials::read(file, &objects, &images);
     let stacks = Stack::all(file, &objects, &nodes)?;
+    let transforms = nodes.transforms.clone();
+    nodes.place(&objects, |model| {
+        !transform::is_even(transforms[model as usize].scale) || stacks.iter().any(|stack| stack.scales_unevenly(model, &transforms[model as usize]))
+    });
     stacks.iter().for_each(|stack| stack.mark_moved(&mut nodes));
     let meshes = Meshes::read(file, &objects, &mut nodes, slices).await?;
     let rig = Rig::new(&nodes.scene)?;

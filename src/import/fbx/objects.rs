@@ -171,7 +171,8 @@ fn templates<'f, 'a>(document: &'f Document<'a>) -> HashMap<Cow<'f, str>, &'f Re
 
 /// The record of a property, and where its values begin.
 fn property<'s, 'a>(properties: &'s Record<'a>, name: &str) -> Option<(&'s Record<'a>, usize)> {
-    let record = properties.records.iter().find(|record| record.bytes(0) == Some(name.as_bytes()))?;
+    // Of two the last one counts.
+    let record = properties.records.iter().rfind(|record| record.bytes(0) == Some(name.as_bytes()))?;
     // P: name, type, label, flags, values; Property: name, type, flags, values.
     Some((record, if record.name == "P" { 4 } else { 3 }))
 }

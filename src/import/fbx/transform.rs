@@ -104,15 +104,6 @@ impl Local {
         DAffine3::from_scale_rotation_translation(self.scale, self.rotation, self.translation)
     }
 
-    pub(super) fn of_matrix(matrix: DAffine3) -> Self {
-        let (scale, rotation, translation) = matrix.to_scale_rotation_translation();
-        Self {
-            translation,
-            rotation,
-            scale,
-        }
-    }
-
     pub(super) fn joint(self) -> LocalJoint {
         let joint = LocalJoint {
             rotation: self.rotation.normalize().as_quat(),
@@ -205,4 +196,10 @@ impl Transform {
             scale,
         }
     }
+}
+
+/// Whether a scale is the same along all axes.
+pub(super) fn is_even(scale: DVec3) -> bool {
+    let near = |other: f64| (other - scale.x).abs() <= 1e-6 * scale.x.abs();
+    near(scale.y) && near(scale.z)
 }

@@ -12,7 +12,10 @@ use super::files;
 const TOLERANCE: f64 = 1e-4;
 
 /// Files that are not compared, each with its reason.
-const OUT_OF_SCOPE: &[(&str, &str)] = &[];
+const OUT_OF_SCOPE: &[(&str, &str)] = &[
+    ("synthetic_bad_inf_nan_7700_ascii.fbx", "positions that are no numbers are 0 here"),
+    ("synthetic_node_cycle_fail_7700_ascii.fbx", "ufbx refuses it; here nodes that lie in themselves hang on the scene"),
+];
 
 fn matrix(matrix: &ufbx::Matrix) -> DAffine3 {
     DAffine3::from_cols_array(&[
@@ -158,9 +161,11 @@ fn compare(bytes: &[u8], imported: &Imported) -> Result<Vec<(String, f64)>, Stri
         let Some(clip) = model.clips.iter().find(|clip| *clip.name == *stack.element.name) else { continue };
         let compiled = CompiledClip::new(clip);
         let mut worst = 0f64;
-        for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
-            let secs = clip.start_secs + (clip.end_secs - clip.start_secs) * part;
-            let theirs = at(&scene, &stack.anim, f64::from(secs));
+        let times = [0.0, 0.25, 0.5, 0.75, 1.0].map(|part| clip.start_secs + (clip.end_secs - clip.start_secs) * part);
+        let posed = times.map(|secs| at(&scene, &stack.anim, f64::from(secs)));
+        // What moves far is as large as its way.
+        let size = self::size(&posed.concat()).max(size);
+        for (secs, theirs) in times.into_iter().zip(posed) {
             for (point, candidates) in ours(model, Some((&compiled, secs))).iter().zip(&candidates) {
                 let nearest = candidates.iter().map(|&index| theirs[index as usize].distance(*point)).fold(f64::INFINITY, f64::min);
                 worst = worst.max(nearest);

@@ -146,24 +146,24 @@ impl Layer {
         }
     }
 
-    /// Whether no curve moves a node.
+    /// Whether no curve moves a model.
     pub(super) fn is_empty(&self) -> bool {
-        self.nodes().next().is_none()
+        self.models().next().is_none()
     }
 
-    /// The nodes that a curve moves.
-    pub(super) fn nodes(&self) -> impl Iterator<Item = u32> + '_ {
+    /// The models that a curve moves.
+    pub(super) fn models(&self) -> impl Iterator<Item = u32> + '_ {
         let moves = |axes: &Axes| axes.curves.iter().flatten().any(|curve| curve.times_secs().next().is_some());
         self.moved.iter().filter(move |(_, axes)| moves(axes)).map(|(&(node, _), _)| node)
     }
 
-    /// The times of the keys of some properties of a node.
-    pub(super) fn times_secs(&self, node: u32, properties: &[Property]) -> impl Iterator<Item = f64> {
-        let axes = properties.iter().filter_map(move |&property| self.moved.get(&(node, property)));
+    /// The times of the keys of some properties of a model, again and again where curves repeat them within a span.
+    pub(super) fn times_secs(&self, model: u32, properties: &[Property], span: Option<[f64; 2]>) -> impl Iterator<Item = f64> {
+        let axes = properties.iter().filter_map(move |&property| self.moved.get(&(model, property)));
         let curves = axes.flat_map(|axes| axes.curves.iter().flatten());
         // How much of a layer counts changes what it moves.
         let has_any = curves.clone().next().is_some();
-        curves.chain(self.weight_curve.iter().filter(move |_| has_any)).flat_map(Curve::times_secs)
+        curves.chain(self.weight_curve.iter().filter(move |_| has_any)).flat_map(move |curve| curve.times_within(span))
     }
 
     /// Brings what it has at a time over the parts of a node; the lowest layer replaces them. `is_before` is 1 for just before that time.
