@@ -2,7 +2,7 @@
 
 /** The extensions of each kind, as the program has them in src/session/open/files.rs. "unread" are pictures that the viewer names and cannot read. */
 const KINDS = {
-  model: ["m3d", "glb", "gltf"],
+  model: ["m3d", "glb", "gltf", "fbx"],
   archive: ["zip"],
   picture: ["dds", "png", "jpg", "jpeg", "webp", "tga", "bmp", "hdr"],
   buffer: ["bin"],

@@ -27,5 +27,5 @@ export function greeting({ open, names, greeted } = kept()) {
     const theirs = names > 0 ? `; your ${names} ${names === 1 ? "name is" : "names are"} kept` : "";
     return `${open} was open: drop it again${theirs}.`;
   }
-  return greeted ? null : "A viewer for models with bones: drop a .m3d, .glb or a folder. Files stay on this machine.";
+  return greeted ? null : "A viewer for models with bones: drop a .m3d, .glb, .fbx or a folder. Files stay on this machine.";
 }

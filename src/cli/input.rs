@@ -8,7 +8,7 @@ use super::failure::Failure;
 use super::paths;
 use crate::import;
 use crate::model::Model;
-use crate::session::{self, File, OpenModel};
+use crate::session::{self, File, FileKind, OpenModel};
 
 /// A file's bytes, or those of standard input. It is read as a model whatever its name is, so that a picture is refused with a message
 /// about its content.
@@ -31,9 +31,14 @@ pub(super) fn beside(model: &Path, name: &str) -> Option<bytes::Bytes> {
     path.is_file().then(|| paths::read_file(&path).ok())?.map(Into::into)
 }
 
-/// A model that can be shown.
+/// A model that can be shown. It has its name where that is a model's.
 pub(super) fn load(path: &Path) -> Result<OpenModel, Failure> {
-    session::load_beside(&read(path)?, &|name| beside(path, name)).map_err(|error| Failure::Refused {
+    let mut file = read(path)?;
+    let name = path.file_name().map(|name| File::sharing(&name.to_string_lossy(), file.bytes.clone()));
+    if let Some(named) = name.filter(|named| named.kind() == Some(FileKind::Model)) {
+        file = named;
+    }
+    session::load_beside(&file, &|name| beside(path, name)).map_err(|error| Failure::Refused {
         path: path.to_owned(),
         error,
     })

@@ -976,6 +976,11 @@ table! {
             "Its clips were made for other proportions, and may look displaced.",
             "The clips are added.",
             "Export model and clips from one bind pose.";
+        CLIPS_BY_NAMES = "clips-by-names", Note,
+            "Clips of another file found their bones by name, and not all fits.",
+            "Bones that only one of the files has do not move. Where bones lie otherwise at rest, a motion is kept relative to the rest pose.",
+            "The clips are added.",
+            "Nothing, if it looks right; else export model and clips with one skeleton, in one pose.";
         CLIPS_REPLACED = "clips-replaced", Note,
             "A file of clips was added before; its clips replace those from then.",
             "The clips have the state of the file that came last.",

@@ -42,6 +42,11 @@ pub const ALL: &[ExportCode] = &[
         "Name more of them with `--clips`.",
     ),
     change(
+        "in-place",
+        "A clip stays over where it starts.",
+        "Leave out `--in-place` to keep its way over the ground.",
+    ),
+    change(
         "range-cut",
         "A part of a clip is kept, with keys at its cuts.",
         "Choose another part with `--range`.",

@@ -10,10 +10,7 @@ pub(super) fn choose_clips(edited: &mut Edited, names: &[String]) -> Result<(), 
     let clips = &mut edited.model.clips;
     let there: HashSet<&str> = clips.iter().map(|clip| clip.name.as_str()).collect();
     if let Some(asked) = names.iter().find(|name| !there.contains(name.as_str())) {
-        return Err(EditError::UnknownClip {
-            asked: asked.clone(),
-            known: clips.iter().map(|clip| clip.name.clone()).collect(),
-        });
+        return Err(EditError::no_clip(asked, clips));
     }
     let before = clips.len();
     let wanted: HashSet<&str> = names.iter().map(String::as_str).collect();

@@ -1,6 +1,7 @@
 //! Why an edit cannot be made.
 
 use crate::diagnostic::Fault;
+use crate::model::Clip;
 
 /// An edit that asks for what is not there, or that would come to no sound model.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -23,6 +24,15 @@ pub enum EditError {
     /// Numbers that overflow: which, as a sentence.
     #[error("Numbers of the model overflow when it is changed so: {0}")]
     Overflows(String),
+}
+
+impl EditError {
+    pub(super) fn no_clip(asked: &str, clips: &[Clip]) -> Self {
+        Self::UnknownClip {
+            asked: asked.to_owned(),
+            known: clips.iter().map(|clip| clip.name.clone()).collect(),
+        }
+    }
 }
 
 impl From<Fault> for EditError {

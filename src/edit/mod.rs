@@ -1,6 +1,6 @@
 //! Changes to a model before it is written: functions from a [`Model`] to a [`Model`], each in a file of its own.
 //!
-//! [`apply`] makes all that [`Edits`] ask for, in one order: choose, fix, range, close, reduce, scale and axes, rename, and last what the
+//! [`apply`] makes all that [`Edits`] ask for, in one order: choose, keep in place, fix, range, close, reduce, scale and axes, rename, and last what the
 //! books' demo needs. Each thing that came out otherwise than it was is a [`Change`]; what changes nothing is none.
 
 mod choose;
@@ -9,14 +9,17 @@ mod edited;
 mod error;
 mod fix;
 mod for_book;
+mod in_place;
 mod range;
 mod reduce;
 mod rename;
+mod retarget;
 mod space;
 
 pub use edited::{Change, Edited};
 pub use error::EditError;
 pub use for_book::too_large_for_book;
+pub use retarget::{Retargeted, common_name, has_names, retarget};
 
 use crate::model::{Front, Handedness, JointNames, Model, UpAxis};
 use crate::slices::{Slices, Stage, at_once};
@@ -26,6 +29,8 @@ use crate::slices::{Slices, Stage, at_once};
 pub struct Edits {
     /// Names of the clips to keep; `None` keeps all.
     pub clips: Option<Vec<String>>,
+    /// Names of the clips that stay over where they start, where those that are kept have them.
+    pub in_place: Vec<String>,
     /// Mends what [`check`](crate::check) names and can be mended without a choice.
     pub fix: bool,
     /// The part of the only clip to keep, from and to, in seconds of its own time.
@@ -107,6 +112,7 @@ fn edit_clips(edited: &mut Edited, edits: &Edits) -> Result<(), EditError> {
     if let Some(clips) = &edits.clips {
         choose::choose_clips(edited, clips)?;
     }
+    in_place::keep_in_place(edited, &edits.in_place)?;
     if edits.fix {
         fix::fix(edited);
     }

@@ -65,8 +65,6 @@ const SIGNATURES: &[(&[u8], Stranger)] = &[
     (b"\xABKTX", Stranger::Other("a KTX texture")),
     (b"8BPS", Stranger::Other("a Photoshop image")),
     (b"glTF", Stranger::Other("a binary glTF model (GLB)")),
-    (b"Kaydara FBX Binary", Stranger::Other("a binary FBX model")),
-    (b"; FBX", Stranger::Other("a text FBX model")),
     (b"BLENDER", Stranger::Other("a Blender file")),
     (
         b"\x28\xB5\x2F\xFD",

@@ -29,9 +29,14 @@ pub fn begins_like_model(bytes: &[u8]) -> bool {
     m3d::begins_like_model(bytes) || gltf::begins_like_model(bytes) || fbx::begins_like_model(bytes)
 }
 
-/// Whether a file begins as glTF does, in either form.
-pub fn begins_like_gltf(bytes: &[u8]) -> bool {
-    gltf::begins_like_model(bytes)
+/// Whether a file begins as one of a format that others read too: glTF or FBX, in either form.
+pub fn is_of_others(bytes: &[u8]) -> bool {
+    gltf::begins_like_model(bytes) || fbx::begins_like_model(bytes)
+}
+
+/// Whether a file has motions of bones and no mesh. A quick look.
+pub fn is_motion(bytes: &[u8]) -> bool {
+    fbx::begins_like_model(bytes) && fbx::is_motion(bytes) || gltf::begins_like_model(bytes) && gltf::is_motion(bytes)
 }
 
 /// Reads a model that needs no other file.

@@ -201,6 +201,18 @@ impl<T: ChannelValue> Channel<T> {
         }
     }
 
+    /// The same channel with something added to all its values.
+    ///
+    /// # Errors
+    /// When a number is no longer finite.
+    pub(crate) fn moved(&self, by: T) -> Result<Self, Fault> {
+        let values = self.values.iter().map(|&value| value + by).collect();
+        match self.has_keys() {
+            true => Self::new(self.times_secs.clone(), values, self.way.clone()),
+            false => Ok(Self { values, ..self.clone() }),
+        }
+    }
+
     /// The same keys, `secs` earlier. Two keys make a jump: where rounding would bring their times together, the second has the next time
     /// that a number can name.
     ///

@@ -278,7 +278,7 @@ impl Record {
     fn is_refused_by(&self, beginning: &[u8]) -> bool {
         beginning.len() == HEAD_LEN
             && matches!(self.kind(), None | Some(FileKind::Model))
-            && !import::begins_like_gltf(beginning)
+            && !import::is_of_others(beginning)
             && format::begins_like_another(beginning)
     }
 

@@ -12,10 +12,11 @@ use serde_json::Value;
 use crate::program::{bindpose, run_command};
 
 /// Groups of codes under the page's headings.
-const GROUPS: [(&str, &[Code]); 11] = [
+const GROUPS: [(&str, &[Code]); 12] = [
     ("Reading an .m3d file", codes::OF_PARSER),
     ("Making a model of it", codes::OF_MODEL),
     ("Reading a glTF file", codes::OF_GLTF),
+    ("Reading an FBX file", codes::OF_FBX),
     ("Mesh and rig", codes::OF_MESH_AND_RIG),
     ("In motion", codes::OF_MOTION),
     ("The books’ programs", codes::OF_BOOKS),
@@ -58,7 +59,7 @@ const ELSEWHERE: [(&str, &str, &str); 9] = [
     ("A program that makes an image by itself meets it; no file leads to it.", "tests/core/image/errors.rs",
      "image-data-length"),
     ("It is about files that are opened together in the viewer.", "tests/core/session/joining.rs",
-     "no-model clips-bones-differ clips-none clips-offsets-differ clips-replaced"),
+     "no-model clips-bones-differ clips-by-names clips-none clips-offsets-differ clips-replaced"),
     ("The viewer unpacks archives; `check` is given files and folders.", "tests/core/session/archives.rs",
      "archive-unreadable"),
     ("It is about the machine that draws.", "tests/core/session/going_back.rs and tests/browser/page.js",
@@ -71,7 +72,7 @@ const ELSEWHERE: [(&str, &str, &str); 9] = [
 ];
 
 /// Extensions of models.
-const EXTENSIONS: [&str; 3] = ["m3d", "gltf", "glb"];
+const EXTENSIONS: [&str; 4] = ["m3d", "gltf", "glb", "fbx"];
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/check")

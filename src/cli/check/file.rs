@@ -73,7 +73,7 @@ pub(super) fn check(
         Ok(imported) if imported.source.format.dialect().is_none() => {
             (Vec::new(), Some(limits_once_converted(&imported.model, books)))
         }
-        Err(_) if import::begins_like_gltf(&bytes) => (Vec::new(), None),
+        Err(_) if import::is_of_others(&bytes) => (Vec::new(), None),
         _ => {
             let imported = imported.as_ref().ok();
             let parsed = imported.and_then(|imported| imported.source.parsed(&bytes));

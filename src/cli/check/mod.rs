@@ -79,7 +79,7 @@ Text:
   and the line of the file with a mark under the place; without :LINE:COLUMN when it is about the whole file.
   Findings come in the order of the file. Many alike are one, with the lines of the next few below it.
   Last stands how to write the file without what was mended, or can be.
-  Of a folder every .m3d, .glb and .gltf file below it is read, by path. After several files, or none, comes a line with counts.
+  Of a folder every .m3d, .glb, .gltf and .fbx file below it is read, by path. After several files, or none, comes a line with counts.
   --explain CODE tells what a finding of this code means, what is done about it, and how to mend it in the exporter.
   The viewer has the same of all codes, with an example of each, as the page web/codes.html.
 

@@ -30,6 +30,15 @@ pub(in crate::cli) struct Arguments {
     /// Keep these clips only, named with commas between.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub(super) clips: Option<Vec<String>>,
+    /// Add the clips of another file, whose bones have the same names; may be given more than once.
+    ///
+    /// Names are compared without what stands before a colon, so that mixamorig:Hips and mixamorig1:Hips are one. Files of the books have no names: their
+    /// bones are taken in order. A clip that is called mixamo.com or Take 001 gets the name of its file.
+    #[arg(long, value_name = "FILE")]
+    pub(super) add_clips: Vec<PathBuf>,
+    /// Keep this clip over where it starts: what walks away walks on the spot; may be given more than once.
+    #[arg(long, value_name = "CLIP")]
+    pub(super) in_place: Vec<String>,
     /// Mend what check names and can be mended without a choice.
     ///
     /// Triangles without area and repeated ones go, and vertices that nothing uses; signs of tangents follow the texture coordinates;
@@ -103,7 +112,7 @@ pub(in crate::cli) struct Arguments {
 const LOSSES: &str = "losses";
 
 const OUTPUT: &str = "\
-Edits are made in this order: clips, fix, range, close-loop, reduce, scale, up and hand, rename.
+Edits are made in this order: add-clips, clips, in-place, fix, range, close-loop, reduce, scale, up and hand, rename.
 
 JSON: an object
   schemaVersion   1; it grows when a key changes its meaning or goes
@@ -157,6 +166,7 @@ impl Arguments {
     pub(super) fn edits(&self, format: ExportFormat, model: &Model) -> Edits {
         let edits = Edits {
             clips: self.clips.clone(),
+            in_place: self.in_place.clone(),
             fix: self.fix,
             range_secs: self.range,
             close_loop_secs: self.close_loop,

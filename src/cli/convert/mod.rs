@@ -21,7 +21,7 @@ use crate::edit::Change;
 use crate::export::Loss;
 use crate::format::Dialect;
 use crate::model::{Front, JointNames};
-use crate::session::{self, ExportFormat, ExportJob, File, Maps, OpenModel, ToExport, WrittenModel};
+use crate::session::{ExportFormat, ExportJob, Maps, ToExport, WrittenModel};
 
 /// The result.
 #[derive(Debug, Serialize)]
@@ -52,9 +52,17 @@ struct Lost<'a> {
 
 pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
     check_use(arguments)?;
-    refuse_own_input(&arguments.output, [arguments.input.as_path()])?;
+    let inputs = || std::iter::once(&arguments.input).chain(&arguments.add_clips).map(PathBuf::as_path);
+    refuse_own_input(&arguments.output, inputs())?;
     paths::check_writable(&arguments.output, arguments.force)?;
-    let open = read(&arguments.input)?;
+    let mut open = input::load(&arguments.input)?;
+    for path in &arguments.add_clips {
+        let added = open.add_clips(input::load(path)?);
+        added.map_err(|error| Failure::Refused {
+            path: path.clone(),
+            error,
+        })?;
+    }
     let format = arguments.format(open.format.dialect());
     let is_glb = format == ExportFormat::Glb;
     let folders = Folders::walk(&arguments.textures, err)?;
@@ -141,16 +149,6 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
         return Ok(Outcome::FileHasErrors);
     }
     Ok(Outcome::Fine)
-}
-
-/// The model and the files beside it that it names.
-fn read(path: &Path) -> Result<OpenModel, Failure> {
-    let bytes = paths::read(path)?;
-    let file = File::new("model.m3d", bytes);
-    session::load_beside(&file, &|name| input::beside(path, name)).map_err(|error| Failure::Refused {
-        path: path.to_owned(),
-        error,
-    })
 }
 
 /// Refuses to write one of the files that were read.

@@ -108,6 +108,12 @@ pub(super) async fn import(bytes: &[u8], find: FindFile<'_>, slices: &Slices) ->
     }
 }
 
+/// Whether it has curves of bones, and no polygon. Names of records stand in files as they are.
+pub(super) fn is_motion(bytes: &[u8]) -> bool {
+    let has = |name: &str| memchr::memmem::find(bytes, name.as_bytes()).is_some();
+    (has("AnimationCurveNode") || has("KeyCount")) && !has("PolygonVertexIndex")
+}
+
 /// The paths of pictures beside a file that it names; none for a file that cannot be read.
 pub(super) fn files_beside(bytes: &[u8]) -> Vec<String> {
     let document = fbx::parse(bytes);

@@ -69,6 +69,13 @@ fn placed(diagnostic: Diagnostic, bytes: &[u8]) -> Diagnostic {
     }
 }
 
+/// Whether it has animations, and no mesh.
+pub(super) fn is_motion(bytes: &[u8]) -> bool {
+    let container = gltf::open(bytes, &mut Vec::new());
+    let has = |json: &[u8], key: &str| memchr::memmem::find(json, key.as_bytes()).is_some();
+    container.is_ok_and(|container| has(container.json, "\"animations\"") && !has(container.json, "\"meshes\""))
+}
+
 /// The paths of the files beside a glTF file that it names, percent-decoded; none for a file that cannot be read.
 pub(super) fn files_beside(bytes: &[u8]) -> Vec<String> {
     let mut diagnostics = Vec::new();

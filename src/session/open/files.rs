@@ -115,7 +115,7 @@ pub enum FileKind {
 
 /// The extensions of each kind. The page has the same table, in web/files.js.
 pub const FILE_KINDS: [(FileKind, &[&str]); 5] = [
-    (FileKind::Model, &["m3d", "glb", "gltf"]),
+    (FileKind::Model, &["m3d", "glb", "gltf", "fbx"]),
     (FileKind::Archive, &["zip"]),
     (
         FileKind::Picture,
@@ -274,6 +274,7 @@ fn models_among(files: &[File]) -> Vec<usize> {
             models.retain(|&index| import::begins_like_model(&files[index].bytes));
         }
     }
-    models.sort_by_key(|&index| std::cmp::Reverse(files[index].bytes.len()));
+    // A long motion without a mesh may be larger than the character.
+    models.sort_by_cached_key(|&index| (import::is_motion(&files[index].bytes), std::cmp::Reverse(files[index].bytes.len())));
     models
 }

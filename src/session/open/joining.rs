@@ -1,4 +1,5 @@
-//! Clips of other files with the same bones join those of the open model.
+//! Clips of other files with the same bones join those of the open model: bones find each other by their names where both files have such, else by
+//! their order.
 //!
 //! Clips take the places of those that a file of the same name brought before: a file that is exported again and again does not pile up.
 
@@ -6,10 +7,13 @@ use std::sync::Arc;
 
 use glam::Affine3A;
 
-use super::files::FileSet;
+use super::files::{File, FileSet};
 use super::load::{LoadError, load_among};
 use super::open_model::{ClipFacts, JoinedFile, OpenModel};
+use crate::anim::CompiledClip;
+use crate::diagnostic::collect::{counted, few};
 use crate::diagnostic::{Diagnostic, Severity, Subject, codes};
+use crate::edit::{self, Retargeted};
 use crate::model::{Skeleton, unique_names};
 use crate::slices::Slices;
 
@@ -17,7 +21,30 @@ use crate::slices::Slices;
 /// Two exports of one rig differ in the last of six digits; a thousandth of the size is hardly seen.
 const OFFSET_TOLERANCE: f32 = 1e-3;
 
+impl JoinedFile {
+    /// A file of a drop whose clips shall join.
+    pub(in crate::session) fn of(file: &File, files: &FileSet) -> Self {
+        Self {
+            file: file.clone(),
+            files: Arc::new(files.needed_by(file)),
+            noted: None,
+        }
+    }
+}
+
 impl OpenModel {
+    /// Adds the clips of another model that was read from a file by itself, and notes what did not fit.
+    ///
+    /// # Errors
+    /// When the other has no clips, or its bones are not those of this model.
+    pub fn add_clips(&mut self, other: Self) -> Result<(), Box<LoadError>> {
+        let files = FileSet::new([other.file.clone()]);
+        self.join_clips(other, &files, false)?;
+        let noted = self.joined.last().and_then(|joined| joined.noted.clone());
+        self.diagnostics.extend(noted);
+        Ok(())
+    }
+
     /// Adds the clips of another model, read from one of some files, to the list, under names that are free. With `replaces` they take the
     /// place of clips that files of this name brought before, if there are any; then it is true.
     ///
@@ -25,20 +52,42 @@ impl OpenModel {
     /// When the other has no clips, or its bones are not those of this model; then nothing is added.
     pub(in crate::session) fn join_clips(
         &mut self,
-        other: Self,
+        mut other: Self,
         files: &FileSet,
         replaces: bool,
     ) -> Result<bool, Box<LoadError>> {
         let file = &other.file.clone();
         let refuse = |code, message| Err(Box::new(LoadError::refused(file, code, message)));
         let (ours, theirs) = (self.file.base_name(), file.base_name());
-        if let Some(difference) = difference(&self.model.skeleton, ours, &other.model.skeleton, theirs) {
-            return refuse(&codes::CLIPS_BONES_DIFFER, difference);
-        }
         if other.model.clips.is_empty() {
             return refuse(&codes::CLIPS_NONE, format!("{theirs} has no clips to add."));
         }
-        let offsets_differ = self.offsets_diagnostic(&other);
+        let (our_bones, their_bones) = (&self.model.skeleton, &other.model.skeleton);
+        let noted;
+        if edit::has_names(our_bones) && edit::has_names(their_bones) {
+            match edit::retarget(our_bones, their_bones, &other.model.clips) {
+                Ok(Some(retargeted)) => {
+                    noted = by_names(&retargeted, theirs, ours);
+                    other.compiled = CompiledClip::all(&retargeted.clips);
+                    other.model.clips = retargeted.clips;
+                }
+                Ok(None) => {
+                    let message = format!("Fewer than half of the bones that {theirs} moves have a name that {ours} knows.");
+                    return refuse(&codes::CLIPS_BONES_DIFFER, message);
+                }
+                Err(fault) => return refuse(&codes::CLIPS_BONES_DIFFER, format!("{theirs}: {}", fault.message)),
+            }
+        } else if let Some(difference) = difference(our_bones, ours, their_bones, theirs) {
+            return refuse(&codes::CLIPS_BONES_DIFFER, difference);
+        } else {
+            noted = self.offsets_diagnostic(&other);
+        }
+        for clip in &mut other.model.clips {
+            if says_nothing(&clip.name) {
+                let stem = theirs.rsplit_once('.').map_or(theirs, |(stem, _)| stem);
+                clip.name = stem.to_owned();
+            }
+        }
         let replaced = if replaces { self.remove_joined(theirs) } else { None };
         let kept = self.model.clips.len();
         let first = replaced.map_or(kept, |(first, _)| first);
@@ -69,9 +118,8 @@ impl OpenModel {
             self.joined.retain(|joined| !is_same(joined));
         }
         let joined = JoinedFile {
-            file: file.clone(),
-            files: Arc::new(files.needed_by(file)),
-            offsets_differ,
+            noted,
+            ..JoinedFile::of(file, files)
         };
         self.joined.insert(place.unwrap_or(self.joined.len()), joined);
         Ok(replaced.is_some())
@@ -94,7 +142,7 @@ impl OpenModel {
 
     /// What is noted of the files whose clips joined, beside what is noted of the clips.
     pub(in crate::session) fn joined_diagnostics(&self) -> impl Iterator<Item = &Diagnostic> {
-        self.joined.iter().filter_map(|joined| joined.offsets_differ.as_ref())
+        self.joined.iter().filter_map(|joined| joined.noted.as_ref())
     }
 
     /// Removes the clips that a file of this name brought, and their diagnostics. Returns the index of the first and how many
@@ -156,6 +204,41 @@ impl OpenModel {
             ..codes::CLIPS_OFFSETS_DIFFER.says(message)
         })
     }
+}
+
+/// Names of clips that programs give to all of them: Mixamo's, and that of a first take.
+fn says_nothing(name: &str) -> bool {
+    let name = name.rsplit('|').next().unwrap_or(name).trim();
+    name.is_empty() || name == "mixamo.com" || name == "Take 001"
+}
+
+/// A note of what did not fit where bones found each other by their names.
+fn by_names(retargeted: &Retargeted, theirs: &str, ours: &str) -> Option<Diagnostic> {
+    let Retargeted {
+        without_place,
+        at_rest,
+        is_relative,
+        ..
+    } = retargeted;
+    let mut parts = Vec::new();
+    if !without_place.is_empty() {
+        parts.push(format!("{} of {theirs} {} not in {ours}: {}", counted(without_place.len(), "bone", "bones"), are(without_place.len()), few(without_place)));
+    }
+    if !at_rest.is_empty() {
+        parts.push(format!("{} of {ours} {} not in {theirs} and at rest: {}", counted(at_rest.len(), "bone", "bones"), are(at_rest.len()), few(at_rest)));
+    }
+    if *is_relative {
+        parts.push(format!("the bones of {theirs} lie otherwise, so its motion is kept relative to the rest pose"));
+    }
+    let mut message = parts.join("; ");
+    if let Some(first) = message.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    (!message.is_empty()).then(|| codes::CLIPS_BY_NAMES.says(message + "."))
+}
+
+fn are(count: usize) -> &'static str {
+    if count == 1 { "is" } else { "are" }
 }
 
 /// The first difference of two hierarchies in words, by the files' numbers; `None` when they are the same.

@@ -165,6 +165,18 @@ async fn are_same(a: &[u8], b: &[u8], slices: &Slices) -> bool {
     are_same
 }
 
+/// The files of a drop that have motions and nothing that they move, as Mixamo gives them: their clips join a model that came with them.
+fn motions_beside(files: &FileSet, file: &File, joined: &[JoinedFile]) -> Vec<JoinedFile> {
+    if import::is_motion(&file.bytes) {
+        return Vec::new();
+    }
+    let is_known = |motion: &File| joined.iter().any(|joined| joined.file.base_name() == motion.base_name());
+    let mut motions = files.models();
+    motions.retain(|motion| motion.path != file.path && import::is_motion(&motion.bytes) && !is_known(motion));
+    motions.sort_by_key(|motion| motion.path.to_lowercase());
+    motions.into_iter().map(|motion| JoinedFile::of(motion, files)).collect()
+}
+
 async fn read_whole(
     files: &FileSet,
     file: &File,
@@ -197,10 +209,11 @@ pub(in crate::session) async fn load_whole(
     before: Option<Loaded>,
     slices: &Slices,
 ) -> Result<Box<Loaded>, Box<LoadError>> {
-    let joined = before.as_ref().map_or(&[][..], |before| &before.open.joined);
+    let mut joined = before.as_ref().map_or(Vec::new(), |before| before.open.joined.clone());
+    joined.extend(motions_beside(&files, file, &joined));
     let (mut open, same) = match &before {
         Some(before) if before.is_same(&files, file, slices).await => (Arc::clone(&before.open), Some(before)),
-        _ => (Arc::new(read_whole(&files, file, joined, slices).await?), None),
+        _ => (Arc::new(read_whole(&files, file, &joined, slices).await?), None),
     };
     let pictures = files.images().chain(&open.pictures).cloned();
     maps.add_in(&open.model.materials, pictures, slices).await;

@@ -52,7 +52,7 @@ pub(in crate::session) struct JoinedFile {
     pub(in crate::session) file: File,
     pub(in crate::session) files: Arc<FileSet>,
     /// What is noted of it when its bones stand elsewhere than the model's. It goes with the file.
-    pub(in crate::session) offsets_differ: Option<Diagnostic>,
+    pub(in crate::session) noted: Option<Diagnostic>,
 }
 
 /// One row of the list of clips.
@@ -201,7 +201,7 @@ impl OpenModel {
     /// What of the file was left out while it was read, as losses: no file that is written has it. A format that `keeps_objects` has them
     /// apart again. `clips` as for [`OpenModel::mended`].
     pub fn left_out(&self, clips: Option<&[String]>, keeps_objects: bool) -> impl Iterator<Item = Loss> {
-        let is_kept = move |finding: &Diagnostic| keeps_objects && finding.code == codes::GLTF_OBJECTS_MERGED.name;
+        let is_kept = move |finding: &Diagnostic| keeps_objects && [codes::GLTF_OBJECTS_MERGED.name, codes::FBX_OBJECTS_MERGED.name].contains(&finding.code);
         self.of_reading(clips, move |finding| is_loss(finding) && !is_kept(finding))
     }
 
@@ -336,6 +336,8 @@ fn is_loss(finding: &Diagnostic) -> bool {
         &codes::GLTF_MAP_LEFT_OUT,
         &codes::GLTF_CHANNEL_LEFT_OUT,
         &codes::GLTF_IMAGE_NOT_READ,
+        &codes::FBX_LEFT_OUT,
+        &codes::FBX_OBJECTS_MERGED,
         &codes::WEIGHTS_CUT,
     ];
     losses.iter().any(|code| code.name == finding.code)

@@ -13,6 +13,8 @@ pub struct ExportOptions {
     pub format: ExportFormat,
     /// Names of the clips to keep; `None` keeps all.
     pub clips: Option<Vec<String>>,
+    /// Keeps all that stay over where they start.
+    pub in_place: bool,
     /// The part of the only clip to keep.
     pub range: ExportRange,
     /// Seconds at the end of each clip over which it is brought back to its first pose.

@@ -164,8 +164,11 @@ impl Session {
     /// What is edited before it is written.
     fn edits(&self, options: &ExportOptions) -> Edits {
         let is_of_book = options.format.dialect().is_some();
+        let all = || self.content.clips().iter().map(|clip| clip.name.clone());
+        let kept = || options.clips.clone().unwrap_or_else(|| all().collect());
         let edits = Edits {
             clips: options.clips.clone(),
+            in_place: if options.in_place { kept() } else { Vec::new() },
             range_secs: match options.range {
                 ExportRange::Timeline => self.timeline_range(options.clips.as_deref()),
                 ExportRange::Whole => None,

@@ -168,6 +168,11 @@ fn edits(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
     let keeps_some = options.clips.as_ref().is_none_or(|clips| !clips.is_empty());
     range(ui, session, options);
     ui.add_enabled_ui(has_clips && keeps_some, |ui| {
+        let in_place = switch_row(ui, "In place", "", has_clips && options.in_place)
+            .on_hover_text("Each clip stays over where it starts: what walks away walks on the spot");
+        if in_place.clicked() {
+            options.in_place = !options.in_place;
+        }
         let hint = "The end of each clip is eased into its first pose";
         let row = ("Seconds of the easing", "Over", "s");
         let secs = (options.close_loop_secs, LOOP_SECS, 0.01..=10.0, (0.01, 2));

@@ -103,6 +103,7 @@ fn read(options: &JsValue) -> Result<ExportOptions, JsValue> {
     Ok(ExportOptions {
         format: checked(format.ok_or_else(|| Misuse::Range("export({format}) takes glb, d3d12 or d3d11".to_owned())))?,
         clips,
+        in_place: field(options, "inPlace").is_truthy(),
         range,
         close_loop_secs: optional(&field(options, "closeLoop"), |secs| {
             script::factor("export({closeLoop})", secs)

@@ -13,6 +13,7 @@ use crate::documents::{arm, key, model_of, quad, track, vertex, with_translation
 use crate::rigs;
 
 const FIX: Edits = Edits {
+    in_place: Vec::new(),
     clips: None,
     fix: true,
     range_secs: None,

@@ -86,6 +86,7 @@ fn a_job_writes_what_edits_and_formats_write_by_themselves() {
         ..Edits::default()
     };
     let asked = |format| ExportOptions {
+        in_place: false,
         format,
         clips: only("Turn"),
         range: ExportRange::Secs([0.75, 1.5]),

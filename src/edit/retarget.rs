@@ -1,0 +1,214 @@
+//! Clips of one skeleton for another one: bones that have the same name move alike.
+//!
+//! A bone's frame is where its children lie in it. Where both skeletons have their children at the same places, up to one scale, frames are the same and the
+//! keys are taken as they are. Elsewhere a motion is kept relative to the rest pose: `P · R′ · R′₀⁻¹ · P⁻¹ · R₀`, where R′ is the other's rotation, R′₀ and R₀ are
+//! both at rest, and P leads from the space of the other's parent to that of ours, both at rest.
+
+use std::collections::HashMap;
+
+use glam::{DQuat, DVec3, Quat, Vec3};
+
+use crate::diagnostic::Fault;
+use crate::model::{Clip, JointIndex, LocalJoint, Skeleton, Track};
+
+/// Places of children that are off by less than this part of their distance are the same.
+const SAME_PLACE: f64 = 0.02;
+
+/// Clips for another skeleton, and what did not fit.
+#[derive(Debug)]
+pub struct Retargeted {
+    /// In the order of the given ones.
+    pub clips: Vec<Clip>,
+    /// Bones of the other skeleton that a clip moves, and that this one lacks.
+    pub without_place: Vec<String>,
+    /// Bones of this skeleton that the other one lacks; they rest.
+    pub at_rest: Vec<String>,
+    /// Whether the motion was kept relative to the rest pose.
+    pub is_relative: bool,
+    /// Our size as a part of theirs, by the distances between bones.
+    pub scale: f64,
+}
+
+/// A name as programs share it: without what stands before a colon, and without `mixamorig`, numbered or not, which some leave without one.
+pub fn common_name(name: &str) -> &str {
+    let name = name.rsplit(':').next().unwrap_or(name);
+    match name.strip_prefix("mixamorig") {
+        Some(rest) => rest.trim_start_matches(|digit: char| digit.is_ascii_digit()).trim_start_matches('_'),
+        None => name,
+    }
+}
+
+/// Whether bones of a skeleton have names, by which clips can find them.
+pub fn has_names(skeleton: &Skeleton) -> bool {
+    joints(skeleton).any(|joint| skeleton.name(joint).is_some())
+}
+
+fn joints(skeleton: &Skeleton) -> std::iter::Map<std::ops::Range<u32>, fn(u32) -> JointIndex> {
+    (0..skeleton.joint_count() as u32).map(JointIndex)
+}
+
+/// How a skeleton's joints are at rest: rotation and mean scale of each relative to the model.
+struct AtRest {
+    turned: Vec<DQuat>,
+    scale: Vec<f64>,
+}
+
+impl AtRest {
+    fn of(skeleton: &Skeleton) -> Self {
+        let mut rest = Self {
+            turned: Vec::new(),
+            scale: Vec::new(),
+        };
+        for (joint, local) in joints(skeleton).zip(skeleton.rest()) {
+            let (above, scale) = rest.above(skeleton, joint);
+            let own = local.scale.as_dvec3().abs();
+            rest.turned.push((above * local.rotation.as_dquat()).normalize());
+            rest.scale.push(scale * (own.x * own.y * own.z).cbrt());
+        }
+        rest
+    }
+
+    /// Of what a joint lies in.
+    fn above(&self, skeleton: &Skeleton, joint: JointIndex) -> (DQuat, f64) {
+        skeleton.parents()[joint.index()].map_or((DQuat::IDENTITY, 1.0), |parent| (self.turned[parent.index()], self.scale[parent.index()]))
+    }
+
+    /// How far a joint is from its parent.
+    fn distance(&self, skeleton: &Skeleton, joint: JointIndex) -> f64 {
+        skeleton.rest()[joint.index()].translation.as_dvec3().length() * self.above(skeleton, joint).1
+    }
+}
+
+/// The joint of theirs for each of ours: by whole names, else by common ones.
+fn matched(ours: &Skeleton, theirs: &Skeleton) -> Vec<Option<JointIndex>> {
+    let mut whole = HashMap::new();
+    let mut common = HashMap::new();
+    for joint in joints(theirs) {
+        if let Some(name) = theirs.name(joint) {
+            whole.entry(name).or_insert(joint);
+            common.entry(common_name(name)).or_insert(joint);
+        }
+    }
+    let mut is_taken = vec![false; theirs.joint_count()];
+    let found = joints(ours).map(|joint| {
+        let name = ours.name(joint)?;
+        let found = *whole.get(name).or_else(|| common.get(common_name(name)))?;
+        (!std::mem::replace(&mut is_taken[found.index()], true)).then_some(found)
+    });
+    found.collect()
+}
+
+/// Clips of another skeleton for this one; `None` where fewer than half of the bones that they move have a name that is known here.
+///
+/// # Errors
+/// When a number of a clip overflows.
+pub fn retarget(ours: &Skeleton, theirs: &Skeleton, clips: &[Clip]) -> Result<Option<Retargeted>, Fault> {
+    let pairs = matched(ours, theirs);
+    let mut of_theirs = vec![None; theirs.joint_count()];
+    for (joint, found) in joints(ours).zip(&pairs) {
+        if let Some(found) = found {
+            of_theirs[found.index()] = Some(joint);
+        }
+    }
+    let moves = |joint: JointIndex| clips.iter().any(|clip| clip.tracks[joint.index()].has_keys());
+    let moving: Vec<JointIndex> = joints(theirs).filter(|&joint| moves(joint)).collect();
+    let without: Vec<JointIndex> = moving.iter().copied().filter(|joint| of_theirs[joint.index()].is_none()).collect();
+    if pairs.iter().flatten().next().is_none() || 2 * without.len() > moving.len() {
+        return Ok(None);
+    }
+    let rests = [AtRest::of(ours), AtRest::of(theirs)];
+    // Both ends of a bone have to be there to compare it.
+    let is_inner = |&(joint, found): &(JointIndex, JointIndex)| {
+        let parents = [ours.parents()[joint.index()], theirs.parents()[found.index()]];
+        matches!(parents, [Some(our), Some(their)] if pairs[our.index()] == Some(their))
+    };
+    let both = || joints(ours).zip(&pairs).filter_map(|(joint, found)| Some((joint, (*found)?)));
+    let lengths = both().filter(is_inner).map(|(joint, found)| [rests[0].distance(ours, joint), rests[1].distance(theirs, found)]);
+    let [our_length, their_length] = lengths.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
+    let scale = if our_length > 0.0 && their_length > 0.0 { our_length / their_length } else { 1.0 };
+    let have_same_frames = both().filter(is_inner).all(|(joint, found)| {
+        let place = |skeleton: &Skeleton, rest: &AtRest, joint: JointIndex| {
+            skeleton.rest()[joint.index()].translation.as_dvec3() * rest.above(skeleton, joint).1
+        };
+        let [our, their] = [place(ours, &rests[0], joint), place(theirs, &rests[1], found) * scale];
+        our.distance(their) <= SAME_PLACE * our.length().max(1e-3 * our_length)
+    });
+    let mut of_clips = Vec::with_capacity(clips.len());
+    for clip in clips {
+        let mut tracks = Vec::with_capacity(ours.joint_count());
+        for ((joint, found), &rest) in joints(ours).zip(&pairs).zip(ours.rest()) {
+            let Some(found) = found.filter(|found| clip.tracks[found.index()].has_rows()) else {
+                tracks.push(Track::at_rest(rest));
+                continue;
+            };
+            let (our_turn, our_scale) = rests[0].above(ours, joint);
+            let (their_turn, their_scale) = rests[1].above(theirs, found);
+            let way = Way {
+                from_theirs: (our_turn.inverse() * their_turn).normalize(),
+                scale: scale * their_scale / our_scale,
+                rests: [rest, theirs.rest()[found.index()]],
+                is_relative: !have_same_frames,
+            };
+            tracks.push(way.track(&clip.tracks[found.index()])?);
+        }
+        of_clips.push(Clip::new(clip.name.clone(), tracks));
+    }
+    let name = |skeleton: &Skeleton, joint: JointIndex| skeleton.name(joint).map_or_else(|| format!("bone {}", skeleton.file_bones()[joint.index()]), str::to_owned);
+    Ok(Some(Retargeted {
+        clips: of_clips,
+        without_place: without.into_iter().map(|joint| name(theirs, joint)).collect(),
+        at_rest: joints(ours).zip(&pairs).filter(|(_, found)| found.is_none()).map(|(joint, _)| name(ours, joint)).collect(),
+        is_relative: !have_same_frames,
+        scale,
+    }))
+}
+
+/// How the keys of a bone become those of ours.
+struct Way {
+    /// From the space of the other's parent to that of ours, at rest: P.
+    from_theirs: DQuat,
+    /// Of lengths, on that way.
+    scale: f64,
+    /// Ours and theirs.
+    rests: [LocalJoint; 2],
+    is_relative: bool,
+}
+
+impl Way {
+    /// Whether keys stay as they are.
+    fn is_plain(&self) -> bool {
+        !self.is_relative && self.from_theirs.w.abs() >= 1.0 - 1e-12 && (self.scale - 1.0).abs() <= 1e-5
+    }
+
+    fn track(&self, track: &Track) -> Result<Track, Fault> {
+        if self.is_plain() {
+            return Ok(track.clone());
+        }
+        let [our, their] = &self.rests;
+        let before = self.from_theirs;
+        let after = match self.is_relative {
+            true => their.rotation.as_dquat().inverse() * before.inverse() * our.rotation.as_dquat(),
+            // Its frame is ours: only what lies above turns it.
+            false => DQuat::IDENTITY,
+        };
+        let rotation = |rotation: Quat| {
+            // Slopes are no unit quaternions; the product is linear all the same.
+            let [x, y, z, w] = rotation.as_dquat().to_array();
+            (before * DQuat::from_xyzw(x, y, z, w) * after).as_quat()
+        };
+        let place = |place: Vec3| before.mul_vec3(place.as_dvec3() * self.scale).as_vec3();
+        let sizes = match self.is_relative {
+            true => our.scale.as_dvec3() / their.scale.as_dvec3().map(|number| if number == 0.0 { 1.0 } else { number }),
+            false => DVec3::ONE,
+        };
+        let offset = match self.is_relative {
+            true => our.translation - place(their.translation),
+            false => Vec3::ZERO,
+        };
+        Ok(Track::of_channels(
+            track.translation().mapped(place)?.moved(offset)?,
+            track.rotation().mapped(rotation)?,
+            track.scale().mapped(|scale| (scale.as_dvec3() * sizes).as_vec3())?,
+        ))
+    }
+}
