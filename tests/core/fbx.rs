@@ -1,5 +1,6 @@
 //! FBX as its files have it.
 
+mod motion;
 mod oracle;
 
 use bindpose::diagnostic::{Fault, Position};

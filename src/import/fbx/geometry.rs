@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use rustc_hash::FxHashMap;
+
 use crate::diagnostic::Fault;
 use crate::fbx::{Budget, Place, Record};
 use crate::import::scene::Vertices;
@@ -38,6 +40,8 @@ struct Layer {
     mapping: Mapping,
     /// Which value each corner, control point or polygon has; empty where they are in that order themselves.
     indices: Vec<i64>,
+    /// Of each value: the first that is the same.
+    firsts: Vec<u32>,
     values: Vec<f64>,
     width: usize,
 }
@@ -53,9 +57,8 @@ struct Corner {
 impl Layer {
     /// The first layer of this name, such as `LayerElementNormal` with `Normals` and `NormalsIndex`; `None` where there is none, or by edges.
     fn first(record: &Record<'_>, [layer, values, indices]: [&str; 3], width: usize, budget: &Budget) -> Result<Option<Self>, Fault> {
-        let mut all = record.all(layer);
-        let Some(found) = all.next() else { return Ok(None) };
-        Self::read(found, values, indices, width, budget)
+        let found = record.all(layer).min_by_key(|layer| layer.integer(0).unwrap_or(0));
+        found.map_or(Ok(None), |found| Self::read(found, values, indices, width, budget))
     }
 
     fn read(record: &Record<'_>, values: &str, indices: &str, width: usize, budget: &Budget) -> Result<Option<Self>, Fault> {
@@ -73,10 +76,12 @@ impl Layer {
             None => Vec::new(),
         };
         let Some(values) = record.find(values) else { return Ok(None) };
+        let values = values.numbers(budget)?;
         Ok(Some(Self {
             mapping,
             indices,
-            values: values.numbers(budget)?,
+            firsts: firsts(&values, width),
+            values,
             width,
         }))
     }
@@ -93,7 +98,7 @@ impl Layer {
             true => place,
             false => usize::try_from(*self.indices.get(place)?).ok()?,
         };
-        (index < self.values.len() / self.width).then_some(index)
+        self.firsts.get(index).map(|&first| first as usize)
     }
 
     fn value<const WIDTH: usize>(&self, index: Option<usize>) -> [f32; WIDTH] {
@@ -106,6 +111,14 @@ impl Layer {
         }
         value
     }
+}
+
+/// The first of the values that each is the same as, as our numbers have them: many files repeat a value for each corner.
+fn firsts(values: &[f64], width: usize) -> Vec<u32> {
+    let mut known = FxHashMap::default();
+    let rows = (0u32..).zip(values.chunks_exact(width));
+    let row = |row: &[f64]| -> [u32; 4] { std::array::from_fn(|index| row.get(index).map_or(0, |&number| (number as f32).to_bits())) };
+    rows.map(|(index, stored)| *known.entry(row(stored)).or_insert(index)).collect()
 }
 
 /// The polygons of a geometry, each as a range of its corners.
@@ -131,20 +144,23 @@ pub(super) fn read(record: &Record<'_>, budget: &Budget) -> Result<Geometry, Fau
     let normals = layer(["LayerElementNormal", "Normals", "NormalsIndex"], 3)?;
     let tangents = layer(["LayerElementTangent", "Tangents", "TangentsIndex"], 3)?;
     let colors = layer(["LayerElementColor", "Colors", "ColorIndex"], 4)?;
-    let mut uv = record.all("LayerElementUV");
-    let mut next_uv = || uv.next().map_or(Ok(None), |found| Layer::read(found, "UV", "UVIndex", 2, budget));
-    let layers = [normals, next_uv()?, next_uv()?, colors, tangents];
+    let uv = layer(["LayerElementUV", "UV", "UVIndex"], 2)?;
+    let layers = [normals, uv, colors, tangents];
     let materials = material_layer(record, budget)?;
 
     let mut geometry = Geometry {
         control_point_count: points.len(),
         ..Geometry::default()
     };
-    let mut known: HashMap<(u32, [Option<usize>; 5]), u32> = HashMap::new();
+    let mut known: FxHashMap<(u32, [Option<usize>; 4]), u32> = FxHashMap::default();
     let mut parts: HashMap<usize, usize> = HashMap::new();
     let mut of_polygon: Vec<u32> = Vec::new();
     for (polygon, range) in polygons(&corners).enumerate() {
         of_polygon.clear();
+        if range.len() < 3 {
+            geometry.left_out += 1;
+            continue;
+        }
         for index in range {
             let stored = corners[index];
             // The last corner of a polygon is stored as its complement.
@@ -166,10 +182,6 @@ pub(super) fn read(record: &Record<'_>, budget: &Budget) -> Result<Geometry, Fau
                 push(&mut geometry.vertices, point, &layers, values);
             }
             of_polygon.push(vertex);
-        }
-        if of_polygon.len() < 3 {
-            geometry.left_out += 1;
-            continue;
         }
         let corner = Corner {
             index: 0,
@@ -197,20 +209,17 @@ fn out_of_range(place: Place, index: i64, count: usize) -> Fault {
 }
 
 /// Adds a vertex; streams that the geometry does not have stay empty.
-fn push(vertices: &mut Vertices, point: [f64; 3], layers: &[Option<Layer>; 5], values: [Option<usize>; 5]) {
-    let [normals, uv, second_uv, colors, tangents] = layers;
-    let [normal, first, second, color, tangent] = values;
+fn push(vertices: &mut Vertices, point: [f64; 3], layers: &[Option<Layer>; 4], values: [Option<usize>; 4]) {
+    let [normals, uv, colors, tangents] = layers;
+    let [normal, tex_coord, color, tangent] = values;
     vertices.positions.push(point.map(|number| number as f32));
     if let Some(layer) = normals {
         vertices.normals.push(layer.value(normal));
     }
-    // v runs upwards in FBX.
-    let turned = |[u, v]: [f32; 2]| [u, 1.0 - v];
     if let Some(layer) = uv {
-        vertices.tex_coords.push(turned(layer.value(first)));
-    }
-    if let Some(layer) = second_uv {
-        vertices.second_tex_coords.push(turned(layer.value(second)));
+        // v runs upwards in FBX.
+        let [u, v] = layer.value(tex_coord);
+        vertices.tex_coords.push([u, 1.0 - v]);
     }
     if let Some(layer) = colors {
         vertices.colors.push(if color.is_some() { layer.value(color) } else { [1.0; 4] });

@@ -90,6 +90,12 @@ pub(super) fn read(
         pairs[next[point] as usize] = (weight, slot);
         next[point] += 1;
     }
+    // FBX takes weights as parts of their sum.
+    for point in 0..control_point_count {
+        let of_point = &mut pairs[starts[point] as usize..starts[point + 1] as usize];
+        let sum: f64 = of_point.iter().map(|&(weight, _)| f64::from(weight)).sum();
+        of_point.iter_mut().for_each(|(weight, _)| *weight = (f64::from(*weight) / sum) as f32);
+    }
     let slots = clusters.iter().map(|cluster| (cluster.node, cluster.geometry_from_bone * node_from_geometry));
     let slots = slots.chain(rests.then_some((mesh_node, node_from_geometry)));
     let (joints, joint_from_mesh) = slots.unzip();

@@ -206,10 +206,10 @@ impl OpenModel {
     }
 }
 
-/// Names of clips that programs give to all of them: Mixamo's, and that of a first take.
+/// Names of clips that programs give to all of them: Mixamo's, that of a first take, and Blender's where it exports what plays.
 fn says_nothing(name: &str) -> bool {
     let name = name.rsplit('|').next().unwrap_or(name).trim();
-    name.is_empty() || name == "mixamo.com" || name == "Take 001"
+    ["", "mixamo.com", "Take 001", "Scene"].contains(&name)
 }
 
 /// A note of what did not fit where bones found each other by their names.

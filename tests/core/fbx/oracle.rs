@@ -17,6 +17,9 @@ const OUT_OF_SCOPE: &[(&str, &str)] = &[
     ("synthetic_node_cycle_fail_7700_ascii.fbx", "ufbx refuses it; here nodes that lie in themselves hang on the scene"),
 ];
 
+/// Files whose layers name values that are not there: ufbx takes others then, and here there are none.
+const WITHOUT_VALUES: [&str; 2] = ["synthetic_by_vertex_overflow_7500_ascii.fbx", "synthetic_unsafe_cube_7500_binary.fbx"];
+
 fn matrix(matrix: &ufbx::Matrix) -> DAffine3 {
     DAffine3::from_cols_array(&[
         matrix.m00, matrix.m10, matrix.m20, matrix.m01, matrix.m11, matrix.m21, matrix.m02, matrix.m12, matrix.m22, matrix.m03, matrix.m13,
@@ -174,6 +177,78 @@ fn compare(bytes: &[u8], imported: &Imported) -> Result<Vec<(String, f64)>, Stri
         off.push((clip.name.clone(), worst / size));
     }
     Ok(off)
+}
+
+/// What a vertex has besides its place: normal, texture coordinates, colour.
+type Corner = ([f64; 3], [f64; 3], [f64; 2], [f64; 4]);
+
+/// What corners of faces have at rest; what a mesh lacks is 0, and white.
+fn corners(scene: &Scene) -> Vec<Corner> {
+    let axes = axes(scene);
+    let mut all = Vec::new();
+    for node in scene.nodes.iter() {
+        let Some(mesh) = &node.mesh else { continue };
+        let geometry_to_world = matrix(&node.geometry_to_world);
+        let normal_matrix = geometry_to_world.matrix3.inverse().transpose();
+        for face in mesh.faces.iter().filter(|face| face.num_indices >= 3) {
+            for corner in (face.index_begin..face.index_begin + face.num_indices).map(|corner| corner as usize) {
+                let position = mesh.vertices[mesh.vertex_indices[corner] as usize];
+                let position = geometry_to_world.transform_point3(DVec3::new(position.x, position.y, position.z));
+                let normal = mesh.vertex_normal.exists.then(|| mesh.vertex_normal[corner]);
+                let normal = normal.map_or(DVec3::ZERO, |normal| (normal_matrix * DVec3::new(normal.x, normal.y, normal.z)).normalize_or_zero());
+                let uv = if mesh.vertex_uv.exists { mesh.vertex_uv[corner] } else { ufbx::Vec2 { x: 0.0, y: 1.0 } };
+                let color = if mesh.vertex_color.exists { mesh.vertex_color[corner] } else { ufbx::Vec4 { x: 1.0, y: 1.0, z: 1.0, w: 1.0 } };
+                let clamped = [color.x, color.y, color.z, color.w].map(|number| number.clamp(0.0, 1.0));
+                all.push(((axes * position).to_array(), (axes * normal).to_array(), [uv.x, 1.0 - uv.y], clamped));
+            }
+        }
+    }
+    all
+}
+
+/// The greatest way from what one of our vertices has to the nearest of theirs.
+fn corners_off(model: &Model, scene: &Scene) -> f64 {
+    let theirs = corners(scene);
+    let mesh = &model.mesh;
+    let size = size(&all_points(scene));
+    let mut order: Vec<usize> = (0..theirs.len()).collect();
+    order.sort_by(|a, b| theirs[*a].0[0].total_cmp(&theirs[*b].0[0]));
+    let rest = ours(model, None);
+    let off = |vertex: usize| {
+        let (place, within) = (rest[vertex], TOLERANCE * size);
+        let uv = mesh.tex_coords.get(vertex).copied().unwrap_or_default().as_dvec2().to_array();
+        let color = mesh.colors.get(vertex).map_or([1.0; 4], |color| color.as_dvec4().to_array());
+        let start = order.partition_point(|&index| theirs[index].0[0] < place.x - within);
+        let near = order[start..].iter().take_while(|&&index| theirs[index].0[0] <= place.x + within).map(|&index| &theirs[index]);
+        let near = near.filter(|their| DVec3::from_array(their.0).distance(place) <= within);
+        let ways = near.map(|(_, normal, their_uv, their_color)| {
+            let has_normal = *normal != [0.0; 3] && normal.iter().all(|number| number.is_finite());
+            let turned = if has_normal { mesh.normals[vertex].as_dvec3().distance(DVec3::from_array(*normal)) } else { 0.0 };
+            let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            turned.max(apart(&uv, their_uv)).max(apart(&color, their_color))
+        });
+        ways.fold(f64::INFINITY, f64::min)
+    };
+    (0..rest.len()).map(off).fold(0.0, f64::max)
+}
+
+#[test]
+fn vertices_have_what_ufbx_gives_them() {
+    let mut wrong = Vec::new();
+    for (name, bytes) in files("files") {
+        let (Ok(imported), Ok(scene)) = (import(&bytes), ufbx::load_memory(&bytes, LoadOpts::default())) else { continue };
+        // Normals of what is skinned are turned by its bones.
+        let is_skinned = scene.meshes.iter().any(|mesh| !mesh.skin_deformers.is_empty());
+        if is_skinned || WITHOUT_VALUES.contains(&&*name) || imported.model.mesh.positions.is_empty() || OUT_OF_SCOPE.iter().any(|(file, _)| *file == name) {
+            continue;
+        }
+        let off = corners_off(&imported.model, &scene);
+        println!("{name}: {off:.1e}");
+        if off > 1e-3 {
+            wrong.push(format!("{name}: {off}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
 }
 
 #[test]
