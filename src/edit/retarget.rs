@@ -73,10 +73,19 @@ impl AtRest {
         skeleton.parents()[joint.index()].map_or((DQuat::IDENTITY, 1.0), |parent| (self.turned[parent.index()], self.scale[parent.index()]))
     }
 
-    /// How far a joint is from its parent.
-    fn distance(&self, skeleton: &Skeleton, joint: JointIndex) -> f64 {
-        skeleton.rest()[joint.index()].translation.as_dvec3().length() * self.above(skeleton, joint).1
+    /// Where a joint is in its parent's frame, in the model's unit.
+    fn place(&self, skeleton: &Skeleton, joint: JointIndex) -> DVec3 {
+        skeleton.rest()[joint.index()].translation.as_dvec3() * self.above(skeleton, joint).1
     }
+}
+
+/// How long bones of ours are as a part of theirs: that of the middle one.
+fn scale(places: &[[DVec3; 2]]) -> f64 {
+    let ratios = places.iter().map(|[our, their]| our.length() / their.length());
+    let mut ratios: Vec<f64> = ratios.filter(|ratio| ratio.is_finite() && *ratio > 0.0).collect();
+    ratios.sort_by(f64::total_cmp);
+    let middle = ratios.get(ratios.len() / 2).copied().unwrap_or(1.0);
+    if (middle - 1.0).abs() <= 1e-4 { 1.0 } else { middle }
 }
 
 /// The joint of theirs for each of ours: by whole names, else by common ones.
@@ -122,29 +131,28 @@ pub fn retarget(ours: &Skeleton, theirs: &Skeleton, clips: &[Clip]) -> Result<Op
         let parents = [ours.parents()[joint.index()], theirs.parents()[found.index()]];
         matches!(parents, [Some(our), Some(their)] if pairs[our.index()] == Some(their))
     };
-    let both = || joints(ours).zip(&pairs).filter_map(|(joint, found)| Some((joint, (*found)?)));
-    let lengths = both().filter(is_inner).map(|(joint, found)| [rests[0].distance(ours, joint), rests[1].distance(theirs, found)]);
-    let [our_length, their_length] = lengths.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
-    let scale = if our_length > 0.0 && their_length > 0.0 { our_length / their_length } else { 1.0 };
-    let have_same_frames = both().filter(is_inner).all(|(joint, found)| {
-        let place = |skeleton: &Skeleton, rest: &AtRest, joint: JointIndex| {
-            skeleton.rest()[joint.index()].translation.as_dvec3() * rest.above(skeleton, joint).1
-        };
-        let [our, their] = [place(ours, &rests[0], joint), place(theirs, &rests[1], found) * scale];
-        our.distance(their) <= SAME_PLACE * our.length().max(1e-3 * our_length)
-    });
+    let both = joints(ours).zip(&pairs).filter_map(|(joint, found)| Some((joint, (*found)?)));
+    let places: Vec<[DVec3; 2]> = both.filter(is_inner).map(|(joint, found)| [rests[0].place(ours, joint), rests[1].place(theirs, found)]).collect();
+    let scale = scale(&places);
+    // Hips stand elsewhere in each motion, and a few bones may be of another length.
+    let are_same = |[our, their]: &&[DVec3; 2]| our.distance(*their * scale) <= SAME_PLACE * our.length();
+    let have_same_frames = 4 * places.iter().filter(are_same).count() >= 3 * places.len();
     let mut of_clips = Vec::with_capacity(clips.len());
     for clip in clips {
         let mut tracks = Vec::with_capacity(ours.joint_count());
         for ((joint, found), &rest) in joints(ours).zip(&pairs).zip(ours.rest()) {
-            let Some(found) = found.filter(|found| clip.tracks[found.index()].has_rows()) else {
+            let Some(found) = *found else {
                 tracks.push(Track::at_rest(rest));
                 continue;
             };
             let (our_turn, our_scale) = rests[0].above(ours, joint);
             let (their_turn, their_scale) = rests[1].above(theirs, found);
             let way = Way {
-                from_theirs: (our_turn.inverse() * their_turn).normalize(),
+                // Parents with the same frame may rest in another pose.
+                from_theirs: match have_same_frames && is_inner(&(joint, found)) {
+                    true => DQuat::IDENTITY,
+                    false => (our_turn.inverse() * their_turn).normalize(),
+                },
                 scale: scale * their_scale / our_scale,
                 rests: [rest, theirs.rest()[found.index()]],
                 is_relative: !have_same_frames,

@@ -282,3 +282,57 @@ fn vertices_are_where_ufbx_has_them() {
     }
     assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
 }
+
+/// The files of the repository's own.
+fn own() -> Vec<(String, Vec<u8>)> {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/fbx");
+    let entries = std::fs::read_dir(folder).expect("it is there").map(|entry| entry.expect("a file").path());
+    entries.map(|path| (path.file_name().expect("a name").to_string_lossy().into_owned(), std::fs::read(&path).expect("a file"))).collect()
+}
+
+#[test]
+fn joints_are_where_ufbx_has_them() {
+    let mut wrong = Vec::new();
+    let mut count = 0;
+    for (name, bytes) in files("files").into_iter().chain(files("mixamo")).chain(own()) {
+        let (Ok(imported), Ok(scene)) = (import(&bytes), ufbx::load_memory(&bytes, LoadOpts::default())) else { continue };
+        let model = &imported.model;
+        let skeleton = &model.skeleton;
+        let axes = DAffine3::from_mat3(axes(&scene));
+        // Those whose name is theirs alone.
+        let alone = |wanted: &str| scene.nodes.iter().filter(|node| *node.element.name == *wanted).count() == 1;
+        let joints: Vec<(usize, &str)> = (0..skeleton.joint_count())
+            .filter_map(|joint| Some((joint, skeleton.name(bindpose::model::JointIndex(joint as u32))?)))
+            .filter(|(_, name)| alone(name))
+            .collect();
+        for clip in &model.clips {
+            let Some(stack) = scene.anim_stacks.iter().find(|stack| *stack.element.name == *clip.name) else { continue };
+            let compiled = CompiledClip::new(clip);
+            let mut pose = PoseBuffers::for_skeleton(skeleton);
+            let (mut worst, mut reach) = (0f64, 1e-9f64);
+            for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
+                let secs = clip.start_secs + (clip.end_secs - clip.start_secs) * part;
+                pose.evaluate(skeleton, &compiled, secs);
+                let evaluated = ufbx::evaluate_scene(&scene, &stack.anim, f64::from(secs), EvaluateOpts::default()).expect("it is evaluated");
+                let places: Vec<[DVec3; 2]> = joints
+                    .iter()
+                    .map(|&(joint, name)| {
+                        let node = evaluated.nodes.iter().find(|node| *node.element.name == *name).expect("it is there");
+                        let theirs = (axes * matrix(&node.node_to_world)).translation;
+                        [pose.model.0[joint].translation.as_dvec3(), theirs]
+                    })
+                    .collect();
+                for [ours, theirs] in &places {
+                    worst = worst.max(ours.distance(*theirs));
+                    reach = reach.max(theirs.distance(places[0][1]));
+                }
+            }
+            count += 1;
+            println!("{name}, {}: {} joints, {:.1e}", clip.name, joints.len(), worst / reach);
+            if joints.len() > 1 && worst > TOLERANCE * reach {
+                wrong.push(format!("{name}, {}: {}", clip.name, worst / reach));
+            }
+        }
+    }
+    assert!(wrong.is_empty() && count >= 2, "{}:\n{}", wrong.len(), wrong.join("\n"));
+}
