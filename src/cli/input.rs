@@ -34,7 +34,9 @@ pub(super) fn beside(model: &Path, name: &str) -> Option<bytes::Bytes> {
 /// A model that can be shown. It has its name where that is a model's.
 pub(super) fn load(path: &Path) -> Result<OpenModel, Failure> {
     let mut file = read(path)?;
-    let name = path.file_name().map(|name| File::sharing(&name.to_string_lossy(), file.bytes.clone()));
+    let name = path
+        .file_name()
+        .map(|name| File::sharing(&name.to_string_lossy(), file.bytes.clone()));
     if let Some(named) = name.filter(|named| named.kind() == Some(FileKind::Model)) {
         file = named;
     }

@@ -42,8 +42,16 @@ fn in_place(model: &Model, clip: &Clip) -> Option<(Clip, f64)> {
         let way = above * (place - start).as_dvec3();
         (way - up * way.dot(up)).length()
     };
-    let way = channel.values().iter().map(|&place| over_ground(place)).fold(0.0, f64::max);
-    let reach: f64 = skeleton.rest().iter().map(|rest| f64::from(rest.translation.length())).sum();
+    let way = channel
+        .values()
+        .iter()
+        .map(|&place| over_ground(place))
+        .fold(0.0, f64::max);
+    let reach: f64 = skeleton
+        .rest()
+        .iter()
+        .map(|rest| f64::from(rest.translation.length()))
+        .sum();
     if way <= LEAST_WAY * reach || above.determinant() == 0.0 {
         return None;
     }
@@ -74,7 +82,8 @@ fn root(skeleton: &Skeleton, clip: &Clip) -> Option<JointIndex> {
         is_below[joint] = parent.is_some_and(|parent| is_below[parent.index()] || moves(parent.index()));
     }
     let tops = (0..parents.len()).filter(|&joint| moves(joint) && !is_below[joint]);
-    tops.max_by_key(|&joint| (below[joint], std::cmp::Reverse(joint))).map(|joint| JointIndex(joint as u32))
+    tops.max_by_key(|&joint| (below[joint], std::cmp::Reverse(joint)))
+        .map(|joint| JointIndex(joint as u32))
 }
 
 /// Where the parent of a joint is at rest.

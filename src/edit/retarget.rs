@@ -33,7 +33,9 @@ pub struct Retargeted {
 pub fn common_name(name: &str) -> &str {
     let name = name.rsplit(':').next().unwrap_or(name);
     match name.strip_prefix("mixamorig") {
-        Some(rest) => rest.trim_start_matches(|digit: char| digit.is_ascii_digit()).trim_start_matches('_'),
+        Some(rest) => rest
+            .trim_start_matches(|digit: char| digit.is_ascii_digit())
+            .trim_start_matches('_'),
         None => name,
     }
 }
@@ -70,7 +72,9 @@ impl AtRest {
 
     /// Of what a joint lies in.
     fn above(&self, skeleton: &Skeleton, joint: JointIndex) -> (DQuat, f64) {
-        skeleton.parents()[joint.index()].map_or((DQuat::IDENTITY, 1.0), |parent| (self.turned[parent.index()], self.scale[parent.index()]))
+        skeleton.parents()[joint.index()].map_or((DQuat::IDENTITY, 1.0), |parent| {
+            (self.turned[parent.index()], self.scale[parent.index()])
+        })
     }
 
     /// Where a joint is in its parent's frame, in the model's unit.
@@ -121,7 +125,11 @@ pub fn retarget(ours: &Skeleton, theirs: &Skeleton, clips: &[Clip]) -> Result<Op
     }
     let moves = |joint: JointIndex| clips.iter().any(|clip| clip.tracks[joint.index()].has_keys());
     let moving: Vec<JointIndex> = joints(theirs).filter(|&joint| moves(joint)).collect();
-    let without: Vec<JointIndex> = moving.iter().copied().filter(|joint| of_theirs[joint.index()].is_none()).collect();
+    let without: Vec<JointIndex> = moving
+        .iter()
+        .copied()
+        .filter(|joint| of_theirs[joint.index()].is_none())
+        .collect();
     if pairs.iter().flatten().next().is_none() || 2 * without.len() > moving.len() {
         return Ok(None);
     }
@@ -131,8 +139,13 @@ pub fn retarget(ours: &Skeleton, theirs: &Skeleton, clips: &[Clip]) -> Result<Op
         let parents = [ours.parents()[joint.index()], theirs.parents()[found.index()]];
         matches!(parents, [Some(our), Some(their)] if pairs[our.index()] == Some(their))
     };
-    let both = joints(ours).zip(&pairs).filter_map(|(joint, found)| Some((joint, (*found)?)));
-    let places: Vec<[DVec3; 2]> = both.filter(is_inner).map(|(joint, found)| [rests[0].place(ours, joint), rests[1].place(theirs, found)]).collect();
+    let both = joints(ours)
+        .zip(&pairs)
+        .filter_map(|(joint, found)| Some((joint, (*found)?)));
+    let places: Vec<[DVec3; 2]> = both
+        .filter(is_inner)
+        .map(|(joint, found)| [rests[0].place(ours, joint), rests[1].place(theirs, found)])
+        .collect();
     let scale = scale(&places);
     // Hips stand elsewhere in each motion, and a few bones may be of another length.
     let are_same = |[our, their]: &&[DVec3; 2]| our.distance(*their * scale) <= SAME_PLACE * our.length();
@@ -161,11 +174,20 @@ pub fn retarget(ours: &Skeleton, theirs: &Skeleton, clips: &[Clip]) -> Result<Op
         }
         of_clips.push(Clip::new(clip.name.clone(), tracks));
     }
-    let name = |skeleton: &Skeleton, joint: JointIndex| skeleton.name(joint).map_or_else(|| format!("bone {}", skeleton.file_bones()[joint.index()]), str::to_owned);
+    let name = |skeleton: &Skeleton, joint: JointIndex| {
+        skeleton.name(joint).map_or_else(
+            || format!("bone {}", skeleton.file_bones()[joint.index()]),
+            str::to_owned,
+        )
+    };
     Ok(Some(Retargeted {
         clips: of_clips,
         without_place: without.into_iter().map(|joint| name(theirs, joint)).collect(),
-        at_rest: joints(ours).zip(&pairs).filter(|(_, found)| found.is_none()).map(|(joint, _)| name(ours, joint)).collect(),
+        at_rest: joints(ours)
+            .zip(&pairs)
+            .filter(|(_, found)| found.is_none())
+            .map(|(joint, _)| name(ours, joint))
+            .collect(),
         is_relative: !have_same_frames,
         scale,
     }))
@@ -206,7 +228,13 @@ impl Way {
         };
         let place = |place: Vec3| before.mul_vec3(place.as_dvec3() * self.scale).as_vec3();
         let sizes = match self.is_relative {
-            true => our.scale.as_dvec3() / their.scale.as_dvec3().map(|number| if number == 0.0 { 1.0 } else { number }),
+            true => {
+                our.scale.as_dvec3()
+                    / their
+                        .scale
+                        .as_dvec3()
+                        .map(|number| if number == 0.0 { 1.0 } else { number })
+            }
             false => DVec3::ONE,
         };
         let offset = match self.is_relative {

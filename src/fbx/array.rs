@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use super::Place;
+use super::place::Place;
 use crate::diagnostic::Fault;
 
 /// What deflate makes of a byte at most: <https://zlib.net/zlib_tech.html>.
@@ -67,7 +67,8 @@ impl Budget {
 
     fn take(&self, bytes: u64, place: Place) -> Result<(), Fault> {
         let left = self.0.get().checked_sub(bytes);
-        let left = left.ok_or_else(|| place.damaged("The arrays of the file would become many times as large as the file."))?;
+        let left =
+            left.ok_or_else(|| place.damaged("The arrays of the file would become many times as large as the file."))?;
         self.0.set(left);
         Ok(())
     }

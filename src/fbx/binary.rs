@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 
 use super::array::{Array, Content, Element};
-use super::{Document, Growing, Place, Record, Value, check_version};
+use super::document::{Document, Growing, Record, Value, check_version};
+use super::place::Place;
 use crate::diagnostic::Fault;
 use crate::slices::Slices;
 
@@ -84,7 +85,9 @@ impl<'a> Reader<'a> {
         let taken = self.bytes.get(self.at..).and_then(|rest| rest.get(..len));
         let taken = taken.ok_or_else(|| {
             let left = self.bytes.len().saturating_sub(self.at);
-            self.place().damaged(format!("The file ends here: {len} bytes are needed, and {left} are left."))
+            self.place().damaged(format!(
+                "The file ends here: {len} bytes are needed, and {left} are left."
+            ))
         })?;
         self.at += len;
         Ok(taken)

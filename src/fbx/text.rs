@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 
 use super::array::{Array, Content};
-use super::{Document, Growing, Place, Record, Value, check_version};
+use super::document::{Document, Growing, Record, Value, check_version};
+use super::place::Place;
 use crate::diagnostic::{Fault, Position};
 use crate::slices::Slices;
 
@@ -13,7 +14,10 @@ const MOST_SINGLE: usize = 16;
 /// Whether the first line that is no blank is a comment which names FBX, or a record of its header.
 pub(super) fn begins(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
-    let line = bytes.split(|byte| matches!(byte, b'\n' | b'\r')).next().unwrap_or_default();
+    let line = bytes
+        .split(|byte| matches!(byte, b'\n' | b'\r'))
+        .next()
+        .unwrap_or_default();
     (line.starts_with(b";") && memchr::memmem::find(line, b"FBX").is_some()) || line.starts_with(b"FBXHeaderExtension")
 }
 
@@ -124,7 +128,12 @@ impl<'a> Reader<'a> {
     /// What stands up to a character that ends a word.
     fn word(&mut self) -> &'a [u8] {
         let rest = &self.bytes[self.at..];
-        let ends = |byte: &u8| matches!(byte, b' ' | b'\t' | b'\r' | b'\n' | b',' | b':' | b'{' | b'}' | b'"' | b';' | b'*');
+        let ends = |byte: &u8| {
+            matches!(
+                byte,
+                b' ' | b'\t' | b'\r' | b'\n' | b',' | b':' | b'{' | b'}' | b'"' | b';' | b'*'
+            )
+        };
         let len = rest.iter().position(ends).unwrap_or(rest.len());
         self.at += len;
         &rest[..len]
@@ -140,7 +149,9 @@ impl<'a> Reader<'a> {
                 Some(byte) if name.is_empty() => char::from(byte).escape_default().to_string(),
                 _ => name.into_owned(),
             };
-            return Err(place.damaged(format!("A record was expected, such as \"Objects:\", and \"{found}\" stands here.")));
+            return Err(place.damaged(format!(
+                "A record was expected, such as \"Objects:\", and \"{found}\" stands here."
+            )));
         }
         self.at += 1;
         Ok(Record {
@@ -181,7 +192,9 @@ impl<'a> Reader<'a> {
             _ => None,
         });
         let integers: Option<Vec<_>> = integers.collect();
-        let content = integers.map(Content::Integers).or_else(|| numbers.collect::<Option<_>>().map(Content::Numbers));
+        let content = integers
+            .map(Content::Integers)
+            .or_else(|| numbers.collect::<Option<_>>().map(Content::Numbers));
         Ok(match content {
             Some(content) => vec![Value::Array(Array(content))],
             None => values,
@@ -191,7 +204,10 @@ impl<'a> Reader<'a> {
     /// Whether a name with its colon stands here.
     fn is_at_record(&self) -> bool {
         let rest = &self.bytes[self.at..];
-        let len = rest.iter().position(|byte| !byte.is_ascii_alphanumeric() && !matches!(byte, b'_' | b'-')).unwrap_or(rest.len());
+        let len = rest
+            .iter()
+            .position(|byte| !byte.is_ascii_alphanumeric() && !matches!(byte, b'_' | b'-'))
+            .unwrap_or(rest.len());
         len > 0 && rest.get(len) == Some(&b':')
     }
 
@@ -212,7 +228,9 @@ impl<'a> Reader<'a> {
             _ => {
                 let word = self.word();
                 if word.is_empty() {
-                    let found = self.peek().map_or_else(String::new, |byte| char::from(byte).escape_default().to_string());
+                    let found = self
+                        .peek()
+                        .map_or_else(String::new, |byte| char::from(byte).escape_default().to_string());
                     return Err(place.damaged(format!("A value was expected, and \"{found}\" stands here.")));
                 }
                 Ok(number(word).unwrap_or(Value::Text(Cow::Borrowed(word))))
@@ -269,10 +287,15 @@ impl<'a> Reader<'a> {
             Ok([single]) => numbers_of(vec![single]),
             Err(values) => numbers_of(values),
         };
-        let said = std::str::from_utf8(count).ok().and_then(|count| count.parse::<usize>().ok());
+        let said = std::str::from_utf8(count)
+            .ok()
+            .and_then(|count| count.parse::<usize>().ok());
         if said != Some(array.len()) {
             let said = String::from_utf8_lossy(count);
-            return Err(place.damaged(format!("An array says that it has {said} numbers, and has {}.", array.len())));
+            return Err(place.damaged(format!(
+                "An array says that it has {said} numbers, and has {}.",
+                array.len()
+            )));
         }
         Ok(Value::Array(array))
     }
@@ -309,11 +332,15 @@ fn number(word: &[u8]) -> Option<Value<'static>> {
 /// What writers have for numbers that are none: `1.#INF`, `-inf`, `nan(ind)`, `snan`, …
 fn not_finite(word: &[u8]) -> Option<f64> {
     let word = std::str::from_utf8(word).ok()?.to_ascii_lowercase();
-    let plain = word.trim_start_matches(['-', '+']).trim_start_matches(['0', '1', '.', '#']);
+    let plain = word
+        .trim_start_matches(['-', '+'])
+        .trim_start_matches(['0', '1', '.', '#']);
     let sign = if word.starts_with('-') { -1.0 } else { 1.0 };
     if plain.starts_with("inf") {
         return Some(sign * f64::INFINITY);
     }
-    let is_nan = ["nan", "snan", "qnan", "ind"].iter().any(|start| plain.starts_with(start));
+    let is_nan = ["nan", "snan", "qnan", "ind"]
+        .iter()
+        .any(|start| plain.starts_with(start));
     is_nan.then_some(f64::NAN)
 }

@@ -63,23 +63,39 @@ fn text(value: &str) -> Vec<u8> {
 fn array(kind: u8, count: u32, is_deflated: bool, bytes: &[u8]) -> Vec<u8> {
     let words = [count, u32::from(is_deflated), bytes.len() as u32];
     let words = words.iter().flat_map(|word| word.to_le_bytes());
-    std::iter::once(kind).chain(words).chain(bytes.iter().copied()).collect()
+    std::iter::once(kind)
+        .chain(words)
+        .chain(bytes.iter().copied())
+        .collect()
 }
 
 /// A mesh with an array.
 fn mesh(array: &[u8]) -> Vec<u8> {
     let mut file = Binary::new(7400);
-    file.record("Objects", 0, &[], Some(&|file| {
-        let values = [b"L\x2a\0\0\0\0\0\0\0".to_vec(), text("Cube\0\x01Geometry")].concat();
-        file.record("Geometry", 2, &values, Some(&|file| file.record("Vertices", 1, array, None)));
-    }));
+    file.record(
+        "Objects",
+        0,
+        &[],
+        Some(&|file| {
+            let values = [b"L\x2a\0\0\0\0\0\0\0".to_vec(), text("Cube\0\x01Geometry")].concat();
+            file.record(
+                "Geometry",
+                2,
+                &values,
+                Some(&|file| file.record("Vertices", 1, array, None)),
+            );
+        }),
+    );
     file.0.extend([0; 13]);
     file.0.extend(b"what stands behind");
     file.0
 }
 
 fn of_mesh<'a, 'b>(document: &'b Document<'a>) -> &'b Record<'a> {
-    document.find("Objects").and_then(|objects| objects.find("Geometry")).expect("a mesh")
+    document
+        .find("Objects")
+        .and_then(|objects| objects.find("Geometry"))
+        .expect("a mesh")
 }
 
 /// What stands where, of a file that cannot be read.
@@ -91,7 +107,9 @@ fn fault(bytes: &[u8]) -> Fault {
 fn text_is_read() {
     let document = parse(TEXT.as_bytes()).expect("it is sound");
     assert_eq!((document.version, document.is_binary), (7400, false));
-    let creator = document.find("FBXHeaderExtension").and_then(|header| header.find("Creator"));
+    let creator = document
+        .find("FBXHeaderExtension")
+        .and_then(|header| header.find("Creator"));
     assert_eq!(creator.expect("it is there").text(0).expect("text"), "A \t\"pen\"");
     let mesh = of_mesh(&document);
     assert_eq!((mesh.integer(0), mesh.text(2).as_deref()), (Some(42), Some("Mesh")));
@@ -100,20 +118,40 @@ fn text_is_read() {
     let numbers = |name: &str| mesh.find(name).expect(name).numbers(&budget).expect("numbers");
     assert_eq!(numbers("Vertices"), [-1.0, 0.5, 20.0, 4.0, 5.0, 6.0]);
     assert_eq!(numbers("Empty"), [0.0; 0]);
-    assert_eq!(mesh.find("Shading").and_then(|shading| shading.text(0)).as_deref(), Some("T"));
-    assert_eq!(mesh.find("Content").and_then(|content| content.text(0)).as_deref(), Some("YWJj"));
+    assert_eq!(
+        mesh.find("Shading").and_then(|shading| shading.text(0)).as_deref(),
+        Some("T")
+    );
+    assert_eq!(
+        mesh.find("Content").and_then(|content| content.text(0)).as_deref(),
+        Some("YWJj")
+    );
 }
 
 #[test]
 fn rows_of_numbers_of_the_older_text_are_arrays() {
     let row = (0..20).map(|number| number.to_string()).collect::<Vec<_>>().join(",");
-    let file = format!("; FBX 6.1.0 project file\nVertices: {}\n,5.5\nKeys: 1,2,L,3\nNext: 1,2\n", row.replace(",9,", ",9\n,"));
+    let file = format!(
+        "; FBX 6.1.0 project file\nVertices: {}\n,5.5\nKeys: 1,2,L,3\nNext: 1,2\n",
+        row.replace(",9,", ",9\n,")
+    );
     let document = parse(file.as_bytes()).expect("it is sound");
     assert_eq!(document.version, 6100);
-    let numbers = document.find("Vertices").expect("it is there").numbers(&Budget::of_file(0)).expect("numbers");
+    let numbers = document
+        .find("Vertices")
+        .expect("it is there")
+        .numbers(&Budget::of_file(0))
+        .expect("numbers");
     assert_eq!((numbers.len(), numbers[19], numbers[20]), (21, 19.0, 5.5));
     assert_eq!(document.find("Keys").expect("it is there").values.len(), 4);
-    assert_eq!(document.find("Next").expect("it is there").integers(&Budget::of_file(0)).expect("numbers"), [1, 2]);
+    assert_eq!(
+        document
+            .find("Next")
+            .expect("it is there")
+            .integers(&Budget::of_file(0))
+            .expect("numbers"),
+        [1, 2]
+    );
 }
 
 #[test]
@@ -128,8 +166,14 @@ fn arrays_are_unpacked() {
         let mesh = of_mesh(&document);
         assert_eq!(mesh.name_and_class(1), Some(("Cube".into(), "Geometry".into())));
         let vertices = mesh.find("Vertices").expect("it is there");
-        assert_eq!(vertices.numbers(&Budget::of_file(file.len())).expect("numbers"), numbers);
-        assert_eq!(vertices.integers(&Budget::of_file(file.len())).expect("numbers")[..2], [1, -2]);
+        assert_eq!(
+            vertices.numbers(&Budget::of_file(file.len())).expect("numbers"),
+            numbers
+        );
+        assert_eq!(
+            vertices.integers(&Budget::of_file(file.len())).expect("numbers")[..2],
+            [1, -2]
+        );
     }
 }
 
@@ -164,7 +208,10 @@ fn an_array_is_no_larger_than_its_bytes_allow() {
 fn what_is_wrong_is_told_with_its_place() {
     let place = |text: &str| {
         let fault = parse(text.as_bytes()).map(drop).expect_err(text);
-        (fault.position.map(|Position { line, column }| (line, column)), fault.message)
+        (
+            fault.position.map(|Position { line, column }| (line, column)),
+            fault.message,
+        )
     };
     for (from, to, at, told) in [
         ("*6", "*7", (9, 13), "says that it has 7 numbers, and has 6"),
@@ -193,18 +240,31 @@ fn what_is_wrong_is_told_with_its_place() {
 /// All values of a record and what is in it, counted by kind.
 fn count(record: &Record<'_>) -> (usize, usize) {
     let inner = record.records.iter().map(count);
-    inner.fold((1, record.values.len()), |(records, values), (more, others)| (records + more, values + others))
+    inner.fold((1, record.values.len()), |(records, values), (more, others)| {
+        (records + more, values + others)
+    })
 }
 
 /// The real files of a folder.
 fn files(folder: &str) -> Vec<(String, Vec<u8>)> {
-    let Some(folder) = shared(&format!("fbx/{folder}")) else { return Vec::new() };
-    let entries = std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
-    let mut paths: Vec<_> = entries.filter(|path| path.extension().is_some_and(|extension| extension == "fbx")).collect();
+    let Some(folder) = shared(&format!("fbx/{folder}")) else {
+        return Vec::new();
+    };
+    let entries = std::fs::read_dir(folder)
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").path());
+    let mut paths: Vec<_> = entries
+        .filter(|path| path.extension().is_some_and(|extension| extension == "fbx"))
+        .collect();
     paths.sort();
     paths
         .into_iter()
-        .map(|path| (path.file_name().expect("a name").to_string_lossy().into_owned(), std::fs::read(path).expect("a file")))
+        .map(|path| {
+            (
+                path.file_name().expect("a name").to_string_lossy().into_owned(),
+                std::fs::read(path).expect("a file"),
+            )
+        })
         .collect()
 }
 

@@ -52,7 +52,11 @@ struct Lost<'a> {
 
 pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Write) -> Result<Outcome, Failure> {
     check_use(arguments)?;
-    let inputs = || std::iter::once(&arguments.input).chain(&arguments.add_clips).map(PathBuf::as_path);
+    let inputs = || {
+        std::iter::once(&arguments.input)
+            .chain(&arguments.add_clips)
+            .map(PathBuf::as_path)
+    };
     refuse_own_input(&arguments.output, inputs())?;
     paths::check_writable(&arguments.output, arguments.force)?;
     let mut open = input::load(&arguments.input)?;

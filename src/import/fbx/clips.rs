@@ -6,19 +6,16 @@
 mod fitting;
 mod layers;
 
-use std::collections::HashMap;
-
 use self::fitting::{Fitted, Source};
 use self::layers::{Layer, Property};
-use super::File;
 use super::curves::TICKS_PER_SEC;
+use super::file::File;
 use super::nodes::Nodes;
-use super::objects::{ObjectIndex, Objects};
+use super::objects::Objects;
 use super::transform::{Local, Parts, Transform, is_even};
 use crate::diagnostic::codes;
 use crate::diagnostic::collect::counted;
 use crate::diagnostic::{Fault, Subject};
-use crate::fbx::Record;
 use crate::import::scene::Rig;
 use crate::model::{Clip, LocalJoint, Track, unique_names};
 use crate::slices::Slices;
@@ -45,15 +42,24 @@ impl Stack {
         for (_, stack) in objects.of_class("AnimationStack") {
             let ticks = |name: &str| stack.number(name).map(|ticks| ticks / TICKS_PER_SEC);
             let layers = objects.children(stack, "AnimationLayer");
-            let layers = layers.map(|(_, layer)| Layer::read(file, objects, nodes, layer)).collect::<Result<_, _>>()?;
+            let layers = layers
+                .map(|(_, layer)| Layer::read(file, objects, nodes, layer))
+                .collect::<Result<_, _>>()?;
             stacks.push(Self {
                 name: stack.name.clone().into_owned(),
                 span_secs: ticks("LocalStart").zip(ticks("LocalStop")).map(Into::into),
                 layers,
             });
         }
-        for take in file.document.find("Takes").into_iter().flat_map(|takes| takes.all("Take")) {
-            let span = take.find("LocalTime").and_then(|time| Some([time.number(0)?, time.number(1)?]));
+        for take in file
+            .document
+            .find("Takes")
+            .into_iter()
+            .flat_map(|takes| takes.all("Take"))
+        {
+            let span = take
+                .find("LocalTime")
+                .and_then(|time| Some([time.number(0)?, time.number(1)?]));
             let layer = Layer::of_take(take, objects, nodes);
             // Files of 7.x have takes without curves.
             if !layer.is_empty() {
@@ -70,7 +76,10 @@ impl Stack {
     /// Marks the nodes that it moves.
     pub(super) fn mark_moved(&self, nodes: &mut Nodes) {
         let mut is_moved = vec![false; nodes.transforms.len()];
-        self.layers.iter().flat_map(Layer::models).for_each(|model| is_moved[model as usize] = true);
+        self.layers
+            .iter()
+            .flat_map(Layer::models)
+            .for_each(|model| is_moved[model as usize] = true);
         for node in 0..nodes.scene.nodes.len() as u32 {
             let by_own = is_moved[nodes.model_of(node) as usize];
             nodes.scene.nodes[node as usize].is_moved |= by_own;
@@ -84,7 +93,9 @@ impl Stack {
     }
 
     fn key_times_secs(&self, model: u32, properties: &[Property]) -> impl Iterator<Item = f64> {
-        self.layers.iter().flat_map(move |layer| layer.times_secs(model, properties, self.span()))
+        self.layers
+            .iter()
+            .flat_map(move |layer| layer.times_secs(model, properties, self.span()))
     }
 
     /// From when to when it is, where it says so.
@@ -96,19 +107,29 @@ impl Stack {
     fn parts(&self, transform: &Transform, model: u32, secs: f64, is_before: bool) -> Parts {
         let mut parts = transform.parts();
         for (index, layer) in self.layers.iter().enumerate() {
-            layer.add_to(&mut parts, (model, transform), [secs, if is_before { 1.0 } else { 0.0 }], index == 0);
+            layer.add_to(
+                &mut parts,
+                (model, transform),
+                [secs, if is_before { 1.0 } else { 0.0 }],
+                index == 0,
+            );
         }
         parts
     }
 
     fn local(&self, nodes: &Nodes, node: u32, secs: f64, is_before: bool) -> Local {
-        nodes.local(node, &|model| self.parts(&nodes.transforms[model as usize], model, secs, is_before))
+        nodes.local(node, &|model| {
+            self.parts(&nodes.transforms[model as usize], model, secs, is_before)
+        })
     }
 
     /// The times at which something happens to a node: keys within the stack's span, and its ends.
     fn times(&self, nodes: &Nodes, node: u32, properties: &[Property]) -> Vec<f64> {
         let moving = nodes.moved_by(nodes.model_of(node));
-        let mut times: Vec<f64> = moving.iter().flat_map(|&model| self.key_times_secs(model, properties)).collect();
+        let mut times: Vec<f64> = moving
+            .iter()
+            .flat_map(|&model| self.key_times_secs(model, properties))
+            .collect();
         times.sort_by(f64::total_cmp);
         if let (Some([start, end]), Some(_)) = (self.span(), times.first()) {
             times.retain(|&secs| start < secs && secs < end);
@@ -151,7 +172,8 @@ impl Stack {
         let vector = |fitted: Fitted, rest| fitted.channel(|value| value.truncate().as_vec3(), rest);
         Ok(Track::of_channels(
             vector(fitted(Property::Translation, MOST_OFF * size), rest.translation)?,
-            fitted(Property::Rotation, MOST_OFF).channel(|value| glam::DQuat::from_vec4(value).as_quat(), rest.rotation)?,
+            fitted(Property::Rotation, MOST_OFF)
+                .channel(|value| glam::DQuat::from_vec4(value).as_quat(), rest.rotation)?,
             vector(fitted(Property::Scale, MOST_OFF), rest.scale)?,
         ))
     }
@@ -175,7 +197,11 @@ pub(super) async fn clips(
         for (joint, (&node, &rest)) in (0u32..).zip(rig.node_of_joint.iter().zip(rig.skeleton.rest())) {
             slices.pause().await;
             let stands_in = rig.joint_of_node[node as usize] != Some(joint);
-            tracks.push(if stands_in { Track::at_rest(rest) } else { stack.track(nodes, node, rest, size)? });
+            tracks.push(if stands_in {
+                Track::at_rest(rest)
+            } else {
+                stack.track(nodes, node, rest, size)?
+            });
         }
         if tracks.iter().any(Track::has_keys) {
             read.push((stack, tracks));
@@ -187,22 +213,12 @@ pub(super) async fn clips(
     });
     let layered = read.iter().filter(|(stack, _)| stack.layers.len() > 1).count();
     if layered > 0 {
-        let message = format!("{} of several layers, which become one.", counted(layered, "clip is", "clips are"));
+        let message = format!(
+            "{} of several layers, which become one.",
+            counted(layered, "clip is", "clips are")
+        );
         file.note(&codes::FBX_LEFT_OUT, message);
     }
     let clips = names.into_iter().zip(read);
     Ok(clips.map(|(name, (_, tracks))| Clip::new(name, tracks)).collect())
-}
-
-/// Curve nodes by what they move.
-type Moved<T> = HashMap<(u32, Property), T>;
-
-/// Which node an object of a connection is.
-fn node_of(nodes: &Nodes, object: ObjectIndex) -> Option<u32> {
-    nodes.node_of[object.index()]
-}
-
-/// The name of a record's first value.
-fn named<'s>(record: &'s Record<'_>) -> std::borrow::Cow<'s, str> {
-    record.text(0).unwrap_or_default()
 }

@@ -125,21 +125,38 @@ impl Growing {
                 }
             }
         }
-        Curve { keys: self.keys, beyond }
+        Curve {
+            keys: self.keys,
+            beyond,
+        }
     }
 }
 
 impl Curve {
     /// An `AnimationCurve` of 7.x.
     pub(super) fn read(record: &Record<'_>, document: &Document<'_>, budget: &Budget) -> Result<Self, Fault> {
-        let integers = |name: &str| record.find(name).map_or_else(|| Ok(Vec::new()), |found| found.integers(budget));
-        let numbers = |name: &str| record.find(name).map_or_else(|| Ok(Vec::new()), |found| found.numbers(budget));
+        let integers = |name: &str| {
+            record
+                .find(name)
+                .map_or_else(|| Ok(Vec::new()), |found| found.integers(budget))
+        };
+        let numbers = |name: &str| {
+            record
+                .find(name)
+                .map_or_else(|| Ok(Vec::new()), |found| found.numbers(budget))
+        };
         let (times, values) = (integers("KeyTime")?, numbers("KeyValueFloat")?);
         let (flags, counts) = (integers("KeyAttrFlags")?, integers("KeyAttrRefCount")?);
         let are_bits = !document.is_binary && document.version >= BITS_SINCE;
         let data: Vec<f32> = numbers("KeyAttrDataFloat")?
             .into_iter()
-            .map(|number| if are_bits { f32::from_bits(number as i64 as u32) } else { number as f32 })
+            .map(|number| {
+                if are_bits {
+                    f32::from_bits(number as i64 as u32)
+                } else {
+                    number as f32
+                }
+            })
             .collect();
         // Runs of keys have the same attributes.
         let mut run = 0;
@@ -152,7 +169,11 @@ impl Curve {
             }
             left -= 1;
             let flags = flags.get(run).copied().unwrap_or_default();
-            let data = data.get(4 * run..4 * run + 4).and_then(|data| data.first_chunk()).copied().unwrap_or_default();
+            let data = data
+                .get(4 * run..4 * run + 4)
+                .and_then(|data| data.first_chunk())
+                .copied()
+                .unwrap_or_default();
             let (way, set) = way(flags, data);
             let [right, next] = tangents(flags, data);
             let still = [0.0, PLAIN_WEIGHT];
@@ -167,8 +188,13 @@ impl Curve {
     /// A channel of a `Take` of 6.1, where words stand between the numbers of a key.
     pub(super) fn read_take(record: &Record<'_>) -> Self {
         let mut growing = Growing::default();
-        let Some(keys) = record.find("Key") else { return Self::default() };
-        let version = record.find("KeyVer").and_then(|version| version.integer(0)).unwrap_or(4005);
+        let Some(keys) = record.find("Key") else {
+            return Self::default();
+        };
+        let version = record
+            .find("KeyVer")
+            .and_then(|version| version.integer(0))
+            .unwrap_or(4005);
         let mut values = TakeValues { keys, at: 0 };
         while let Some((ticks, value)) = values.number().zip(values.number()) {
             let still = [0.0, PLAIN_WEIGHT];
@@ -178,7 +204,9 @@ impl Curve {
                     let is_next = version >= 4004 && values.word() == Some(b'n');
                     Some((Way::Constant { is_next }, Slopes::Given, still, still))
                 }
-                Some(b'U') => values.cubic(version).map(|(set, right, next)| (Way::Cubic, set, right, next)),
+                Some(b'U') => values
+                    .cubic(version)
+                    .map(|(set, right, next)| (Way::Cubic, set, right, next)),
                 _ => None,
             };
             let Some((way, set, right, next)) = given else { break };
@@ -194,7 +222,11 @@ impl Curve {
 
     /// The same, and those at which it repeats them within a span, up to [`MOST_REPEATED`].
     pub(super) fn times_within(&self, span: Option<[f64; 2]>) -> impl Iterator<Item = f64> + '_ {
-        let ends = self.keys.first().zip(self.keys.last()).map_or([0.0; 2], |(first, last)| [first.secs, last.secs]);
+        let ends = self
+            .keys
+            .first()
+            .zip(self.keys.last())
+            .map_or([0.0; 2], |(first, last)| [first.secs, last.secs]);
         let length = ends[1] - ends[0];
         let [before, after] = match span {
             Some([start, end]) if length > 0.0 => [ends[0] - start, end - ends[1]].map(|beyond| beyond.max(0.0)),
@@ -230,9 +262,15 @@ impl Curve {
         Some(match beyond {
             Beyond::Slope => end.value + away * end.slopes[usize::from(away > 0.0)],
             Beyond::Repeat if length > 0.0 => self.within(first.secs + into, is_before),
-            Beyond::RepeatOnwards if length > 0.0 => self.within(first.secs + into, is_before) + turns * (last.value - first.value),
+            Beyond::RepeatOnwards if length > 0.0 => {
+                self.within(first.secs + into, is_before) + turns * (last.value - first.value)
+            }
             Beyond::Mirror if length > 0.0 => {
-                let into = if turns.rem_euclid(2.0) == 0.0 { into } else { length - into };
+                let into = if turns.rem_euclid(2.0) == 0.0 {
+                    into
+                } else {
+                    length - into
+                };
                 self.within(first.secs + into, is_before)
             }
             _ => end.value,
@@ -241,7 +279,9 @@ impl Curve {
 
     /// Between the first key and the last.
     fn within(&self, secs: f64, is_before: bool) -> f64 {
-        let next = self.keys.partition_point(|key| key.secs < secs || (key.secs == secs && !is_before));
+        let next = self
+            .keys
+            .partition_point(|key| key.secs < secs || (key.secs == secs && !is_before));
         let Range { start, end } = next.saturating_sub(1)..next.min(self.keys.len() - 1);
         let [key, end] = [self.keys[start], self.keys[end]];
         let length = end.secs - key.secs;
@@ -259,7 +299,10 @@ impl Curve {
                     key.value + key.slopes[1] * here * length,
                     end.value - end.slopes[0] * there * length,
                 ];
-                bezier([key.value, inner[0], inner[1], end.value], solved([here, 1.0 - there], part))
+                bezier(
+                    [key.value, inner[0], inner[1], end.value],
+                    solved([here, 1.0 - there], part),
+                )
             }
         }
     }
@@ -295,7 +338,11 @@ impl TakeValues<'_> {
         };
         let is_old = version <= 4004;
         let (set, slopes, weights) = match self.word()? {
-            b's' | b'b' => (Slopes::Given, [self.number()?, self.number()?], u8::from(version != 4003)),
+            b's' | b'b' => (
+                Slopes::Given,
+                [self.number()?, self.number()?],
+                u8::from(version != 4003),
+            ),
             b'a' => (auto, [0.0; 2], u8::from(!is_old)),
             b'p' | b'q' => {
                 self.at += 2;
@@ -375,7 +422,11 @@ fn tangents(flags: i64, [here, next, packed, _]: [f32; 4]) -> [[f64; 2]; 2] {
         0 => PLAIN_WEIGHT,
         _ => f64::from(bits & 0xFFFF) / 10_000.0,
     };
-    let slopes = if flags & flags::TCB == 0 { [here, next].map(f64::from) } else { [0.0; 2] };
+    let slopes = if flags & flags::TCB == 0 {
+        [here, next].map(f64::from)
+    } else {
+        [0.0; 2]
+    };
     [
         [slopes[0], weight(flags::WEIGHT_HERE, bits)],
         [slopes[1], weight(flags::WEIGHT_NEXT, bits >> 16)],
@@ -386,13 +437,17 @@ fn tangents(flags: i64, [here, next, packed, _]: [f32; 4]) -> [[f64; 2]; 2] {
 fn solved_slopes([before, key, after]: [Option<Key>; 3], set: Slopes) -> Option<[f64; 2]> {
     let key = key?;
     let slope = |from: Key, to: Key| (to.value - from.value) / (to.secs - from.secs);
-    let [left, right] = [before.map(|before| slope(before, key)), after.map(|after| slope(key, after))];
+    let [left, right] = [
+        before.map(|before| slope(before, key)),
+        after.map(|after| slope(key, after)),
+    ];
     match set {
         Slopes::Given => None,
         Slopes::Tcb([tension, continuity, bias]) => {
             let half = if left.is_some() && right.is_some() { 0.5 } else { 1.0 };
             let [left, right] = [left, right].map(Option::unwrap_or_default);
-            let part = |of_bias: f64, of_continuity: f64| half * (1.0 - tension) * (1.0 + of_bias) * (1.0 + of_continuity);
+            let part =
+                |of_bias: f64, of_continuity: f64| half * (1.0 - tension) * (1.0 + of_bias) * (1.0 + of_continuity);
             Some([
                 part(bias, -continuity) * left + part(-bias, continuity) * right,
                 part(bias, continuity) * left + part(-bias, -continuity) * right,
@@ -445,10 +500,18 @@ fn auto_slope([before, key, after]: [Key; 3], bias: f64, flags: i64) -> f64 {
     // It goes beyond neither key's value.
     let most = |to: Key, weight: f64| {
         let reach = weight * (to.secs - key.secs);
-        let most = if reach == 0.0 { 0.0 } else { steep.signum() * (to.value - key.value) / reach };
+        let most = if reach == 0.0 {
+            0.0
+        } else {
+            steep.signum() * (to.value - key.value) / reach
+        };
         if most > 0.0 { most } else { 0.0 }
     };
-    steep.signum() * steep.abs().min(most(before, key.weights[0])).min(most(after, key.weights[1]))
+    steep.signum()
+        * steep
+            .abs()
+            .min(most(before, key.weights[0]))
+            .min(most(after, key.weights[1]))
 }
 
 /// What a bias beyond 500 adds; `weight` is a hundredth of it.

@@ -56,12 +56,23 @@ struct Corner {
 
 impl Layer {
     /// The first layer of this name, such as `LayerElementNormal` with `Normals` and `NormalsIndex`; `None` where there is none, or by edges.
-    fn first(record: &Record<'_>, [layer, values, indices]: [&str; 3], width: usize, budget: &Budget) -> Result<Option<Self>, Fault> {
+    fn first(
+        record: &Record<'_>,
+        [layer, values, indices]: [&str; 3],
+        width: usize,
+        budget: &Budget,
+    ) -> Result<Option<Self>, Fault> {
         let found = record.all(layer).min_by_key(|layer| layer.integer(0).unwrap_or(0));
         found.map_or(Ok(None), |found| Self::read(found, values, indices, width, budget))
     }
 
-    fn read(record: &Record<'_>, values: &str, indices: &str, width: usize, budget: &Budget) -> Result<Option<Self>, Fault> {
+    fn read(
+        record: &Record<'_>,
+        values: &str,
+        indices: &str,
+        width: usize,
+        budget: &Budget,
+    ) -> Result<Option<Self>, Fault> {
         let word = |name: &str| record.find(name).and_then(|record| record.text(0)).unwrap_or_default();
         let mapping = match &*word("MappingInformationType") {
             "ByPolygonVertex" => Mapping::Corner,
@@ -75,7 +86,9 @@ impl Layer {
             Some(indices) => indices.integers(budget)?,
             None => Vec::new(),
         };
-        let Some(values) = record.find(values) else { return Ok(None) };
+        let Some(values) = record.find(values) else {
+            return Ok(None);
+        };
         let values = values.numbers(budget)?;
         Ok(Some(Self {
             mapping,
@@ -117,8 +130,11 @@ impl Layer {
 fn firsts(values: &[f64], width: usize) -> Vec<u32> {
     let mut known = FxHashMap::default();
     let rows = (0u32..).zip(values.chunks_exact(width));
-    let row = |row: &[f64]| -> [u32; 4] { std::array::from_fn(|index| row.get(index).map_or(0, |&number| (number as f32).to_bits())) };
-    rows.map(|(index, stored)| *known.entry(row(stored)).or_insert(index)).collect()
+    let row = |row: &[f64]| -> [u32; 4] {
+        std::array::from_fn(|index| row.get(index).map_or(0, |&number| (number as f32).to_bits()))
+    };
+    rows.map(|(index, stored)| *known.entry(row(stored)).or_insert(index))
+        .collect()
 }
 
 /// The polygons of a geometry, each as a range of its corners.
@@ -133,7 +149,11 @@ fn polygons(corners: &[i64]) -> impl Iterator<Item = std::ops::Range<usize>> {
 /// # Errors
 /// When an array is damaged, or a corner names a control point that is not there.
 pub(super) fn read(record: &Record<'_>, budget: &Budget) -> Result<Geometry, Fault> {
-    let numbers = |name: &str| record.find(name).map_or_else(|| Ok(Vec::new()), |found| found.numbers(budget));
+    let numbers = |name: &str| {
+        record
+            .find(name)
+            .map_or_else(|| Ok(Vec::new()), |found| found.numbers(budget))
+    };
     let positions = numbers("Vertices")?;
     let (points, _) = positions.as_chunks::<3>();
     let Some(corners_record) = record.find("PolygonVertexIndex") else {
@@ -222,7 +242,9 @@ fn push(vertices: &mut Vertices, point: [f64; 3], layers: &[Option<Layer>; 4], v
         vertices.tex_coords.push([u, 1.0 - v]);
     }
     if let Some(layer) = colors {
-        vertices.colors.push(if color.is_some() { layer.value(color) } else { [1.0; 4] });
+        vertices
+            .colors
+            .push(if color.is_some() { layer.value(color) } else { [1.0; 4] });
     }
     if let Some(layer) = tangents {
         let [x, y, z] = layer.value(tangent);
@@ -238,7 +260,11 @@ struct MaterialLayer {
 
 impl MaterialLayer {
     fn material(&self, corner: Corner) -> Option<usize> {
-        let place = if self.mapping == Mapping::Polygon { corner.polygon } else { 0 };
+        let place = if self.mapping == Mapping::Polygon {
+            corner.polygon
+        } else {
+            0
+        };
         usize::try_from(*self.indices.get(place)?).ok()
     }
 }
@@ -252,7 +278,9 @@ fn material_layer(record: &Record<'_>, budget: &Budget) -> Result<Option<Materia
         Some("ByPolygon") => Mapping::Polygon,
         _ => Mapping::All,
     };
-    let Some(indices) = layer.find("Materials") else { return Ok(None) };
+    let Some(indices) = layer.find("Materials") else {
+        return Ok(None);
+    };
     Ok(Some(MaterialLayer {
         mapping,
         indices: indices.integers(budget)?,
@@ -271,7 +299,9 @@ fn triangulate(polygon: &[u32], positions: &[[f32; 3]], triangles: &mut Vec<[u32
         .collect();
     let mut left: Vec<usize> = (0..polygon.len()).collect();
     // Newell's normal: the sum of the areas seen along each axis.
-    let normal: glam::DVec3 = (0..outline.len()).map(|at| outline[at].cross(outline[(at + 1) % outline.len()])).sum();
+    let normal: glam::DVec3 = (0..outline.len())
+        .map(|at| outline[at].cross(outline[(at + 1) % outline.len()]))
+        .sum();
     let mut at = 0;
     let mut tried = 0;
     let mut budget = MOST_TESTS;
@@ -299,7 +329,13 @@ fn triangulate(polygon: &[u32], positions: &[[f32; 3]], triangles: &mut Vec<[u32
 const MOST_TESTS: usize = 1_000_000;
 
 /// Whether a corner can be cut off: it bends outwards, and no other corner lies in it.
-fn is_ear(outline: &[glam::DVec3], left: &[usize], [a, b, c]: [usize; 3], normal: glam::DVec3, budget: &mut usize) -> bool {
+fn is_ear(
+    outline: &[glam::DVec3],
+    left: &[usize],
+    [a, b, c]: [usize; 3],
+    normal: glam::DVec3,
+    budget: &mut usize,
+) -> bool {
     *budget = budget.saturating_sub(1);
     let side = |from: glam::DVec3, to: glam::DVec3, point: glam::DVec3| (to - from).cross(point - from).dot(normal);
     let corners @ [pa, pb, pc] = [a, b, c].map(|place| outline[place]);
@@ -307,7 +343,10 @@ fn is_ear(outline: &[glam::DVec3], left: &[usize], [a, b, c]: [usize; 3], normal
         return false;
     }
     *budget = budget.saturating_sub(left.len());
-    let is_inside = |point: glam::DVec3| side(pa, pb, point) >= 0.0 && side(pb, pc, point) >= 0.0 && side(pc, pa, point) >= 0.0;
+    let is_inside =
+        |point: glam::DVec3| side(pa, pb, point) >= 0.0 && side(pb, pc, point) >= 0.0 && side(pc, pa, point) >= 0.0;
     let others = left.iter().filter(|place| ![a, b, c].contains(place));
-    !others.map(|&place| outline[place]).any(|point| !corners.contains(&point) && is_inside(point))
+    !others
+        .map(|&place| outline[place])
+        .any(|point| !corners.contains(&point) && is_inside(point))
 }

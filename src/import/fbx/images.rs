@@ -38,7 +38,9 @@ impl Images {
             of_texture.push((index, place));
         }
         let bases: Vec<String> = paths.iter().map(|path| base(path).to_owned()).collect();
-        let stems = bases.iter().map(|name| name.rsplit_once('.').map_or(&**name, |(stem, _)| stem));
+        let stems = bases
+            .iter()
+            .map(|name| name.rsplit_once('.').map_or(&**name, |(stem, _)| stem));
         let lower: Vec<String> = stems.map(str::to_lowercase).collect();
         let unique = unique_names(lower.iter().map(String::as_str), "image", |_, _| ());
         let mut names = Vec::with_capacity(paths.len());
@@ -49,7 +51,9 @@ impl Images {
                 (Some((stem, extension)), Some(_)) => format!("{stem}{number}.{extension}"),
                 _ => bases[place].clone(),
             };
-            let bytes = bytes.map(|bytes| bytes.into_owned().into()).or_else(|| find_file(&paths[place]));
+            let bytes = bytes
+                .map(|bytes| bytes.into_owned().into())
+                .or_else(|| find_file(&paths[place]));
             pictures.extend(bytes.map(|bytes| Picture {
                 name: name.clone(),
                 bytes,
@@ -57,7 +61,10 @@ impl Images {
             names.push(name);
         }
         Self {
-            names: of_texture.into_iter().map(|(index, place)| (index, names[place].clone())).collect(),
+            names: of_texture
+                .into_iter()
+                .map(|(index, place)| (index, names[place].clone()))
+                .collect(),
             pictures,
         }
     }
@@ -69,7 +76,9 @@ impl Images {
 
 /// The paths of pictures that are not in the file.
 pub(super) fn beside(objects: &Objects<'_, '_>) -> Vec<String> {
-    let textures = objects.of_class("Texture").filter(|(_, texture)| content(objects, texture).is_none());
+    let textures = objects
+        .of_class("Texture")
+        .filter(|(_, texture)| content(objects, texture).is_none());
     let mut paths: Vec<String> = textures.filter_map(|(_, texture)| path(objects, texture)).collect();
     paths.sort();
     paths.dedup();
@@ -83,10 +92,18 @@ fn path(objects: &Objects<'_, '_>, texture: &Object<'_, '_>) -> Option<String> {
         let mut texts = names.filter_map(|name| Some(record.find(name)?.text(0)?.into_owned()));
         texts.find(|text| !text.trim().is_empty())
     };
-    let found = of(texture.record).or_else(|| objects.children(texture, "Video").find_map(|(_, video)| of(video.record)))?;
+    let found = of(texture.record).or_else(|| {
+        objects
+            .children(texture, "Video")
+            .find_map(|(_, video)| of(video.record))
+    })?;
     let path = found.trim().replace('\\', "/");
     let is_away = path.starts_with('/') || path.contains(':') || path.split('/').any(|part| part == "..");
-    let path = if is_away { base(&path).to_owned() } else { path.trim_start_matches("./").to_owned() };
+    let path = if is_away {
+        base(&path).to_owned()
+    } else {
+        path.trim_start_matches("./").to_owned()
+    };
     (!path.is_empty()).then_some(path)
 }
 
@@ -96,14 +113,22 @@ fn base(path: &str) -> &str {
 
 /// The bytes of a texture's picture inside the file. Text has them in base 64, in pieces.
 fn content<'f>(objects: &Objects<'f, '_>, texture: &Object<'f, '_>) -> Option<Cow<'f, [u8]>> {
-    let records: Vec<&'f Record<'_>> = objects.children(texture, "Video").filter_map(|(_, video)| video.record.find("Content")).collect();
-    let values = records.into_iter().find(|record| record.bytes(0).is_some_and(|bytes| !bytes.is_empty()))?;
+    let records: Vec<&'f Record<'_>> = objects
+        .children(texture, "Video")
+        .filter_map(|(_, video)| video.record.find("Content"))
+        .collect();
+    let values = records
+        .into_iter()
+        .find(|record| record.bytes(0).is_some_and(|bytes| !bytes.is_empty()))?;
     if let [Value::Text(bytes)] = values.values.as_slice()
         && BASE64_STANDARD.decode(bytes).is_err()
     {
         return Some(Cow::Borrowed(bytes));
     }
     let pieces = (0..values.values.len()).filter_map(|index| values.bytes(index));
-    let decoded: Vec<u8> = pieces.filter_map(|piece| BASE64_STANDARD.decode(piece).ok()).flatten().collect();
+    let decoded: Vec<u8> = pieces
+        .filter_map(|piece| BASE64_STANDARD.decode(piece).ok())
+        .flatten()
+        .collect();
     (!decoded.is_empty()).then_some(Cow::Owned(decoded))
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::File;
+use super::file::File;
 use super::nodes::Nodes;
 use super::objects::{Object, Objects};
 use crate::diagnostic::codes;
@@ -12,16 +12,26 @@ use crate::fbx::Place;
 /// Kinds of objects by how they are told of, for one and for many.
 fn kind(object: &Object<'_, '_>) -> Option<[&'static str; 2]> {
     Some(match (&*object.record.name, &*object.kind) {
-        ("Geometry", "Shape") | ("Deformer", "BlendShapeChannel") => ["blend shape, which stands still", "blend shapes, which stand still"],
+        ("Geometry", "Shape") | ("Deformer", "BlendShapeChannel") => {
+            ["blend shape, which stands still", "blend shapes, which stand still"]
+        }
         ("Geometry", "NurbsCurve" | "NurbsSurface" | "Nurb" | "TrimNurbsSurface" | "Line" | "Patch" | "Boundary") => {
             ["NURBS surface, patch or line", "NURBS surfaces, patches or lines"]
         }
         ("Model", "Camera" | "CameraSwitcher") | ("NodeAttribute", "Camera") => ["camera", "cameras"],
-        ("Model", "Light") | ("NodeAttribute", "Light") => ["light", "lights"],
-        ("Constraint" | "Character" | "ControlSetPlug", _) => ["constraint or rig of a program", "constraints or rigs of a program"],
+        ("Model" | "NodeAttribute", "Light") => ["light", "lights"],
+        ("Constraint" | "Character" | "ControlSetPlug", _) => {
+            ["constraint or rig of a program", "constraints or rigs of a program"]
+        }
         ("Deformer", "VertexCacheDeformer") | ("Cache", _) => ["cache of vertices", "caches of vertices"],
-        ("NodeAttribute", "LodGroup") => ["group of details, all of which are shown", "groups of details, all of which are shown"],
-        ("LayeredTexture", _) => ["layered texture, of which the first layer is shown", "layered textures, of which the first layer is shown"],
+        ("NodeAttribute", "LodGroup") => [
+            "group of details, all of which are shown",
+            "groups of details, all of which are shown",
+        ],
+        ("LayeredTexture", _) => [
+            "layered texture, of which the first layer is shown",
+            "layered textures, of which the first layer is shown",
+        ],
         ("Audio" | "AudioLayer", _) => ["sound", "sounds"],
         _ => return None,
     })
@@ -56,7 +66,10 @@ pub(super) fn note(file: &mut File<'_, '_>, objects: &Objects<'_, '_>, nodes: &N
     }
     let uses = &nodes.scene.uses;
     if uses.len() > 1 {
-        let names: Vec<String> = uses.iter().map(|mesh| nodes.scene.nodes[mesh.node as usize].tag.name.clone()).collect();
+        let names: Vec<String> = uses
+            .iter()
+            .map(|mesh| nodes.scene.nodes[mesh.node as usize].tag.name.clone())
+            .collect();
         let message = format!("{} objects become one mesh: {}.", uses.len(), few(&names));
         file.note(&codes::FBX_OBJECTS_MERGED, message);
     }

@@ -2,7 +2,7 @@
 
 use glam::{Affine2, DAffine3, DVec3, Vec2};
 
-use super::File;
+use super::file::File;
 use super::images::Images;
 use super::objects::{Object, ObjectIndex, Objects};
 use super::transform::RotationOrder;
@@ -22,7 +22,12 @@ mod names {
         "DiffuseColor",
         "Diffuse",
     ];
-    pub(super) const METALLIC: &[&str] = &["Maya|metallic", "Maya|metalness", "3dsMax|Parameters|metalness", "3dsMax|main|metalness"];
+    pub(super) const METALLIC: &[&str] = &[
+        "Maya|metallic",
+        "Maya|metalness",
+        "3dsMax|Parameters|metalness",
+        "3dsMax|main|metalness",
+    ];
     pub(super) const ROUGHNESS: &[&str] = &[
         "Maya|roughness",
         "Maya|specularRoughness",
@@ -83,7 +88,12 @@ pub(super) struct Materials {
 impl Materials {
     /// The materials that hang on models, and behind them one of what has none.
     pub(super) fn read(file: &mut File<'_, '_>, objects: &Objects<'_, '_>, images: &Images) -> Self {
-        let used = |object: &Object<'_, '_>| object.parents.iter().any(|parent| objects.get(parent.to).record.name == "Model");
+        let used = |object: &Object<'_, '_>| {
+            object
+                .parents
+                .iter()
+                .any(|parent| objects.get(parent.to).record.name == "Model")
+        };
         let found = objects.of_class("Material").filter(|(_, object)| used(object));
         let found: Vec<ObjectIndex> = found.map(|(index, _)| index).collect();
         let names = found.iter().map(|&index| &*objects.get(index).name).chain(["default"]);
@@ -91,7 +101,12 @@ impl Materials {
             if let Some(&object) = found.get(index as usize) {
                 let message = format!("Another material has the same name; this one is shown as \"{name}\".");
                 let place = objects.get(object).record.place;
-                file.note_at(place, Subject::Material(index), &codes::DUPLICATE_MATERIAL_NAME, message);
+                file.note_at(
+                    place,
+                    Subject::Material(index),
+                    &codes::DUPLICATE_MATERIAL_NAME,
+                    message,
+                );
             }
         });
         let mut left_out = Vec::new();
@@ -133,26 +148,56 @@ fn number(object: &Object<'_, '_>, names: &[&str]) -> Option<f32> {
     Some(found).filter(|number| number.is_finite())
 }
 
-fn material(name: String, objects: &Objects<'_, '_>, index: ObjectIndex, images: &Images, left_out: &mut Vec<String>) -> Material {
+fn material(
+    name: String,
+    objects: &Objects<'_, '_>,
+    index: ObjectIndex,
+    images: &Images,
+    left_out: &mut Vec<String>,
+) -> Material {
     let object = objects.get(index);
     let maps = maps(objects, object, images);
     let map = |names: &[&str]| {
-        let found = names.iter().find_map(|name| maps.iter().find(|(property, _)| property == name));
+        let found = names
+            .iter()
+            .find_map(|name| maps.iter().find(|(property, _)| property == name));
         found.map(|(_, map)| map.clone())
     };
     let [diffuse_map, emissive_map, opacity_map] = [names::COLOR_MAP, names::EMISSIVE_MAP, names::OPACITY_MAP].map(map);
     let one = |_: &MaterialMap| [1.0; 3];
     let factor = |name: &str| number(object, &[name]).unwrap_or(1.0).max(0.0);
-    let diffuse = diffuse_map.as_ref().map(one).or_else(|| color(object, names::BASE_COLOR));
+    let diffuse = diffuse_map
+        .as_ref()
+        .map(one)
+        .or_else(|| color(object, names::BASE_COLOR));
     // A map stands in the place of the colour.
-    let emissive = emissive_map.as_ref().map(one).or_else(|| color(object, names::EMISSIVE)).unwrap_or_default();
+    let emissive = emissive_map
+        .as_ref()
+        .map(one)
+        .or_else(|| color(object, names::EMISSIVE))
+        .unwrap_or_default();
     let opacity = opacity(object);
-    let is_cut_by_own = opacity_map.as_ref().is_some_and(|map| diffuse_map.as_ref().is_some_and(|diffuse| diffuse.name == map.name));
-    let known = [names::COLOR_MAP, names::NORMAL_MAP, names::EMISSIVE_MAP, names::OCCLUSION_MAP].concat();
-    let is_left = |property: &str| !known.contains(&property) && !(is_cut_by_own && names::OPACITY_MAP.contains(&property));
-    left_out.extend(maps.iter().filter(|(property, _)| is_left(property)).map(|(property, _)| format!("{name}'s {property}")));
+    let is_cut_by_own = opacity_map
+        .as_ref()
+        .is_some_and(|map| diffuse_map.as_ref().is_some_and(|diffuse| diffuse.name == map.name));
+    let known = [
+        names::COLOR_MAP,
+        names::NORMAL_MAP,
+        names::EMISSIVE_MAP,
+        names::OCCLUSION_MAP,
+    ]
+    .concat();
+    let is_left =
+        |property: &str| !(known.contains(&property) || is_cut_by_own && names::OPACITY_MAP.contains(&property));
+    left_out.extend(
+        maps.iter()
+            .filter(|(property, _)| is_left(property))
+            .map(|(property, _)| format!("{name}'s {property}")),
+    );
     Material {
-        diffuse: diffuse.unwrap_or([0.8; 3]).map(|number| (number * factor("DiffuseFactor")).clamp(0.0, 1.0)),
+        diffuse: diffuse
+            .unwrap_or([0.8; 3])
+            .map(|number| (number * factor("DiffuseFactor")).clamp(0.0, 1.0)),
         opacity,
         reflectance: Reflectance::MetallicRoughness {
             metallic: number(object, names::METALLIC).unwrap_or(0.0).clamp(0.0, 1.0),
@@ -176,7 +221,11 @@ fn material(name: String, objects: &Objects<'_, '_>, index: ObjectIndex, images:
 fn roughness(object: &Object<'_, '_>) -> f32 {
     let given = number(object, names::ROUGHNESS).or_else(|| number(object, names::GLOSSINESS).map(|gloss| 1.0 - gloss));
     let of_exponent = || {
-        let is_lambert = object.record.find("ShadingModel").and_then(|model| model.text(0)).is_some_and(|model| model.eq_ignore_ascii_case("lambert"));
+        let is_lambert = object
+            .record
+            .find("ShadingModel")
+            .and_then(|model| model.text(0))
+            .is_some_and(|model| model.eq_ignore_ascii_case("lambert"));
         let exponent = number(object, &["ShininessExponent", "Shininess"]).filter(|_| !is_lambert)?;
         Some((2.0 / (exponent.max(0.0) + 2.0)).sqrt().sqrt())
     };
@@ -197,13 +246,19 @@ fn opacity(object: &Object<'_, '_>) -> f32 {
 /// The maps of a material by the properties on which they hang; those of its models without any by no name.
 fn maps(objects: &Objects<'_, '_>, material: &Object<'_, '_>, images: &Images) -> Vec<(String, MaterialMap)> {
     let textures = |object: &Object<'_, '_>| {
-        let textures = object.children.iter().filter_map(|child| Some((child.property.clone(), texture(objects, child.to)?)));
+        let textures = object
+            .children
+            .iter()
+            .filter_map(|child| Some((child.property.clone(), texture(objects, child.to)?)));
         textures.collect::<Vec<_>>()
     };
     let mut found = textures(material);
     if found.is_empty() {
         let models = material.parents.iter().map(|parent| objects.get(parent.to));
-        found = models.filter(|parent| parent.record.name == "Model").flat_map(textures).collect();
+        found = models
+            .filter(|parent| parent.record.name == "Model")
+            .flat_map(textures)
+            .collect();
     }
     let named = found.into_iter().filter_map(|(property, texture)| {
         let name = images.name(texture)?.to_owned();
@@ -224,8 +279,14 @@ fn texture(objects: &Objects<'_, '_>, index: ObjectIndex) -> Option<ObjectIndex>
 }
 
 fn sampling(texture: &Object<'_, '_>) -> Sampling {
-    let vector = |name: &str, default| texture.vector(name).filter(|vector| vector.is_finite()).unwrap_or(default);
-    let [rotation_pivot, scaling_pivot] = ["TextureRotationPivot", "TextureScalingPivot"].map(|name| vector(name, DVec3::ZERO));
+    let vector = |name: &str, default| {
+        texture
+            .vector(name)
+            .filter(|vector| vector.is_finite())
+            .unwrap_or(default)
+    };
+    let [rotation_pivot, scaling_pivot] =
+        ["TextureRotationPivot", "TextureScalingPivot"].map(|name| vector(name, DVec3::ZERO));
     let at = DAffine3::from_translation;
     let rotation = DAffine3::from_quat(RotationOrder::Xyz.rotation(vector("Rotation", DVec3::ZERO)));
     let tex_coords_from_map = at(vector("Translation", DVec3::ZERO) + rotation_pivot)
@@ -234,14 +295,25 @@ fn sampling(texture: &Object<'_, '_>) -> Sampling {
         * DAffine3::from_scale(vector("Scaling", DVec3::ONE))
         * at(-scaling_pivot);
     let inverse = tex_coords_from_map.inverse();
-    let [x, y, origin] = [inverse.matrix3.x_axis, inverse.matrix3.y_axis, inverse.translation].map(|column| column.truncate().as_vec2());
+    let [x, y, origin] =
+        [inverse.matrix3.x_axis, inverse.matrix3.y_axis, inverse.translation].map(|column| column.truncate().as_vec2());
     let upright = Affine2::from_cols(x, y, origin);
     // v runs upwards in FBX.
     let turned = Affine2::from_cols(Vec2::X, Vec2::NEG_Y, Vec2::Y);
     let map_from_mesh = turned * upright * turned;
-    let wrap = |name: &str| if texture.integer(name) == Some(1) { Wrap::Clamp } else { Wrap::Repeat };
+    let wrap = |name: &str| {
+        if texture.integer(name) == Some(1) {
+            Wrap::Clamp
+        } else {
+            Wrap::Repeat
+        }
+    };
     Sampling {
-        map_from_mesh: if map_from_mesh.is_finite() { map_from_mesh } else { Affine2::IDENTITY },
+        map_from_mesh: if map_from_mesh.is_finite() {
+            map_from_mesh
+        } else {
+            Affine2::IDENTITY
+        },
         wrap: [wrap("WrapModeU"), wrap("WrapModeV")],
         ..Sampling::default()
     }

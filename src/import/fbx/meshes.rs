@@ -2,7 +2,7 @@
 
 use glam::DAffine3;
 
-use super::File;
+use super::file::File;
 use super::geometry::{self, Geometry};
 use super::materials::Materials;
 use super::nodes::{self, Nodes};
@@ -40,15 +40,24 @@ impl Meshes {
     ///
     /// # Errors
     /// When an array is damaged, or a corner names a control point that is not there.
-    pub(super) async fn read(file: &mut File<'_, '_>, objects: &Objects<'_, '_>, nodes: &mut Nodes, slices: &Slices) -> Result<Self, Fault> {
+    pub(super) async fn read(
+        file: &mut File<'_, '_>,
+        objects: &Objects<'_, '_>,
+        nodes: &mut Nodes,
+        slices: &Slices,
+    ) -> Result<Self, Fault> {
         let mut meshes = Self::default();
         let mut uses: Vec<(ObjectIndex, u32)> = Vec::new();
         for (node, &object) in (0u32..).zip(nodes.models()) {
             let model = objects.get(object);
             // In files of 6.1 a model is its own geometry.
             let own = model.record.find("Vertices").map(|_| object);
-            let hanging = objects.children(model, "Geometry").filter(|(_, geometry)| geometry.record.find("Vertices").is_some());
-            let hanging = hanging.filter(|(_, geometry)| geometry.kind != "Shape").map(|(index, _)| index);
+            let hanging = objects
+                .children(model, "Geometry")
+                .filter(|(_, geometry)| geometry.record.find("Vertices").is_some());
+            let hanging = hanging
+                .filter(|(_, geometry)| geometry.kind != "Shape")
+                .map(|(index, _)| index);
             uses.extend(own.into_iter().chain(hanging).map(|geometry| (geometry, node)));
         }
         uses.sort();
@@ -120,10 +129,18 @@ impl Meshes {
                 None => nodes.transforms[mesh.node as usize].node_from_geometry,
             };
             let placement = rig.placement(mesh, bound.is_some()) * node_from_geometry;
-            let too_many = || Box::new(place.says(&codes::FBX_DAMAGED, "There are more vertices or triangles than numbers for them."));
+            let too_many = || {
+                Box::new(place.says(
+                    &codes::FBX_DAMAGED,
+                    "There are more vertices or triangles than numbers for them.",
+                ))
+            };
             builder.add_vertices(&geometry.vertices, influences, &placement, too_many)?;
             let is_mirrored = placement.matrix3.determinant() < 0.0;
-            let of_node: Vec<ObjectIndex> = objects.children(objects.get(nodes.objects[mesh.node as usize]), "Material").map(|(index, _)| index).collect();
+            let of_node: Vec<ObjectIndex> = objects
+                .children(objects.get(nodes.objects[mesh.node as usize]), "Material")
+                .map(|(index, _)| index)
+                .collect();
             for part in &geometry.parts {
                 slices.pause().await;
                 let material = materials.index(of_node.get(part.material).copied());
@@ -140,7 +157,13 @@ impl Meshes {
     }
 }
 
-fn influences(builder: &mut MeshBuilder, geometry: &Geometry, bound: Option<&Bound>, rig: &Rig, mesh: &MeshUse) -> Vec<Influences> {
+fn influences(
+    builder: &mut MeshBuilder,
+    geometry: &Geometry,
+    bound: Option<&Bound>,
+    rig: &Rig,
+    mesh: &MeshUse,
+) -> Vec<Influences> {
     let count = geometry.control_points.len();
     let (Some(bound), Some(joints)) = (bound, rig.slots(mesh, true)) else {
         let influences = rig.influences_on(mesh.node);
@@ -150,7 +173,12 @@ fn influences(builder: &mut MeshBuilder, geometry: &Geometry, bound: Option<&Bou
     let mut pairs = Vec::new();
     let all = (first..).zip(&geometry.control_points).map(|(vertex, &point)| {
         pairs.clear();
-        pairs.extend(bound.pairs(point).iter().map(|&(weight, slot)| (weight, joints[slot as usize])));
+        pairs.extend(
+            bound
+                .pairs(point)
+                .iter()
+                .map(|&(weight, slot)| (weight, joints[slot as usize])),
+        );
         builder.weights.strongest(vertex, &mut pairs)
     });
     all.collect()

@@ -6,6 +6,7 @@
 
 mod clips;
 mod curves;
+mod file;
 mod geometry;
 mod images;
 mod left_out;
@@ -22,6 +23,7 @@ use std::collections::HashMap;
 use glam::DAffine3;
 
 use self::clips::Stack;
+use self::file::File;
 use self::images::Images;
 use self::materials::Materials;
 use self::meshes::Meshes;
@@ -31,50 +33,13 @@ use self::places::Places;
 use super::scene::Rig;
 use super::{Imported, Refused, Source};
 use crate::diagnostic::collect::Diagnostics;
-use crate::diagnostic::{Code, Diagnostic, Fault, Subject, codes};
-use crate::fbx::{self, Budget, Document, Place};
+use crate::diagnostic::{Diagnostic, Fault, codes};
+use crate::fbx::{self, Budget};
 use crate::gltf::FindFile;
 use crate::model::{Aabb, Front, Handedness, Model, Skeleton, UpAxis};
 use crate::slices::{Slices, Stage};
 
 pub(super) use crate::fbx::begins_like_fbx as begins_like_model;
-
-/// A file while a model is made of it, and what is noted of it.
-struct File<'f, 'a> {
-    document: &'f Document<'a>,
-    budget: Budget,
-    /// Where the bind pose has each bone.
-    bind_pose: HashMap<ObjectIndex, DAffine3>,
-    /// Bones that a skin bound elsewhere.
-    disagreeing: usize,
-    noted: Vec<Diagnostic>,
-}
-
-impl File<'_, '_> {
-    fn note(&mut self, code: &Code, message: String) {
-        self.noted.push(code.says(message));
-    }
-
-    fn note_of(&mut self, place: Place, code: &Code, message: String) {
-        self.noted.push(place.says(code, message));
-    }
-
-    fn note_about(&mut self, subject: Subject, code: &Code, message: String) {
-        self.noted.push(about(subject, code.says(message)));
-    }
-
-    fn note_at(&mut self, place: Place, subject: Subject, code: &Code, message: String) {
-        self.noted.push(about(subject, place.says(code, message)));
-    }
-}
-
-fn about(subject: Subject, diagnostic: Diagnostic) -> Diagnostic {
-    Diagnostic {
-        subject: Some(subject),
-        subjects: vec![subject],
-        ..diagnostic
-    }
-}
 
 pub(super) async fn import(bytes: &[u8], find: FindFile<'_>, slices: &Slices) -> Result<Imported, Box<Refused>> {
     slices.pause_at(Stage::Reading, 0, 1).await;
@@ -84,7 +49,9 @@ pub(super) async fn import(bytes: &[u8], find: FindFile<'_>, slices: &Slices) ->
             diagnostics,
         })
     };
-    let document = fbx::parse_in(bytes, slices).await.map_err(|error| refused(error, Vec::new()))?;
+    let document = fbx::parse_in(bytes, slices)
+        .await
+        .map_err(|error| refused(error, Vec::new()))?;
     slices.pause_at(Stage::Building, 0, 1).await;
     let mut file = File {
         document: &document,
@@ -134,13 +101,18 @@ async fn model(
     let stacks = Stack::all(file, &objects, &nodes)?;
     let transforms = nodes.transforms.clone();
     nodes.place(&objects, |model| {
-        !transform::is_even(transforms[model as usize].scale) || stacks.iter().any(|stack| stack.scales_unevenly(model, &transforms[model as usize]))
+        !transform::is_even(transforms[model as usize].scale)
+            || stacks
+                .iter()
+                .any(|stack| stack.scales_unevenly(model, &transforms[model as usize]))
     });
     stacks.iter().for_each(|stack| stack.mark_moved(&mut nodes));
     let meshes = Meshes::read(file, &objects, &mut nodes, slices).await?;
     let rig = Rig::new(&nodes.scene)?;
     check_count(&rig)?;
-    let meshed = meshes.mesh(&nodes, (&objects, &materials), &rig, diagnostics, slices).await?;
+    let meshed = meshes
+        .mesh(&nodes, (&objects, &materials), &rig, diagnostics, slices)
+        .await?;
     let size = size(&meshed.mesh.positions, &rig.skeleton);
     let clips = clips::clips(file, &nodes, &stacks, &rig, size, slices).await?;
     left_out::note(file, &objects, &nodes);
@@ -149,7 +121,12 @@ async fn model(
     }
     // The last one is for what has none.
     let last = materials.objects.len();
-    if !meshed.mesh.submeshes.iter().any(|submesh| submesh.material as usize == last) {
+    if !meshed
+        .mesh
+        .submeshes
+        .iter()
+        .any(|submesh| submesh.material as usize == last)
+    {
         materials.materials.pop();
     }
     let places = Places::of(&objects, &nodes, &rig, &materials, meshed.places);
@@ -174,7 +151,9 @@ fn bind_pose(file: &File<'_, '_>, objects: &Objects<'_, '_>) -> Result<HashMap<O
     for (_, pose) in objects.of_class("Pose") {
         for node in pose.record.all("PoseNode") {
             let object = node.find("Node").and_then(|named| objects.by_key(named, 0));
-            let matrix = node.find("Matrix").map_or(Ok(None), |record| skins::matrix(record, file))?;
+            let matrix = node
+                .find("Matrix")
+                .map_or(Ok(None), |record| skins::matrix(record, file))?;
             posed.extend(object.zip(matrix));
         }
     }
@@ -193,7 +172,10 @@ fn check_count(rig: &Rig) -> Result<(), Fault> {
 
 /// The diagonal of what there is: vertices, or joints.
 fn size(positions: &[glam::Vec3], skeleton: &Skeleton) -> f64 {
-    let joints = skeleton.bind_model_from_joint().iter().map(|joint| joint.translation.into());
+    let joints = skeleton
+        .bind_model_from_joint()
+        .iter()
+        .map(|joint| joint.translation.into());
     let bounds = match positions {
         [] => Aabb::from_points(joints),
         positions => Aabb::from_points(positions.iter().copied()),

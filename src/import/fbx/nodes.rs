@@ -43,10 +43,15 @@ impl Nodes {
         }
         let parent = |model: &ObjectIndex| {
             let parents = objects.get(*model).parents.iter();
-            parents.filter(|parent| parent.property.is_empty()).find_map(|parent| node_of[parent.to.index()])
+            parents
+                .filter(|parent| parent.property.is_empty())
+                .find_map(|parent| node_of[parent.to.index()])
         };
         let mut parents: Vec<Option<u32>> = models.iter().map(parent).collect();
-        let tangled = untangle(&mut parents).into_iter().map(|node| models[node as usize]).collect();
+        let tangled = untangle(&mut parents)
+            .into_iter()
+            .map(|node| models[node as usize])
+            .collect();
         let transforms: Vec<Transform> = models.iter().map(|&model| Transform::of(objects.get(model))).collect();
         Self {
             scene: Scene::default(),
@@ -195,7 +200,9 @@ impl Nodes {
     pub(super) fn moved_by(&self, model: u32) -> Vec<u32> {
         let mut models = vec![model];
         let mut at = model;
-        while let (Inherit::ScaleAfterRotation | Inherit::NoScale, Some(above)) = (self.inherit(at), self.above[at as usize]) {
+        while let (Inherit::ScaleAfterRotation | Inherit::NoScale, Some(above)) =
+            (self.inherit(at), self.above[at as usize])
+        {
             models.push(above);
             at = above;
         }
@@ -251,19 +258,32 @@ fn untangle(parents: &mut [Option<u32>]) -> Vec<u32> {
 /// The file's axes -> those of a model: its own words say which axis points to the right, up, and to the front.
 fn axes(document: &Document<'_>) -> DMat3 {
     // Files of 6.1 have them among the objects.
-    let settings = document.find("GlobalSettings").or_else(|| document.find("Objects")?.find("GlobalSettings"));
-    let settings = settings.and_then(|settings| settings.find("Properties70").or_else(|| settings.find("Properties60")));
+    let settings = document
+        .find("GlobalSettings")
+        .or_else(|| document.find("Objects")?.find("GlobalSettings"));
+    let settings =
+        settings.and_then(|settings| settings.find("Properties70").or_else(|| settings.find("Properties60")));
     let integer = |name: &str, default: i64| {
         let of = |record: &&crate::fbx::Record<'_>| record.bytes(0) == Some(name.as_bytes());
         let found = settings.and_then(|settings| settings.records.iter().rfind(of));
-        found.and_then(|record| record.integer(if record.name == "P" { 4 } else { 3 })).unwrap_or(default)
+        found
+            .and_then(|record| record.integer(if record.name == "P" { 4 } else { 3 }))
+            .unwrap_or(default)
     };
     let axis = |name: &str, default: i64| {
         let axes = [DVec3::X, DVec3::Y, DVec3::Z];
         let axis = axes[integer(name, default).clamp(0, 2) as usize];
-        axis * if integer(&format!("{name}Sign"), 1) < 0 { -1.0 } else { 1.0 }
+        axis * if integer(&format!("{name}Sign"), 1) < 0 {
+            -1.0
+        } else {
+            1.0
+        }
     };
     let rows = DMat3::from_cols(axis("CoordAxis", 0), axis("UpAxis", 1), axis("FrontAxis", 2)).transpose();
     // Some name an axis twice.
-    if rows.determinant().abs() == 1.0 { rows } else { DMat3::IDENTITY }
+    if rows.determinant().abs() == 1.0 {
+        rows
+    } else {
+        DMat3::IDENTITY
+    }
 }

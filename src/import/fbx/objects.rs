@@ -85,7 +85,11 @@ impl<'f, 'a> Objects<'f, 'a> {
         let mut objects = Self::default();
         let mut by_key = HashMap::new();
         let templates = templates(document);
-        for record in document.find("Objects").into_iter().flat_map(|objects| &objects.records) {
+        for record in document
+            .find("Objects")
+            .into_iter()
+            .flat_map(|objects| &objects.records)
+        {
             let Some(key) = key(record, 0) else { continue };
             // Those of 6.1 have no number before the name.
             let at_name = usize::from(matches!(key, Key::Number(_)));
@@ -108,7 +112,9 @@ impl<'f, 'a> Objects<'f, 'a> {
         }
         let connections = document.find("Connections").into_iter().flat_map(|all| &all.records);
         for record in connections.filter(|record| matches!(&*record.name, "C" | "Connect")) {
-            let (Some(child), Some(parent)) = (key(record, 1), key(record, 2)) else { continue };
+            let (Some(child), Some(parent)) = (key(record, 1), key(record, 2)) else {
+                continue;
+            };
             let [of_child, of_parent] = [&child, &parent].map(|key| by_key.get(key).copied());
             match (of_child, of_parent) {
                 (Some(child), Some(parent)) => {
@@ -161,7 +167,10 @@ impl<'f, 'a> Objects<'f, 'a> {
 
 /// The properties that objects of each class have, by its name.
 fn templates<'f, 'a>(document: &'f Document<'a>) -> HashMap<Cow<'f, str>, &'f Record<'a>> {
-    let types = document.find("Definitions").into_iter().flat_map(|all| all.all("ObjectType"));
+    let types = document
+        .find("Definitions")
+        .into_iter()
+        .flat_map(|all| all.all("ObjectType"));
     let of_type = |record: &'f Record<'a>| {
         let properties = record.find("PropertyTemplate")?.find("Properties70")?;
         Some((record.text(0)?, properties))
@@ -172,7 +181,10 @@ fn templates<'f, 'a>(document: &'f Document<'a>) -> HashMap<Cow<'f, str>, &'f Re
 /// The record of a property, and where its values begin.
 fn property<'s, 'a>(properties: &'s Record<'a>, name: &str) -> Option<(&'s Record<'a>, usize)> {
     // Of two the last one counts.
-    let record = properties.records.iter().rfind(|record| record.bytes(0) == Some(name.as_bytes()))?;
+    let record = properties
+        .records
+        .iter()
+        .rfind(|record| record.bytes(0) == Some(name.as_bytes()))?;
     // P: name, type, label, flags, values; Property: name, type, flags, values.
     Some((record, if record.name == "P" { 4 } else { 3 }))
 }
@@ -192,7 +204,11 @@ impl<'f, 'a> Object<'f, 'a> {
     /// A property with three numbers.
     pub(super) fn vector(&self, name: &str) -> Option<DVec3> {
         let (record, at) = self.property(name)?;
-        Some(DVec3::new(record.number(at)?, record.number(at + 1)?, record.number(at + 2)?))
+        Some(DVec3::new(
+            record.number(at)?,
+            record.number(at + 1)?,
+            record.number(at + 2)?,
+        ))
     }
 
     pub(super) fn integer(&self, name: &str) -> Option<i64> {

@@ -18,12 +18,26 @@ pub(crate) struct Places {
 }
 
 impl Places {
-    pub(super) fn of(objects: &Objects<'_, '_>, nodes: &Nodes, rig: &Rig, materials: &Materials, subsets: Vec<Place>) -> Self {
+    pub(super) fn of(
+        objects: &Objects<'_, '_>,
+        nodes: &Nodes,
+        rig: &Rig,
+        materials: &Materials,
+        subsets: Vec<Place>,
+    ) -> Self {
         let node = |joint: usize| nodes.objects[rig.node_of_joint[joint] as usize];
-        let bones = rig.skeleton.joint_of_bone().iter().map(|joint| objects.get(node(joint.index())).record.place);
+        let bones = rig
+            .skeleton
+            .joint_of_bone()
+            .iter()
+            .map(|joint| objects.get(node(joint.index())).record.place);
         Self {
             bones: bones.collect(),
-            materials: materials.objects.iter().map(|&index| objects.get(index).record.place).collect(),
+            materials: materials
+                .objects
+                .iter()
+                .map(|&index| objects.get(index).record.place)
+                .collect(),
             subsets,
         }
     }

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DMat4};
 
-use super::File;
+use super::file::File;
 use super::nodes::Nodes;
 use super::objects::{Object, ObjectIndex, Objects};
 use crate::diagnostic::{Fault, codes};
@@ -46,20 +46,32 @@ pub(super) fn read(
     control_point_count: usize,
 ) -> Result<Option<Bound>, Fault> {
     let geometry = objects.get(geometry);
-    let mut skins = objects.children(geometry, "Deformer").filter(|(_, deformer)| deformer.kind == "Skin");
+    let mut skins = objects
+        .children(geometry, "Deformer")
+        .filter(|(_, deformer)| deformer.kind == "Skin");
     let Some((_, skin)) = skins.next() else { return Ok(None) };
     if let Some((_, other)) = skins.next() {
         let message = format!("\"{}\" has several skins; the first moves it.", geometry.name);
         file.note_of(other.record.place, &codes::FBX_LEFT_OUT, message);
     }
-    let is_dual = skin.record.find("SkinningType").and_then(|kind| kind.text(0)).is_some_and(|kind| matches!(&*kind, "DualQuaternion" | "Blend"));
+    let is_dual = skin
+        .record
+        .find("SkinningType")
+        .and_then(|kind| kind.text(0))
+        .is_some_and(|kind| matches!(&*kind, "DualQuaternion" | "Blend"));
     if is_dual {
-        let message = format!("\"{}\" is skinned by dual quaternions; here it is linearly.", geometry.name);
+        let message = format!(
+            "\"{}\" is skinned by dual quaternions; here it is linearly.",
+            geometry.name
+        );
         file.note_of(skin.record.place, &codes::FBX_LEFT_OUT, message);
     }
     let node_from_geometry = nodes.transforms[mesh_node as usize].node_from_geometry;
     let mut clusters = Vec::new();
-    for (_, cluster) in objects.children(skin, "Deformer").filter(|(_, deformer)| deformer.kind == "Cluster") {
+    for (_, cluster) in objects
+        .children(skin, "Deformer")
+        .filter(|(_, deformer)| deformer.kind == "Cluster")
+    {
         clusters.extend(self::cluster(file, objects, nodes, cluster, mesh_node)?);
     }
     if clusters.is_empty() {
@@ -71,7 +83,9 @@ pub(super) fn read(
         clusters.iter().enumerate().flat_map(|(slot, cluster)| {
             let pairs = cluster.points.iter().zip(&cluster.weights);
             let pairs = pairs.filter_map(|(&point, &weight)| Some((usize::try_from(point).ok()?, weight)));
-            pairs.filter(|&(point, weight)| point < control_point_count && is_weight(weight)).map(move |(point, weight)| (point, weight as f32, slot as u32))
+            pairs
+                .filter(|&(point, weight)| point < control_point_count && is_weight(weight))
+                .map(move |(point, weight)| (point, weight as f32, slot as u32))
         })
     };
     let mut starts = vec![0u32; control_point_count + 1];
@@ -94,9 +108,13 @@ pub(super) fn read(
     for point in 0..control_point_count {
         let of_point = &mut pairs[starts[point] as usize..starts[point + 1] as usize];
         let sum: f64 = of_point.iter().map(|&(weight, _)| f64::from(weight)).sum();
-        of_point.iter_mut().for_each(|(weight, _)| *weight = (f64::from(*weight) / sum) as f32);
+        of_point
+            .iter_mut()
+            .for_each(|(weight, _)| *weight = (f64::from(*weight) / sum) as f32);
     }
-    let slots = clusters.iter().map(|cluster| (cluster.node, cluster.geometry_from_bone * node_from_geometry));
+    let slots = clusters
+        .iter()
+        .map(|cluster| (cluster.node, cluster.geometry_from_bone * node_from_geometry));
     let slots = slots.chain(rests.then_some((mesh_node, node_from_geometry)));
     let (joints, joint_from_mesh) = slots.unzip();
     Ok(Some(Bound {
@@ -117,14 +135,25 @@ fn cluster(
     mesh_node: u32,
 ) -> Result<Option<Cluster>, Fault> {
     let record = cluster.record;
-    let Some(node) = objects.children(cluster, "Model").find_map(|(model, _)| nodes.node_of[model.index()]) else {
+    let Some(node) = objects
+        .children(cluster, "Model")
+        .find_map(|(model, _)| nodes.node_of[model.index()])
+    else {
         let message = format!("Cluster \"{}\" names no bone; its weights are left out.", cluster.name);
         file.note_of(record.place, &codes::FBX_RULE_BROKEN, message);
         return Ok(None);
     };
     let budget = &file.budget;
-    let integers = |name: &str| record.find(name).map_or_else(|| Ok(Vec::new()), |found| found.integers(budget));
-    let numbers = |name: &str| record.find(name).map_or_else(|| Ok(Vec::new()), |found| found.numbers(budget));
+    let integers = |name: &str| {
+        record
+            .find(name)
+            .map_or_else(|| Ok(Vec::new()), |found| found.integers(budget))
+    };
+    let numbers = |name: &str| {
+        record
+            .find(name)
+            .map_or_else(|| Ok(Vec::new()), |found| found.numbers(budget))
+    };
     let (points, weights) = (integers("Indexes")?, numbers("Weights")?);
     let [transform, link] = ["Transform", "TransformLink"].map(|name| record.find(name));
     let matrix = |found: Option<&Record<'_>>| found.map_or(Ok(None), |found| matrix(found, file));
@@ -134,11 +163,18 @@ fn cluster(
     let at_rest = || model_from_bone.unwrap_or_else(|| model(node)).inverse() * model(mesh_node);
     let bone_from_node = bone_from_node.filter(is_invertible).unwrap_or_else(at_rest);
     if points.len() != weights.len() {
-        let message = format!("Cluster \"{}\" has {} control points, but {} weights.", cluster.name, points.len(), weights.len());
+        let message = format!(
+            "Cluster \"{}\" has {} control points, but {} weights.",
+            cluster.name,
+            points.len(),
+            weights.len()
+        );
         file.note_of(record.place, &codes::FBX_RULE_BROKEN, message);
     }
-    if let (Some(link), Some(posed)) = (model_from_bone, file.bind_pose.get(&cluster_bone(objects, cluster)).copied())
-        && !link.abs_diff_eq(posed, 1e-3 * (1.0 + link.translation.length()))
+    if let (Some(link), Some(posed)) = (
+        model_from_bone,
+        file.bind_pose.get(&cluster_bone(objects, cluster)).copied(),
+    ) && !link.abs_diff_eq(posed, 1e-3 * (1.0 + link.translation.length()))
     {
         file.disagreeing += 1;
     }

@@ -110,7 +110,11 @@ impl Local {
             translation: self.translation.as_vec3(),
             scale: self.scale.as_vec3(),
         };
-        if joint.is_finite() { joint } else { LocalJoint::from_matrix(&self.matrix()) }
+        if joint.is_finite() {
+            joint
+        } else {
+            LocalJoint::from_matrix(&self.matrix())
+        }
     }
 }
 
@@ -135,10 +139,16 @@ pub(super) struct Transform {
 
 impl Transform {
     pub(super) fn of(object: &Object<'_, '_>) -> Self {
-        let vector = |name: &str, default| object.vector(name).filter(|vector| vector.is_finite()).unwrap_or(default);
+        let vector = |name: &str, default| {
+            object
+                .vector(name)
+                .filter(|vector| vector.is_finite())
+                .unwrap_or(default)
+        };
         let offset = |name: &str| vector(name, DVec3::ZERO);
         // Orders and turns before and after count where the node says so, as all of 6.1 do.
-        let has_space = object.integer("RotationActive") != Some(0) && object.integer("RotationSpaceForLimitOnly").unwrap_or(0) == 0;
+        let has_space = object.integer("RotationActive") != Some(0)
+            && object.integer("RotationSpaceForLimitOnly").unwrap_or(0) == 0;
         let turned = |name: &str| match has_space {
             true => RotationOrder::Xyz.rotation(offset(name)),
             false => DQuat::IDENTITY,
@@ -180,16 +190,23 @@ impl Transform {
 
     /// Whether its place depends on how it turns and scales.
     pub(super) fn has_pivots(&self) -> bool {
-        [self.rotation_pivot, self.scaling_pivot, self.scaling_offset].iter().any(|pivot| *pivot != DVec3::ZERO)
+        [self.rotation_pivot, self.scaling_pivot, self.scaling_offset]
+            .iter()
+            .any(|pivot| *pivot != DVec3::ZERO)
     }
 
     /// Relative to the parent, with these parts in place of the node's own.
     pub(super) fn local(&self, parts: Parts) -> Local {
-        let Parts { translation, rotation, scale } = parts;
+        let Parts {
+            translation,
+            rotation,
+            scale,
+        } = parts;
         let rotation = self.pre * self.order.rotation(rotation) * self.post_inverse;
         // Both pivots move what lies beyond them: `x` below is `Sp + S · (v − Sp) + Soff` at v = 0, and what is turned is `x − Rp`.
         let scaled = self.scaling_offset + self.scaling_pivot - scale * self.scaling_pivot;
-        let origin = translation + self.rotation_offset + self.rotation_pivot + rotation * (scaled - self.rotation_pivot);
+        let origin =
+            translation + self.rotation_offset + self.rotation_pivot + rotation * (scaled - self.rotation_pivot);
         Local {
             translation: origin,
             rotation,

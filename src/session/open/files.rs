@@ -275,6 +275,11 @@ fn models_among(files: &[File]) -> Vec<usize> {
         }
     }
     // A long motion without a mesh may be larger than the character.
-    models.sort_by_cached_key(|&index| (import::is_motion(&files[index].bytes), std::cmp::Reverse(files[index].bytes.len())));
+    models.sort_by_cached_key(|&index| {
+        (
+            import::is_motion(&files[index].bytes),
+            std::cmp::Reverse(files[index].bytes.len()),
+        )
+    });
     models
 }

@@ -72,7 +72,8 @@ impl OpenModel {
                     other.model.clips = retargeted.clips;
                 }
                 Ok(None) => {
-                    let message = format!("Fewer than half of the bones that {theirs} moves have a name that {ours} knows.");
+                    let message =
+                        format!("Fewer than half of the bones that {theirs} moves have a name that {ours} knows.");
                     return refuse(&codes::CLIPS_BONES_DIFFER, message);
                 }
                 Err(fault) => return refuse(&codes::CLIPS_BONES_DIFFER, format!("{theirs}: {}", fault.message)),
@@ -222,13 +223,25 @@ fn by_names(retargeted: &Retargeted, theirs: &str, ours: &str) -> Option<Diagnos
     } = retargeted;
     let mut parts = Vec::new();
     if !without_place.is_empty() {
-        parts.push(format!("{} of {theirs} {} not in {ours}: {}", counted(without_place.len(), "bone", "bones"), are(without_place.len()), few(without_place)));
+        parts.push(format!(
+            "{} of {theirs} {} not in {ours}: {}",
+            counted(without_place.len(), "bone", "bones"),
+            are(without_place.len()),
+            few(without_place)
+        ));
     }
     if !at_rest.is_empty() {
-        parts.push(format!("{} of {ours} {} not in {theirs} and at rest: {}", counted(at_rest.len(), "bone", "bones"), are(at_rest.len()), few(at_rest)));
+        parts.push(format!(
+            "{} of {ours} {} not in {theirs} and at rest: {}",
+            counted(at_rest.len(), "bone", "bones"),
+            are(at_rest.len()),
+            few(at_rest)
+        ));
     }
     if *is_relative {
-        parts.push(format!("the bones of {theirs} lie otherwise, so its motion is kept relative to the rest pose"));
+        parts.push(format!(
+            "the bones of {theirs} lie otherwise, so its motion is kept relative to the rest pose"
+        ));
     }
     let mut message = parts.join("; ");
     if let Some(first) = message.get_mut(..1) {

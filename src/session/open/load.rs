@@ -170,11 +170,18 @@ fn motions_beside(files: &FileSet, file: &File, joined: &[JoinedFile]) -> Vec<Jo
     if import::is_motion(&file.bytes) {
         return Vec::new();
     }
-    let is_known = |motion: &File| joined.iter().any(|joined| joined.file.base_name() == motion.base_name());
+    let is_known = |motion: &File| {
+        joined
+            .iter()
+            .any(|joined| joined.file.base_name() == motion.base_name())
+    };
     let mut motions = files.models();
     motions.retain(|motion| motion.path != file.path && import::is_motion(&motion.bytes) && !is_known(motion));
     motions.sort_by_key(|motion| motion.path.to_lowercase());
-    motions.into_iter().map(|motion| JoinedFile::of(motion, files)).collect()
+    motions
+        .into_iter()
+        .map(|motion| JoinedFile::of(motion, files))
+        .collect()
 }
 
 async fn read_whole(

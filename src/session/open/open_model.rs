@@ -201,7 +201,9 @@ impl OpenModel {
     /// What of the file was left out while it was read, as losses: no file that is written has it. A format that `keeps_objects` has them
     /// apart again. `clips` as for [`OpenModel::mended`].
     pub fn left_out(&self, clips: Option<&[String]>, keeps_objects: bool) -> impl Iterator<Item = Loss> {
-        let is_kept = move |finding: &Diagnostic| keeps_objects && [codes::GLTF_OBJECTS_MERGED.name, codes::FBX_OBJECTS_MERGED.name].contains(&finding.code);
+        let is_kept = move |finding: &Diagnostic| {
+            keeps_objects && [codes::GLTF_OBJECTS_MERGED.name, codes::FBX_OBJECTS_MERGED.name].contains(&finding.code)
+        };
         self.of_reading(clips, move |finding| is_loss(finding) && !is_kept(finding))
     }
 

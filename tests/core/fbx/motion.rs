@@ -21,14 +21,34 @@ fn posed(model: &Model, clip: &CompiledClip, secs: f32) -> Vec<(String, Affine3A
 
 #[test]
 fn a_motion_of_mixamo_poses_as_its_gltf() {
-    let Some((_, fbx)) = files("mixamo").into_iter().find(|(name, _)| name == "Breathing Idle.fbx") else { return };
-    let glb = std::fs::read(crate::shared::shared("fbx/mixamo/Breathing Idle.glb").expect("it is beside")).expect("it is beside");
+    let Some((_, fbx)) = files("mixamo")
+        .into_iter()
+        .find(|(name, _)| name == "Breathing Idle.fbx")
+    else {
+        return;
+    };
+    let glb = std::fs::read(crate::shared::shared("fbx/mixamo/Breathing Idle.glb").expect("it is beside"))
+        .expect("it is beside");
     let [fbx, glb] = [fbx, glb].map(|bytes| import(&bytes).expect("it is sound").model);
-    let times = glb.clips[0].tracks.iter().find(|track| track.has_keys()).expect("it moves").times_secs().to_vec();
+    let times = glb.clips[0]
+        .tracks
+        .iter()
+        .find(|track| track.has_keys())
+        .expect("it moves")
+        .times_secs()
+        .to_vec();
     assert!(times.len() > 50, "{}", times.len());
     let reach = |joints: &[(String, Affine3A)]| {
-        let hips = joints.iter().find(|(name, _)| name.ends_with("Hips")).expect("hips").1.translation;
-        joints.iter().map(|(_, joint)| joint.translation.distance(hips)).fold(0.0, f32::max)
+        let hips = joints
+            .iter()
+            .find(|(name, _)| name.ends_with("Hips"))
+            .expect("hips")
+            .1
+            .translation;
+        joints
+            .iter()
+            .map(|(_, joint)| joint.translation.distance(hips))
+            .fold(0.0, f32::max)
     };
     let mut worst = 0f32;
     let clips = [&fbx, &glb].map(|model| (model, CompiledClip::new(&model.clips[0])));
@@ -46,13 +66,14 @@ fn a_motion_of_mixamo_poses_as_its_gltf() {
         }
         assert!(count >= 30, "{count} joints");
     }
-    println!("{} times, {worst:.1e} of the size", times.len());
     assert!(worst < 1e-4, "{worst}");
 }
 
 /// A character and two motions without a mesh, which assets/blender/motions.py makes.
 fn fixture(name: &str) -> File {
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/fbx").join(name);
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/fixtures/fbx")
+        .join(name);
     File::new(name, std::fs::read(path).expect("it is there"))
 }
 
@@ -63,7 +84,9 @@ fn names(clips: &[Clip]) -> Vec<&str> {
 /// A session with the character and its motions, dropped together.
 fn dropped() -> Session {
     let mut session = Session::default();
-    session.apply(FileCommand::Add(["waving.fbx", "walker.fbx", "walking.fbx"].map(fixture).into()));
+    session.apply(FileCommand::Add(
+        ["waving.fbx", "walker.fbx", "walking.fbx"].map(fixture).into(),
+    ));
     session
 }
 
@@ -79,14 +102,26 @@ fn a_character_and_its_motions_open_as_one_model() {
         let compiled = [CompiledClip::new(clip), CompiledClip::new(&motion.clips[0])];
         for part in 0..=10 {
             let secs = clip.end_secs * part as f32 / 10.0;
-            let [ours, theirs] = [posed(&open.model, &compiled[0], secs), posed(&motion, &compiled[1], secs)];
+            let [ours, theirs] = [
+                posed(&open.model, &compiled[0], secs),
+                posed(&motion, &compiled[1], secs),
+            ];
             for (name, joint) in &theirs {
                 let (_, our) = ours.iter().find(|(other, _)| other == name).expect("both have it");
-                assert!(our.abs_diff_eq(*joint, 2e-2), "{file}, {secs} s, {name}: {our:?} {joint:?}");
+                assert!(
+                    our.abs_diff_eq(*joint, 2e-2),
+                    "{file}, {secs} s, {name}: {our:?} {joint:?}"
+                );
             }
         }
     }
-    assert_eq!(session.diagnostics().filter(|finding| finding.code == "clips-by-names").count(), 0);
+    assert_eq!(
+        session
+            .diagnostics()
+            .filter(|finding| finding.code == "clips-by-names")
+            .count(),
+        0
+    );
 }
 
 #[test]
@@ -98,7 +133,8 @@ fn a_motion_joins_bones_of_other_prefixes_and_tells_what_does_not_fit() {
         let at: Vec<usize> = memchr::memmem::find_iter(&text, from).collect();
         assert!(!at.is_empty());
         let mut text = text;
-        at.into_iter().for_each(|at| text[at..at + to.len()].copy_from_slice(to.as_bytes()));
+        at.into_iter()
+            .for_each(|at| text[at..at + to.len()].copy_from_slice(to.as_bytes()));
         file.bytes = text.into();
         file.path = "other.fbx".to_owned();
         file
@@ -107,11 +143,20 @@ fn a_motion_joins_bones_of_other_prefixes_and_tells_what_does_not_fit() {
     let open = session.open_model().expect("it is open");
     assert_eq!(names(&open.model.clips), ["walking", "waving", "other"]);
     assert_eq!(open.model.clips[2].tracks, open.model.clips[0].tracks);
-    session.apply(FileCommand::AddClips(vec![renamed("mixamorig:Spine", "mixamorig:Spire")]));
-    let told: Vec<&str> = session.diagnostics().filter(|finding| finding.code == "clips-by-names").map(|finding| &*finding.message).collect();
+    session.apply(FileCommand::AddClips(vec![renamed(
+        "mixamorig:Spine",
+        "mixamorig:Spire",
+    )]));
+    let told: Vec<&str> = session
+        .diagnostics()
+        .filter(|finding| finding.code == "clips-by-names")
+        .map(|finding| &*finding.message)
+        .collect();
     assert_eq!(
         told,
-        ["1 bone of other.fbx is not in walker.fbx: mixamorig:Spire; 1 bone of walker.fbx is not in other.fbx and at rest: mixamorig:Spine."]
+        [
+            "1 bone of other.fbx is not in walker.fbx: mixamorig:Spire; 1 bone of walker.fbx is not in other.fbx and at rest: mixamorig:Spine."
+        ]
     );
     session.apply(FileCommand::AddClips(vec![renamed("mixamorig:", "otherrig:_")]));
     let error = session.error().expect("it is refused");
@@ -133,7 +178,11 @@ fn a_clip_in_place_keeps_its_height_and_its_turns() {
     let compiled = [model, &edited.model].map(|model| CompiledClip::new(&model.clips[0]));
     let hips = |model: &Model, clip: &CompiledClip, secs: f32| {
         let joints = posed(model, clip, secs);
-        joints.iter().find(|(name, _)| common_name(name) == "Hips").expect("hips").1
+        joints
+            .iter()
+            .find(|(name, _)| common_name(name) == "Hips")
+            .expect("hips")
+            .1
     };
     let start = hips(model, &compiled[0], 0.0).translation;
     let mut furthest = 0f32;

@@ -1,4 +1,6 @@
 //! What ufbx, a C library that reads FBX, makes of the same files: where all vertices are, at rest and in each clip.
+//! `cargo test --test core oracle -- --nocapture` lists how far each file is off.
+#![expect(clippy::print_stdout, reason = "the list is for people")]
 
 use bindpose::anim::{CompiledClip, PoseBuffers, skin_positions};
 use bindpose::import::{Imported, import};
@@ -13,17 +15,26 @@ const TOLERANCE: f64 = 1e-4;
 
 /// Files that are not compared, each with its reason.
 const OUT_OF_SCOPE: &[(&str, &str)] = &[
-    ("synthetic_bad_inf_nan_7700_ascii.fbx", "positions that are no numbers are 0 here"),
-    ("synthetic_node_cycle_fail_7700_ascii.fbx", "ufbx refuses it; here nodes that lie in themselves hang on the scene"),
+    (
+        "synthetic_bad_inf_nan_7700_ascii.fbx",
+        "positions that are no numbers are 0 here",
+    ),
+    (
+        "synthetic_node_cycle_fail_7700_ascii.fbx",
+        "ufbx refuses it; here nodes that lie in themselves hang on the scene",
+    ),
 ];
 
 /// Files whose layers name values that are not there: ufbx takes others then, and here there are none.
-const WITHOUT_VALUES: [&str; 2] = ["synthetic_by_vertex_overflow_7500_ascii.fbx", "synthetic_unsafe_cube_7500_binary.fbx"];
+const WITHOUT_VALUES: [&str; 2] = [
+    "synthetic_by_vertex_overflow_7500_ascii.fbx",
+    "synthetic_unsafe_cube_7500_binary.fbx",
+];
 
 fn matrix(matrix: &ufbx::Matrix) -> DAffine3 {
     DAffine3::from_cols_array(&[
-        matrix.m00, matrix.m10, matrix.m20, matrix.m01, matrix.m11, matrix.m21, matrix.m02, matrix.m12, matrix.m22, matrix.m03, matrix.m13,
-        matrix.m23,
+        matrix.m00, matrix.m10, matrix.m20, matrix.m01, matrix.m11, matrix.m21, matrix.m02, matrix.m12, matrix.m22,
+        matrix.m03, matrix.m13, matrix.m23,
     ])
 }
 
@@ -50,7 +61,11 @@ fn axes(scene: &Scene) -> DMat3 {
 fn points(scene: &Scene, node: &Node, mesh: &Mesh, out: &mut Vec<DVec3>) {
     let axes = axes(scene);
     let geometry_to_world = matrix(&node.geometry_to_world);
-    let skin = mesh.skin_deformers.iter().next().filter(|skin| !skin.clusters.is_empty());
+    let skin = mesh
+        .skin_deformers
+        .iter()
+        .next()
+        .filter(|skin| !skin.clusters.is_empty());
     let mut is_used = vec![false; mesh.num_vertices];
     for face in mesh.faces.iter().filter(|face| face.num_indices >= 3) {
         for corner in face.index_begin..face.index_begin + face.num_indices {
@@ -73,7 +88,10 @@ fn points(scene: &Scene, node: &Node, mesh: &Mesh, out: &mut Vec<DVec3>) {
             if sum > 0.0 {
                 placed = weights
                     .iter()
-                    .map(|&(weight, cluster)| matrix(&skin.clusters[cluster as usize].geometry_to_world).transform_point3(position) * (weight / sum))
+                    .map(|&(weight, cluster)| {
+                        matrix(&skin.clusters[cluster as usize].geometry_to_world).transform_point3(position)
+                            * (weight / sum)
+                    })
                     .sum();
             }
         }
@@ -125,7 +143,10 @@ fn matches(ours: &[DVec3], theirs: &[DVec3], within: f64) -> (Vec<Vec<u32>>, f64
             .copied()
             .filter(|&index| theirs[index as usize].distance(point) <= within)
             .collect();
-        let nearest = near.iter().map(|&index| theirs[index as usize].distance(point)).fold(f64::INFINITY, f64::min);
+        let nearest = near
+            .iter()
+            .map(|&index| theirs[index as usize].distance(point))
+            .fold(f64::INFINITY, f64::min);
         worst = worst.max(nearest);
         near.iter().for_each(|&index| is_met[index as usize] = true);
         near
@@ -145,7 +166,8 @@ fn size(points: &[DVec3]) -> f64 {
 
 /// How far a file is off, as a part of its size: at rest, and in each clip.
 fn compare(bytes: &[u8], imported: &Imported) -> Result<Vec<(String, f64)>, String> {
-    let scene = ufbx::load_memory(bytes, LoadOpts::default()).map_err(|error| format!("ufbx does not read it: {}", &*error.description))?;
+    let scene = ufbx::load_memory(bytes, LoadOpts::default())
+        .map_err(|error| format!("ufbx does not read it: {}", &*error.description))?;
     let model = &imported.model;
     let theirs = all_points(&scene);
     if theirs.is_empty() || model.mesh.positions.is_empty() {
@@ -161,7 +183,9 @@ fn compare(bytes: &[u8], imported: &Imported) -> Result<Vec<(String, f64)>, Stri
         return Ok(off);
     }
     for stack in scene.anim_stacks.iter() {
-        let Some(clip) = model.clips.iter().find(|clip| *clip.name == *stack.element.name) else { continue };
+        let Some(clip) = model.clips.iter().find(|clip| *clip.name == *stack.element.name) else {
+            continue;
+        };
         let compiled = CompiledClip::new(clip);
         let mut worst = 0f64;
         let times = [0.0, 0.25, 0.5, 0.75, 1.0].map(|part| clip.start_secs + (clip.end_secs - clip.start_secs) * part);
@@ -170,7 +194,10 @@ fn compare(bytes: &[u8], imported: &Imported) -> Result<Vec<(String, f64)>, Stri
         let size = self::size(&posed.concat()).max(size);
         for (secs, theirs) in times.into_iter().zip(posed) {
             for (point, candidates) in ours(model, Some((&compiled, secs))).iter().zip(&candidates) {
-                let nearest = candidates.iter().map(|&index| theirs[index as usize].distance(*point)).fold(f64::INFINITY, f64::min);
+                let nearest = candidates
+                    .iter()
+                    .map(|&index| theirs[index as usize].distance(*point))
+                    .fold(f64::INFINITY, f64::min);
                 worst = worst.max(nearest);
             }
         }
@@ -195,11 +222,31 @@ fn corners(scene: &Scene) -> Vec<Corner> {
                 let position = mesh.vertices[mesh.vertex_indices[corner] as usize];
                 let position = geometry_to_world.transform_point3(DVec3::new(position.x, position.y, position.z));
                 let normal = mesh.vertex_normal.exists.then(|| mesh.vertex_normal[corner]);
-                let normal = normal.map_or(DVec3::ZERO, |normal| (normal_matrix * DVec3::new(normal.x, normal.y, normal.z)).normalize_or_zero());
-                let uv = if mesh.vertex_uv.exists { mesh.vertex_uv[corner] } else { ufbx::Vec2 { x: 0.0, y: 1.0 } };
-                let color = if mesh.vertex_color.exists { mesh.vertex_color[corner] } else { ufbx::Vec4 { x: 1.0, y: 1.0, z: 1.0, w: 1.0 } };
+                let normal = normal.map_or(DVec3::ZERO, |normal| {
+                    (normal_matrix * DVec3::new(normal.x, normal.y, normal.z)).normalize_or_zero()
+                });
+                let uv = if mesh.vertex_uv.exists {
+                    mesh.vertex_uv[corner]
+                } else {
+                    ufbx::Vec2 { x: 0.0, y: 1.0 }
+                };
+                let color = if mesh.vertex_color.exists {
+                    mesh.vertex_color[corner]
+                } else {
+                    ufbx::Vec4 {
+                        x: 1.0,
+                        y: 1.0,
+                        z: 1.0,
+                        w: 1.0,
+                    }
+                };
                 let clamped = [color.x, color.y, color.z, color.w].map(|number| number.clamp(0.0, 1.0));
-                all.push(((axes * position).to_array(), (axes * normal).to_array(), [uv.x, 1.0 - uv.y], clamped));
+                all.push((
+                    (axes * position).to_array(),
+                    (axes * normal).to_array(),
+                    [uv.x, 1.0 - uv.y],
+                    clamped,
+                ));
             }
         }
     }
@@ -216,14 +263,30 @@ fn corners_off(model: &Model, scene: &Scene) -> f64 {
     let rest = ours(model, None);
     let off = |vertex: usize| {
         let (place, within) = (rest[vertex], TOLERANCE * size);
-        let uv = mesh.tex_coords.get(vertex).copied().unwrap_or_default().as_dvec2().to_array();
-        let color = mesh.colors.get(vertex).map_or([1.0; 4], |color| color.as_dvec4().to_array());
+        let uv = mesh
+            .tex_coords
+            .get(vertex)
+            .copied()
+            .unwrap_or_default()
+            .as_dvec2()
+            .to_array();
+        let color = mesh
+            .colors
+            .get(vertex)
+            .map_or([1.0; 4], |color| color.as_dvec4().to_array());
         let start = order.partition_point(|&index| theirs[index].0[0] < place.x - within);
-        let near = order[start..].iter().take_while(|&&index| theirs[index].0[0] <= place.x + within).map(|&index| &theirs[index]);
+        let near = order[start..]
+            .iter()
+            .take_while(|&&index| theirs[index].0[0] <= place.x + within)
+            .map(|&index| &theirs[index]);
         let near = near.filter(|their| DVec3::from_array(their.0).distance(place) <= within);
         let ways = near.map(|(_, normal, their_uv, their_color)| {
             let has_normal = *normal != [0.0; 3] && normal.iter().all(|number| number.is_finite());
-            let turned = if has_normal { mesh.normals[vertex].as_dvec3().distance(DVec3::from_array(*normal)) } else { 0.0 };
+            let turned = if has_normal {
+                mesh.normals[vertex].as_dvec3().distance(DVec3::from_array(*normal))
+            } else {
+                0.0
+            };
             let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             turned.max(apart(&uv, their_uv)).max(apart(&color, their_color))
         });
@@ -236,10 +299,16 @@ fn corners_off(model: &Model, scene: &Scene) -> f64 {
 fn vertices_have_what_ufbx_gives_them() {
     let mut wrong = Vec::new();
     for (name, bytes) in files("files") {
-        let (Ok(imported), Ok(scene)) = (import(&bytes), ufbx::load_memory(&bytes, LoadOpts::default())) else { continue };
+        let (Ok(imported), Ok(scene)) = (import(&bytes), ufbx::load_memory(&bytes, LoadOpts::default())) else {
+            continue;
+        };
         // Normals of what is skinned are turned by its bones.
         let is_skinned = scene.meshes.iter().any(|mesh| !mesh.skin_deformers.is_empty());
-        if is_skinned || WITHOUT_VALUES.contains(&&*name) || imported.model.mesh.positions.is_empty() || OUT_OF_SCOPE.iter().any(|(file, _)| *file == name) {
+        if is_skinned
+            || WITHOUT_VALUES.contains(&&*name)
+            || imported.model.mesh.positions.is_empty()
+            || OUT_OF_SCOPE.iter().any(|(file, _)| *file == name)
+        {
             continue;
         }
         let off = corners_off(&imported.model, &scene);
@@ -286,8 +355,17 @@ fn vertices_are_where_ufbx_has_them() {
 /// The files of the repository's own.
 fn own() -> Vec<(String, Vec<u8>)> {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/fbx");
-    let entries = std::fs::read_dir(folder).expect("it is there").map(|entry| entry.expect("a file").path());
-    entries.map(|path| (path.file_name().expect("a name").to_string_lossy().into_owned(), std::fs::read(&path).expect("a file"))).collect()
+    let entries = std::fs::read_dir(folder)
+        .expect("it is there")
+        .map(|entry| entry.expect("a file").path());
+    entries
+        .map(|path| {
+            (
+                path.file_name().expect("a name").to_string_lossy().into_owned(),
+                std::fs::read(&path).expect("a file"),
+            )
+        })
+        .collect()
 }
 
 #[test]
@@ -295,7 +373,9 @@ fn joints_are_where_ufbx_has_them() {
     let mut wrong = Vec::new();
     let mut count = 0;
     for (name, bytes) in files("files").into_iter().chain(files("mixamo")).chain(own()) {
-        let (Ok(imported), Ok(scene)) = (import(&bytes), ufbx::load_memory(&bytes, LoadOpts::default())) else { continue };
+        let (Ok(imported), Ok(scene)) = (import(&bytes), ufbx::load_memory(&bytes, LoadOpts::default())) else {
+            continue;
+        };
         let model = &imported.model;
         let skeleton = &model.skeleton;
         let axes = DAffine3::from_mat3(axes(&scene));
@@ -306,18 +386,25 @@ fn joints_are_where_ufbx_has_them() {
             .filter(|(_, name)| alone(name))
             .collect();
         for clip in &model.clips {
-            let Some(stack) = scene.anim_stacks.iter().find(|stack| *stack.element.name == *clip.name) else { continue };
+            let Some(stack) = scene.anim_stacks.iter().find(|stack| *stack.element.name == *clip.name) else {
+                continue;
+            };
             let compiled = CompiledClip::new(clip);
             let mut pose = PoseBuffers::for_skeleton(skeleton);
             let (mut worst, mut reach) = (0f64, 1e-9f64);
             for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
                 let secs = clip.start_secs + (clip.end_secs - clip.start_secs) * part;
                 pose.evaluate(skeleton, &compiled, secs);
-                let evaluated = ufbx::evaluate_scene(&scene, &stack.anim, f64::from(secs), EvaluateOpts::default()).expect("it is evaluated");
+                let evaluated = ufbx::evaluate_scene(&scene, &stack.anim, f64::from(secs), EvaluateOpts::default())
+                    .expect("it is evaluated");
                 let places: Vec<[DVec3; 2]> = joints
                     .iter()
                     .map(|&(joint, name)| {
-                        let node = evaluated.nodes.iter().find(|node| *node.element.name == *name).expect("it is there");
+                        let node = evaluated
+                            .nodes
+                            .iter()
+                            .find(|node| *node.element.name == *name)
+                            .expect("it is there");
                         let theirs = (axes * matrix(&node.node_to_world)).translation;
                         [pose.model.0[joint].translation.as_dvec3(), theirs]
                     })

@@ -44,12 +44,15 @@ struct Way {
 
 impl Source<'_> {
     pub(super) fn fitted(&self, times: &[f64]) -> Fitted {
-        let Some(&first) = times.first() else { return Fitted::Rest(None) };
+        let Some(&first) = times.first() else {
+            return Fitted::Rest(None);
+        };
         let start = (self.at)(first, false);
         let ways: Vec<[f64; 2]> = times.array_windows().copied().collect();
         let is_near = |a: DVec4, b: DVec4, part: f64| self.distance(a, b) <= part * self.tolerance;
         // The three places that are looked at between two keys, and what is there.
-        let probes = |[from, to]: [f64; 2]| [0.25, 0.5, 0.75].map(|part| (part, (self.at)(from + (to - from) * part, false)));
+        let probes =
+            |[from, to]: [f64; 2]| [0.25, 0.5, 0.75].map(|part| (part, (self.at)(from + (to - from) * part, false)));
         let ends = |[from, to]: [f64; 2]| [(self.at)(from, false), (self.at)(to, true)];
         let stays = |&way: &[f64; 2]| {
             let [from, to] = ends(way);
@@ -58,12 +61,18 @@ impl Source<'_> {
         let values = || times.iter().map(|&secs| (secs as f32, (self.at)(secs, false)));
         if ways.iter().all(stays) {
             let moves = values().any(|(_, value)| !is_near(start, value, 0.1));
-            return if moves { Fitted::Held(values().collect()) } else { Fitted::Rest(Some(start)) };
+            return if moves {
+                Fitted::Held(values().collect())
+            } else {
+                Fitted::Rest(Some(start))
+            };
         }
         let is_straight = |&way: &[f64; 2]| {
             let [from, to] = ends(way);
             is_near(to, (self.at)(way[1], false), 1.0)
-                && probes(way).iter().all(|&(part, value)| is_near(self.between(from, to, part), value, 1.0))
+                && probes(way)
+                    .iter()
+                    .all(|&(part, value)| is_near(self.between(from, to, part), value, 1.0))
         };
         if ways.iter().all(is_straight) {
             return Fitted::Straight(values().collect());
@@ -95,7 +104,11 @@ impl Source<'_> {
         match knots.last_mut() {
             Some(knot) if self.distance(self.near(knot.value, from), from) <= 0.1 * self.tolerance => {
                 // Rotations have two signs: that of the key before goes on.
-                let sign = if self.is_rotation && knot.value.dot(from) < 0.0 { -1.0 } else { 1.0 };
+                let sign = if self.is_rotation && knot.value.dot(from) < 0.0 {
+                    -1.0
+                } else {
+                    1.0
+                };
                 knot.slopes[1] = left * sign;
                 knots.push(Knot {
                     secs: spline.secs[1] as f32,
@@ -146,21 +159,35 @@ impl Source<'_> {
 
     /// A rotation with the sign that is nearer to another one.
     fn near(&self, value: DVec4, other: DVec4) -> DVec4 {
-        if self.is_rotation && value.dot(other) < 0.0 { -value } else { value }
+        if self.is_rotation && value.dot(other) < 0.0 {
+            -value
+        } else {
+            value
+        }
     }
 
     fn unit(&self, value: DVec4) -> DVec4 {
-        if self.is_rotation { value.normalize_or(DVec4::W) } else { value }
+        if self.is_rotation {
+            value.normalize_or(DVec4::W)
+        } else {
+            value
+        }
     }
 
     /// How far two values are apart; rotations by their angle.
     fn distance(&self, a: DVec4, b: DVec4) -> f64 {
-        if self.is_rotation { 2.0 * self.near(a, b).distance(b) } else { a.distance(b) }
+        if self.is_rotation {
+            2.0 * self.near(a, b).distance(b)
+        } else {
+            a.distance(b)
+        }
     }
 
     fn between(&self, from: DVec4, to: DVec4, part: f64) -> DVec4 {
         match self.is_rotation {
-            true => DQuat::from_vec4(from).slerp(DQuat::from_vec4(self.near(to, from)), part).into(),
+            true => DQuat::from_vec4(from)
+                .slerp(DQuat::from_vec4(self.near(to, from)), part)
+                .into(),
             false => from.lerp(to, part),
         }
     }
@@ -184,13 +211,21 @@ impl Fitted {
     /// # Errors
     /// When a number is too great for one.
     pub(super) fn channel<T: ChannelValue>(self, value: impl Fn(DVec4) -> T, rest: T) -> Result<Channel<T>, Fault> {
-        let keys = |keys: Vec<(f32, DVec4)>| keys.into_iter().map(|(secs, key)| (secs, value(key))).collect::<Vec<_>>();
+        let keys = |keys: Vec<(f32, DVec4)>| {
+            keys.into_iter()
+                .map(|(secs, key)| (secs, value(key)))
+                .collect::<Vec<_>>()
+        };
         match self {
             Self::Rest(None) => Ok(Channel::at_rest(rest)),
             Self::Rest(Some(still)) => Ok(Channel::at_rest(value(still))),
             Self::Straight(found) => Channel::straight(keys(found)),
             Self::Held(found) => Channel::held(keys(found)),
-            Self::Spline(knots) => Channel::spline(knots.into_iter().map(|knot| (knot.secs, value(knot.value), knot.slopes.map(&value)))),
+            Self::Spline(knots) => Channel::spline(
+                knots
+                    .into_iter()
+                    .map(|knot| (knot.secs, value(knot.value), knot.slopes.map(&value))),
+            ),
         }
     }
 }

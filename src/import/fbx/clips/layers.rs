@@ -4,13 +4,12 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use super::{Moved, named, node_of};
 use crate::diagnostic::Fault;
 use crate::fbx::Record;
-use crate::import::fbx::File;
 use crate::import::fbx::curves::Curve;
+use crate::import::fbx::file::File;
 use crate::import::fbx::nodes::Nodes;
-use crate::import::fbx::objects::{Object, Objects};
+use crate::import::fbx::objects::{Object, ObjectIndex, Objects};
 use crate::import::fbx::transform::{Parts, Transform};
 
 /// What curves move of a node.
@@ -74,7 +73,12 @@ impl Layer {
     ///
     /// # Errors
     /// When an array of a curve is damaged.
-    pub(super) fn read(file: &File<'_, '_>, objects: &Objects<'_, '_>, nodes: &Nodes, layer: &Object<'_, '_>) -> Result<Self, Fault> {
+    pub(super) fn read(
+        file: &File<'_, '_>,
+        objects: &Objects<'_, '_>,
+        nodes: &Nodes,
+        layer: &Object<'_, '_>,
+    ) -> Result<Self, Fault> {
         let mut moved: Moved<Axes> = HashMap::new();
         let mut weight_curve = None;
         for (_, curve_node) in objects.children(layer, "AnimationCurveNode") {
@@ -123,19 +127,26 @@ impl Layer {
     pub(super) fn of_take(take: &Record<'_>, objects: &Objects<'_, '_>, nodes: &Nodes) -> Self {
         let mut moved: Moved<Axes> = HashMap::new();
         for model in take.all("Model") {
-            let Some(node) = model.bytes(0).and_then(|name| objects.named(name)).and_then(|object| node_of(nodes, object)) else {
+            let Some(node) = model
+                .bytes(0)
+                .and_then(|name| objects.named(name))
+                .and_then(|object| node_of(nodes, object))
+            else {
                 continue;
             };
             let transform = model.all("Channel").filter(|channel| named(channel) == "Transform");
             for channel in transform.flat_map(|transform| transform.all("Channel")) {
-                let Some(property) = Property::named(&named(channel)) else { continue };
+                let Some(property) = Property::named(&named(channel)) else {
+                    continue;
+                };
                 let mut axes = Axes::default();
                 for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
                     let Some(of_axis) = channel.all("Channel").find(|channel| named(channel) == name) else {
                         continue;
                     };
                     axes.without[axis] = of_axis.find("Default").and_then(|default| default.number(0));
-                    axes.curves[axis] = Some(Curve::read_take(of_axis)).filter(|curve| curve.times_secs().next().is_some());
+                    axes.curves[axis] =
+                        Some(Curve::read_take(of_axis)).filter(|curve| curve.times_secs().next().is_some());
                 }
                 moved.insert((node, property), axes);
             }
@@ -153,24 +164,49 @@ impl Layer {
 
     /// The models that a curve moves.
     pub(super) fn models(&self) -> impl Iterator<Item = u32> + '_ {
-        let moves = |axes: &Axes| axes.curves.iter().flatten().any(|curve| curve.times_secs().next().is_some());
-        self.moved.iter().filter(move |(_, axes)| moves(axes)).map(|(&(node, _), _)| node)
+        let moves = |axes: &Axes| {
+            axes.curves
+                .iter()
+                .flatten()
+                .any(|curve| curve.times_secs().next().is_some())
+        };
+        self.moved
+            .iter()
+            .filter(move |(_, axes)| moves(axes))
+            .map(|(&(node, _), _)| node)
     }
 
     /// The times of the keys of some properties of a model, again and again where curves repeat them within a span.
-    pub(super) fn times_secs(&self, model: u32, properties: &[Property], span: Option<[f64; 2]>) -> impl Iterator<Item = f64> {
-        let axes = properties.iter().filter_map(move |&property| self.moved.get(&(model, property)));
+    pub(super) fn times_secs(
+        &self,
+        model: u32,
+        properties: &[Property],
+        span: Option<[f64; 2]>,
+    ) -> impl Iterator<Item = f64> {
+        let axes = properties
+            .iter()
+            .filter_map(move |&property| self.moved.get(&(model, property)));
         let curves = axes.flat_map(|axes| axes.curves.iter().flatten());
         // How much of a layer counts changes what it moves.
         let has_any = curves.clone().next().is_some();
-        curves.chain(self.weight_curve.iter().filter(move |_| has_any)).flat_map(move |curve| curve.times_within(span))
+        curves
+            .chain(self.weight_curve.iter().filter(move |_| has_any))
+            .flat_map(move |curve| curve.times_within(span))
     }
 
     /// Brings what it has at a time over the parts of a node; the lowest layer replaces them. `is_before` is 1 for just before that time.
-    pub(super) fn add_to(&self, parts: &mut Parts, (node, transform): (u32, &Transform), [secs, is_before]: [f64; 2], is_lowest: bool) {
+    pub(super) fn add_to(
+        &self,
+        parts: &mut Parts,
+        (node, transform): (u32, &Transform),
+        [secs, is_before]: [f64; 2],
+        is_lowest: bool,
+    ) {
         let is_before = is_before != 0.0;
         for property in [Property::Translation, Property::Rotation, Property::Scale] {
-            let Some(axes) = self.moved.get(&(node, property)) else { continue };
+            let Some(axes) = self.moved.get(&(node, property)) else {
+                continue;
+            };
             let below = property.of(parts);
             let mut value = *below;
             for axis in 0..3 {
@@ -183,7 +219,11 @@ impl Layer {
                 *below = value;
                 continue;
             }
-            let weight = self.weight_curve.as_ref().and_then(|curve| curve.at(secs, is_before)).map_or(self.weight, part_of);
+            let weight = self
+                .weight_curve
+                .as_ref()
+                .and_then(|curve| curve.at(secs, is_before))
+                .map_or(self.weight, part_of);
             *below = self.over(property, transform, [*below, value], weight);
         }
     }
@@ -218,4 +258,17 @@ fn power(numbers: DVec3, exponent: f64) -> DVec3 {
         1.0 => numbers,
         _ => numbers.map(|number| number.abs().powf(exponent) * number.signum()),
     }
+}
+
+/// Curve nodes by what they move.
+type Moved<T> = HashMap<(u32, Property), T>;
+
+/// Which node an object of a connection is.
+fn node_of(nodes: &Nodes, object: ObjectIndex) -> Option<u32> {
+    nodes.node_of[object.index()]
+}
+
+/// The name of a record's first value.
+fn named<'s>(record: &'s Record<'_>) -> std::borrow::Cow<'s, str> {
+    record.text(0).unwrap_or_default()
 }

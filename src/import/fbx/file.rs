@@ -1,0 +1,46 @@
+//! A file while a model is made of it.
+
+use std::collections::HashMap;
+
+use glam::DAffine3;
+
+use super::objects::ObjectIndex;
+use crate::diagnostic::{Code, Diagnostic, Subject};
+use crate::fbx::{Budget, Document, Place};
+
+/// A file while a model is made of it, and what is noted of it.
+pub(super) struct File<'f, 'a> {
+    pub(super) document: &'f Document<'a>,
+    pub(super) budget: Budget,
+    /// Where the bind pose has each bone.
+    pub(super) bind_pose: HashMap<ObjectIndex, DAffine3>,
+    /// Bones that a skin bound elsewhere.
+    pub(super) disagreeing: usize,
+    pub(super) noted: Vec<Diagnostic>,
+}
+
+impl File<'_, '_> {
+    pub(super) fn note(&mut self, code: &Code, message: String) {
+        self.noted.push(code.says(message));
+    }
+
+    pub(super) fn note_of(&mut self, place: Place, code: &Code, message: String) {
+        self.noted.push(place.says(code, message));
+    }
+
+    pub(super) fn note_about(&mut self, subject: Subject, code: &Code, message: String) {
+        self.noted.push(about(subject, code.says(message)));
+    }
+
+    pub(super) fn note_at(&mut self, place: Place, subject: Subject, code: &Code, message: String) {
+        self.noted.push(about(subject, place.says(code, message)));
+    }
+}
+
+fn about(subject: Subject, diagnostic: Diagnostic) -> Diagnostic {
+    Diagnostic {
+        subject: Some(subject),
+        subjects: vec![subject],
+        ..diagnostic
+    }
+}
