@@ -1,6 +1,7 @@
 // Every browser test, one after the other in one browser: they share two cores and a GPU made of software.
 import "./page.js";
 import "./opening.js";
+import "./fbx.js";
 import "./gltf.js";
 import "./playing.js";
 import "./keys.js";

@@ -114,7 +114,7 @@ test("a newer build says so, is taken by a click and leaves the pages of the old
   host.asked.length = 0;
   await page.evaluate(async () => (await navigator.serviceWorker.ready).update());
   // A page that lies behind another one may have no frames to wait by.
-  const waits = { polling: 50 };
+  const waits = { polling: 50, timeout: 60_000 };
   for (const each of [page, other]) await each.waitForFunction(() => !document.getElementById("newer").hidden, null, waits).catch(() => assert.fail(`no card; asked for ${host.asked}`));
   await page.waitForFunction(() => document.getElementById("spoken").textContent.includes("A newer Bindpose is here: reload the page to have it now."), null, waits);
   assert.deepEqual(host.asked.filter((name) => name.endsWith(".wasm")), [], "what both builds have is not fetched again");

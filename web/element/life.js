@@ -1,6 +1,7 @@
 // A viewer from when its element comes into a page until it leaves it: its program, its canvas, its files.
 
 import { createApi } from "../api.js";
+import { onlyJoins } from "../files.js";
 import { handOver, hasOpened } from "../handing_over.js";
 import { mirrorOf } from "../mirror.js";
 import { servePanels } from "./panels.js";
@@ -78,7 +79,7 @@ export class Life {
     if (this.over) throw new Error("the element left its page");
     this.viewer = new module.Viewer({ ui: "full", theme: this.teller.theme() }, (type, detail) => this.hear(type, detail));
     const canvas = document.createElement("canvas");
-    canvas.tabIndex = 0;
+    canvas.tabIndex = this.host.interaction === "none" ? -1 : 0;
     const box = this.isFull ? document.createElement("div") : this.view;
     this.view.replaceChildren(...(this.isFull ? [box] : []));
     box.append(canvas);
@@ -211,7 +212,8 @@ export class Life {
       this.teller.error(new Error(state.error.message));
       return state;
     }
-    this.files = files;
+    // Pictures that join a model are kept beside it, for when the element comes back.
+    this.files = this.files && onlyJoins(files) ? [...this.files, ...files] : files;
     if (moment !== null) this.follow(moment);
     this.isShown = true;
     this.teller.load();

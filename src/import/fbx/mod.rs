@@ -129,7 +129,12 @@ async fn model(
     {
         materials.materials.pop();
     }
-    let places = Places::of(&objects, &nodes, &rig, &materials, meshed.places);
+    let of_materials = materials
+        .objects
+        .iter()
+        .map(|&index| objects.get(index).record.place)
+        .collect();
+    let places = Places::of(&objects, &nodes, &rig, [of_materials, meshed.places]);
     let model = Model {
         materials: materials.materials,
         mesh: meshed.mesh,

@@ -1,6 +1,5 @@
 //! Where the parts of a model stand in an FBX file: lines of text ones. Binary ones have none to show.
 
-use super::materials::Materials;
 use super::nodes::Nodes;
 use super::objects::Objects;
 use crate::diagnostic::{self, Entry};
@@ -18,26 +17,20 @@ pub(crate) struct Places {
 }
 
 impl Places {
+    /// `materials` and `subsets` are where these stand.
     pub(super) fn of(
         objects: &Objects<'_, '_>,
         nodes: &Nodes,
         rig: &Rig,
-        materials: &Materials,
-        subsets: Vec<Place>,
+        [materials, subsets]: [Vec<Place>; 2],
     ) -> Self {
         let node = |joint: usize| nodes.objects[rig.node_of_joint[joint] as usize];
-        let bones = rig
-            .skeleton
-            .joint_of_bone()
-            .iter()
-            .map(|joint| objects.get(node(joint.index())).record.place);
+        let bones = rig.skeleton.joint_of_bone().iter();
         Self {
-            bones: bones.collect(),
-            materials: materials
-                .objects
-                .iter()
-                .map(|&index| objects.get(index).record.place)
+            bones: bones
+                .map(|joint| objects.get(node(joint.index())).record.place)
                 .collect(),
+            materials,
             subsets,
         }
     }

@@ -98,6 +98,8 @@ pub struct FileSet {
     damaged: HashMap<String, String>,
     /// See [`FileSet::models`].
     models: Vec<usize>,
+    /// See [`FileSet::motions`].
+    motions: Vec<usize>,
 }
 
 /// What a file is for.
@@ -172,7 +174,7 @@ impl FileSet {
                 }
             }
         }
-        set.models = models_among(&set.files);
+        (set.models, set.motions) = models_among(&set.files);
         set
     }
 
@@ -191,6 +193,11 @@ impl FileSet {
     /// notes and sources, only one that begins like a model.
     pub fn models(&self) -> Vec<&File> {
         self.models.iter().map(|&index| &self.files[index]).collect()
+    }
+
+    /// Files with motions and nothing that they move, where there is a model besides: their clips join it.
+    pub(in crate::session) fn motions(&self) -> Vec<&File> {
+        self.motions.iter().map(|&index| &self.files[index]).collect()
     }
 
     /// One of its models, by its path.
@@ -262,7 +269,8 @@ impl FileSet {
     }
 }
 
-fn models_among(files: &[File]) -> Vec<usize> {
+/// Models, the largest first, and motions for them.
+fn models_among(files: &[File]) -> (Vec<usize>, Vec<usize>) {
     let by_name = |wanted: fn(&File) -> bool| {
         let files = files.iter().enumerate().filter(|(_, file)| wanted(file));
         files.map(|(index, _)| index).collect::<Vec<_>>()
@@ -274,12 +282,13 @@ fn models_among(files: &[File]) -> Vec<usize> {
             models.retain(|&index| import::begins_like_model(&files[index].bytes));
         }
     }
-    // A long motion without a mesh may be larger than the character.
-    models.sort_by_cached_key(|&index| {
-        (
-            import::is_motion(&files[index].bytes),
-            std::cmp::Reverse(files[index].bytes.len()),
-        )
-    });
-    models
+    models.sort_by_key(|&index| std::cmp::Reverse(files[index].bytes.len()));
+    let (motions, others): (Vec<usize>, Vec<usize>) = models
+        .iter()
+        .partition(|&&index| import::is_motion(&files[index].bytes));
+    if others.is_empty() {
+        (motions, others)
+    } else {
+        (others, motions)
+    }
 }

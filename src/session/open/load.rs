@@ -165,18 +165,15 @@ async fn are_same(a: &[u8], b: &[u8], slices: &Slices) -> bool {
     are_same
 }
 
-/// The files of a drop that have motions and nothing that they move, as Mixamo gives them: their clips join a model that came with them.
-fn motions_beside(files: &FileSet, file: &File, joined: &[JoinedFile]) -> Vec<JoinedFile> {
-    if import::is_motion(&file.bytes) {
-        return Vec::new();
-    }
+/// The motions of a drop, as Mixamo gives them, but those that joined before.
+fn motions_beside(files: &FileSet, joined: &[JoinedFile]) -> Vec<JoinedFile> {
     let is_known = |motion: &File| {
         joined
             .iter()
             .any(|joined| joined.file.base_name() == motion.base_name())
     };
-    let mut motions = files.models();
-    motions.retain(|motion| motion.path != file.path && import::is_motion(&motion.bytes) && !is_known(motion));
+    let mut motions = files.motions();
+    motions.retain(|motion| !is_known(motion));
     motions.sort_by_key(|motion| motion.path.to_lowercase());
     motions
         .into_iter()
@@ -217,7 +214,7 @@ pub(in crate::session) async fn load_whole(
     slices: &Slices,
 ) -> Result<Box<Loaded>, Box<LoadError>> {
     let mut joined = before.as_ref().map_or(Vec::new(), |before| before.open.joined.clone());
-    joined.extend(motions_beside(&files, file, &joined));
+    joined.extend(motions_beside(&files, &joined));
     let (mut open, same) = match &before {
         Some(before) if before.is_same(&files, file, slices).await => (Arc::clone(&before.open), Some(before)),
         _ => (Arc::new(read_whole(&files, file, &joined, slices).await?), None),

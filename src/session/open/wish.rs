@@ -87,7 +87,8 @@ impl Wish {
             }
             Self::Clips(files) => {
                 let files = FileSet::new_in(files, slices).await;
-                let models: HashSet<&str> = files.models().iter().map(|file| file.path.as_str()).collect();
+                let models = files.models().into_iter().chain(files.motions());
+                let models: HashSet<&str> = models.map(|file| file.path.as_str()).collect();
                 let is_model = |file: &&File| models.contains(file.path.as_str());
                 let in_order: Vec<&File> = files.files().iter().filter(is_model).collect();
                 let sizes = in_order.iter().map(|file| (Some(Stage::Joining), file.bytes.len()));

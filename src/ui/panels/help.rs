@@ -18,7 +18,7 @@ use crate::ui::window::panel::{Panel, scrolled};
 
 const ABOUT: [&str; 3] = [
     "Bindpose shows models with bones, plays their clips, says what is wrong with them and writes them anew.",
-    "Drop .m3d, .glb, .gltf or .fbx files, a folder or a .zip; maps may be DDS, PNG, JPEG, TGA or BMP.",
+    "Drop .m3d, .glb, .gltf or .fbx, a folder or a .zip; maps may be DDS, PNG, JPEG, TGA or BMP.",
     "Files stay on this machine.",
 ];
 
