@@ -133,6 +133,8 @@ export function keepLink({ viewer, changed, followed, ask, tell, refuse }) {
       if (link.model === undefined && !link.view) return;
       wanted = link;
       const { model: name } = link;
+      // Without a name it is about what the page opens by itself, which may be in the list.
+      if (name === undefined && own && model.path !== null && !isOwn(model) && viewer().openModel(own.path)) return;
       if (model.path !== null && !opensOwn) showWanted();
       if (!wanted || name === undefined || viewer().openModel(name)) return;
       ask(asking(name));
@@ -159,7 +161,7 @@ export function keepLink({ viewer, changed, followed, ask, tell, refuse }) {
       if (!viewer() || text === last) return;
       last = text;
       if (text) this.follow();
-      else if (model.path !== null) show({ view: "" });
+      else if (model.path !== null && (isOwn(model) || !own || !viewer().openModel(own.path))) show({ view: "" });
     },
   };
 }

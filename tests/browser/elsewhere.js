@@ -27,13 +27,18 @@ async function serving(body) {
     const { url, headers } = request;
     asked.push({ url, cookie: headers.cookie, referer: headers.referer });
     const allows = url.startsWith("/closed/") ? {} : { "Access-Control-Allow-Origin": "*" };
-    const send = (status, bytes, length = bytes.length) => response.writeHead(status, { ...allows, "Content-Length": length }).end(bytes);
+    const send = (status, bytes) => response.writeHead(status, { ...allows, "Content-Length": bytes.length }).end(bytes);
     if (url.endsWith(".gltf")) return send(200, SCENE);
     if (url.endsWith(".bin")) return send(200, TRIANGLE);
     if (url.startsWith("/broken/")) {
       response.writeHead(200, { ...allows, "Content-Length": model.length });
       response.write(model.subarray(0, 1000), () => setTimeout(() => response.destroy(), 100));
       return;
+    }
+    // Nothing is promised.
+    if (url.startsWith("/untold/")) {
+      response.writeHead(200, allows);
+      return response.end(model);
     }
     if (url.startsWith("/slow/")) {
       response.writeHead(200, { ...allows, "Content-Length": model.length });
@@ -68,13 +73,26 @@ const refused = (page, words) =>
 
 test("a model of another server opens, and so does what a .gltf names beside itself", { bare: true, expectErrors: true }, (page) =>
   serving(async (server, asked) => {
+    await page.context().addCookies([{ name: "secret", value: "1", url: server }]);
     await visit(page, `${server}/models/figure.m3d`);
     assert.equal((await until(page, (now) => now.model)).model.name, "figure.m3d");
     assert.deepEqual(asked, [{ url: "/models/figure.m3d", cookie: undefined, referer: undefined }]);
+    await visit(page, `${server}/untold/figure.m3d`);
+    assert.equal((await until(page, (now) => now.model)).model.name, "figure.m3d");
+    asked.length = 1;
     await visit(page, `${server}/models/scene.gltf`);
     const { model, error } = await until(page, (now) => now.model || now.error);
     assert.deepEqual([error, model?.name, model?.counts.triangles], [null, "scene.gltf", 1]);
     assert.deepEqual(asked.slice(1).map(({ url }) => url), ["/models/scene.gltf", "/models/data/a%20triangle.bin"]);
+  }));
+
+test("a model, its pictures and an archive may come from several addresses", { bare: true, expectErrors: true }, (page) =>
+  serving(async (server, asked) => {
+    await visit(page, `${server}/models/figure.m3d`, `${PAGE}web/sample/figure_diff.png`, `${server}/models/other.png`);
+    const { model, textures } = await until(page, (now) => now.model);
+    assert.equal(model.name, "figure.m3d");
+    assert.deepEqual(asked.map(({ url }) => url).sort(), ["/models/figure.m3d", "/models/other.png"]);
+    assert.ok(textures.named > 0);
   }));
 
 test("what a server does not give is told by what happened", { bare: true, expectErrors: true }, (page) =>
@@ -95,7 +113,8 @@ test("what a server does not give is told by what happened", { bare: true, expec
       assert.equal((await state(page)).model, null, address);
     }
     await visit(page, `${server}/text/letter.txt`);
-    assert.equal((await until(page, (now) => now.error)).error.code.length > 0, true, "it is no model");
+    const { error } = await until(page, (now) => now.error);
+    assert.deepEqual([error.code, error.file ?? error.fileName ?? "letter.txt"], ["not-m3d", "letter.txt"]);
   }));
 
 test("a slow server is waited for, with the part that has come, and Esc gives it up", { bare: true, expectErrors: true }, (page) =>

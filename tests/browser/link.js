@@ -1,15 +1,16 @@
 // Links: the address says what is seen, and brings it back.
 
 import assert from "node:assert/strict";
+import { createHash } from "node:crypto";
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
-import { BACKEND, PAGE, SAMPLE, atRest, call, keep, listen, running, settled, state, test, until } from "./harness.js";
+import { BACKEND, PAGE, SAMPLE, atRest, call, click, keep, listen, running, settled, state, test, until } from "./harness.js";
 import { coloursOnScreen } from "./picture.js";
 
 const QUERY = `?backend=${BACKEND}&scale=0.2`;
 const OWN = { own: true, query: QUERY, passes: true };
 
-/** As people would write them, in the order in which the page writes. Each field stands in one of them at least. */
+/** As people would write them, in the order in which the page writes. */
 const LINKS = [
   "t=0.5&play=0",
   "clip=Walk&play=0",
@@ -148,6 +149,67 @@ test("the address follows what is seen once that rests", OWN, async (page) => {
   await until(page, (now) => now.link === moment);
 });
 
+test("back and forward go from link to link, also to the models that were open", { ...OWN, firstVisit: true, prepare: listen }, async (page) => {
+  await until(page, (now) => now.model);
+  await follow(page, "t=0.5&play=0");
+  await page.setInputFiles("#files", { name: "hero.m3d", mimeType: "text/plain", buffer: await readFile(SAMPLE) });
+  await until(page, (now) => now.model?.name === "hero.m3d");
+  await call(page, "pause");
+  await page.waitForFunction(() => location.hash.startsWith("#model=hero.m3d"), null, { polling: 50 });
+  const ofHero = await hash(page);
+  const is = (name, secs) => until(page, ({ model, timeSecs, playing }) => model?.name === name && timeSecs === secs && !playing);
+  await page.evaluate(() => (location.hash = "t=1&play=0"));
+  await is("figure.m3d", 1);
+  await page.goBack();
+  await page.waitForFunction((text) => location.hash.slice(1) === text, ofHero, { polling: 50 });
+  await until(page, ({ model }) => model?.name === "hero.m3d");
+  await page.goForward();
+  await is("figure.m3d", 1);
+});
+
+test("a link wins over what the address asks for and over what is kept, and is not kept", { ...OWN, query: `${QUERY}&crowd=2` }, async (page) => {
+  await until(page, (now) => now.model);
+  const before = await page.evaluate(() => localStorage.getItem("bindpose.kept"));
+  await page.goto("about:blank");
+  await page.goto(`${PAGE}${QUERY}&crowd=2#t=0.5&play=0&light=book&crowd=3`);
+  await running(page);
+  const now = await until(page, ({ timeSecs, look }) => timeSecs === 0.5 && look.light === "book");
+  assert.equal(now.crowd?.count ?? now.instances?.count ?? now.crowd, 3);
+  await page.goto("about:blank");
+  await page.goto(`${PAGE}${QUERY}`);
+  await running(page);
+  assert.notEqual((await until(page, ({ model }) => model)).look.light, "book");
+  assert.equal(await page.evaluate(() => localStorage.getItem("bindpose.kept")), before);
+});
+
+test("the buttons copy what the page says of itself, and the address is written twice a second at most", OWN, async (page) => {
+  await until(page, (now) => now.model);
+  await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  await follow(page, "t=0.5&play=0");
+  const copied = () => page.evaluate(() => navigator.clipboard.readText());
+  for (const [control, wanted] of [
+    ["copy-link", () => page.evaluate(() => bindpose.link())],
+    ["copy-embed", () => page.evaluate(async () => (await import("/web/link.js")).embedding(location.href, document.title))],
+  ]) {
+    await page.evaluate(() => navigator.clipboard.writeText(""));
+    await click(page, "picture");
+    await click(page, control);
+    await page.waitForFunction(async () => (await navigator.clipboard.readText()) !== "", null, { polling: 50 });
+    assert.equal(await copied(), await wanted());
+  }
+  const written = await page.evaluate(async () => {
+    const times = [];
+    const write = history.replaceState.bind(history);
+    history.replaceState = (...given) => (times.push(performance.now()), write(...given));
+    for (let step = 0; step < 40; step += 1) {
+      bindpose.seek(0.5 + (step >> 3) / 10);
+      await new Promise((done) => setTimeout(done, 60));
+    }
+    return times;
+  });
+  assert.ok(written.slice(1).every((time, index) => time - written[index] > 490), String(written));
+});
+
 test("what a link does not know or the model does not have is named, and the rest is shown", OWN, async (page) => {
   await until(page, (now) => now.model);
   await page.evaluate(() => (location.hash = "clip=Fly&t=0.5&play=0&speed=fast&%zz&future=1&view=uv&bone=4000000000"));
@@ -155,7 +217,9 @@ test("what a link does not know or the model does not have is named, and the res
   assert.match(await notice(page), /The link is not shown in full.*bone, clip, future, speed, zz/s);
   assert.equal((await state(page)).error, null);
   await follow(page, "t=0.5&play=0");
-  const rubbish = [..."=&%#,.-:1aé🦴 \u0000"];
+  const rubbish = [..."=&%#,.-:1aé🦴 \u0000", "http://127.0.0.1:9/", "src"];
+  const asked = [];
+  page.on("request", (request) => asked.push(request.url()));
   await page.evaluate((rubbish) => {
     let seed = 1;
     const next = (below) => (seed = (seed * 48_271) % 2_147_483_647) % below;
@@ -167,7 +231,8 @@ test("what a link does not know or the model does not have is named, and the res
     }
   }, rubbish);
   await follow(page, "t=0.25&play=0");
-  assert.equal(await page.isHidden("#fault"), true);
+  assert.deepEqual([await page.isHidden("#fault"), (await state(page)).error], [true, null]);
+  assert.deepEqual(asked.filter((address) => !address.startsWith(PAGE)), [], "no other server is asked");
 });
 
 test("a link to a dropped file waits for it, by its name and by its bytes", { ...OWN, firstVisit: true, prepare: listen }, async (page) => {
@@ -181,6 +246,7 @@ test("a link to a dropped file waits for it, by its name and by its bytes", { ..
   await call(page, "seek", 0.75);
   await page.waitForFunction(() => /^#model=hero\.m3d&sha=[0-9a-f]{12}&t=0\.75&play=0$/.test(location.hash), null, { polling: 50 });
   const link = await hash(page);
+  assert.equal(/sha=(\w+)/.exec(link)[1], createHash("sha256").update(bytes).digest("hex").slice(0, 12));
   for (const [name, changed, told] of [
     ["hero.m3d", false, null],
     ["other.m3d", false, "other.m3d is hero.m3d of the link, under another name"],
