@@ -38,6 +38,8 @@ export("walker.fbx", [rig, body], False)
 hips = rig.pose.bones["mixamorig:Hips"]
 for name, file in (("Walk cycle", "walking.fbx"), ("Wave", "waving.fbx")):
     action = bpy.data.actions[name]
+    for pose in rig.pose.bones:
+        pose.location, pose.rotation_euler = (0, 0, 0), (0, 0, 0)
     rig.animation_data.action = action
     first, last = (int(frame) for frame in action.frame_range)
     bpy.context.scene.frame_start, bpy.context.scene.frame_end = first, last

@@ -4,8 +4,12 @@ mod motion;
 mod oracle;
 
 use bindpose::diagnostic::{Fault, Position};
+use bindpose::import::import;
 use bindpose::fbx::{Budget, Document, Record, begins_like_fbx, parse};
 
+use proptest::prelude::*;
+
+use crate::properties::cases;
 use crate::shared::shared;
 
 /// A small file of text.
@@ -299,6 +303,30 @@ fn damaged_files_are_an_answer() {
     for (_, bytes) in files("damaged") {
         if let Ok(document) = parse(&bytes) {
             let _ = each_array(&document, &bytes);
+        }
+        let _ = import(&bytes);
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(64))]
+
+    #[test]
+    fn files_that_are_cut_or_changed_are_an_answer(
+        which in 0..3usize,
+        cut in proptest::option::of(0.0..1.0f64),
+        changes in proptest::collection::vec((0.0..1.0f64, any::<u8>()), 0..12),
+    ) {
+        let name = ["walker", "walking", "waving"][which];
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/fixtures/fbx/{name}.fbx"));
+        let mut bytes = std::fs::read(path).expect("it is there");
+        let len = bytes.len() as f64;
+        for (place, byte) in changes {
+            bytes[(place * len) as usize] = byte;
+        }
+        bytes.truncate(cut.map_or(bytes.len(), |cut| (cut * len) as usize));
+        if let Err(refused) = import(&bytes) {
+            prop_assert!(!refused.error.message.is_empty());
         }
     }
 }

@@ -16,7 +16,7 @@ const FLAGS: &str = "--cfg fuzzing -Cpasses=sancov-module -Cllvm-args=-sanitizer
     -Cllvm-args=-sanitizer-coverage-trace-compares -Cdebug-assertions -Coverflow-checks";
 
 /// What is tried, as `tools/fuzz` names it.
-const TARGETS: [&str; 5] = ["models", "buffers", "pictures", "archives", "whole"];
+const TARGETS: [&str; 6] = ["models", "buffers", "pictures", "archives", "whole", "fbx"];
 
 /// Inputs are short, so that many are tried. One that takes longer or more memory than this is a fault, as a panic is.
 const LIMITS: [&str; 3] = ["-max_len=16384", "-timeout=5", "-rss_limit_mb=1024"];

@@ -23,7 +23,7 @@ pub struct Target {
 pub const TARGET: &str = "BINDPOSE_FUZZ_TARGET";
 
 /// All of them.
-pub const TARGETS: [Target; 5] = [
+pub const TARGETS: [Target; 6] = [
     Target {
         name: "models",
         run: models,
@@ -44,6 +44,10 @@ pub const TARGETS: [Target; 5] = [
         name: "whole",
         run: whole,
     },
+    Target {
+        name: "fbx",
+        run: fbx,
+    },
 ];
 
 /// A model of any format, with nothing beside it, is read and looked over.
@@ -51,6 +55,16 @@ fn models(bytes: &[u8]) {
     let _begins = import::begins_like_model(bytes);
     let _beside = import::files_beside(bytes);
     look_over(bytes);
+}
+
+/// An FBX file is read and looked over, whatever its first bytes are: as text where these are letters, else as a binary one.
+fn fbx(bytes: &[u8]) {
+    let start: &[u8] = match bytes.first() {
+        Some(byte) if byte.is_ascii_graphic() || byte.is_ascii_whitespace() => b"; FBX 7.4.0 project file\n",
+        _ => b"Kaydara FBX Binary  \0\x1a\0\xe8\x1c\0\0",
+    };
+    look_over(&[start, bytes].concat());
+    models(bytes);
 }
 
 /// The numbers of a sound `.glb` are replaced: positions, weights, matrices, times and keys are whatever comes.
