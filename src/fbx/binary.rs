@@ -141,8 +141,7 @@ impl<'a> Reader<'a> {
         let [name_len] = self.array()?;
         let name = String::from_utf8_lossy(self.take(usize::from(name_len))?);
         let values_end = self.at + head.values_len;
-        // The smallest value has two bytes.
-        let mut values = Vec::with_capacity((head.value_count as usize).min(head.values_len / 2));
+        let mut values = Vec::new();
         for _ in 0..head.value_count {
             values.push(self.value()?);
         }
@@ -187,7 +186,7 @@ impl<'a> Reader<'a> {
         };
         let [count, encoding, len] = [self.u32()?, self.u32()?, self.u32()?];
         if encoding > 1 {
-            return Err(place.damaged(format!("An array is packed by the way {encoding}; 0 and 1 are known.")));
+            return Err(place.damaged(format!("An array is packed by method {encoding}; 0 and 1 are known.")));
         }
         let offset = self.at as u64;
         Ok(Value::Array(Array(Content::Packed {

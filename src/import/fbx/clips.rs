@@ -40,14 +40,14 @@ impl Stack {
     pub(super) fn all(file: &File<'_, '_>, objects: &Objects<'_, '_>, nodes: &Nodes) -> Result<Vec<Self>, Fault> {
         let mut stacks = Vec::new();
         for (_, stack) in objects.of_class("AnimationStack") {
-            let ticks = |name: &str| stack.number(name).map(|ticks| ticks / TICKS_PER_SEC);
+            let secs = |name: &str| stack.number(name).map(|ticks| ticks / TICKS_PER_SEC);
             let layers = objects.children(stack, "AnimationLayer");
             let layers = layers
                 .map(|(_, layer)| Layer::read(file, objects, nodes, layer))
                 .collect::<Result<_, _>>()?;
             stacks.push(Self {
                 name: stack.name.clone().into_owned(),
-                span_secs: ticks("LocalStart").zip(ticks("LocalStop")).map(Into::into),
+                span_secs: secs("LocalStart").zip(secs("LocalStop")).map(Into::into),
                 layers,
             });
         }
@@ -60,7 +60,7 @@ impl Stack {
             let span = take
                 .find("LocalTime")
                 .and_then(|time| Some([time.number(0)?, time.number(1)?]));
-            let layer = Layer::of_take(take, objects, nodes);
+            let layer = Layer::of_take(take, objects, nodes, file.settings.unit_metres);
             // Files of 7.x have takes without curves.
             if !layer.is_empty() {
                 stacks.push(Self {
@@ -125,7 +125,7 @@ impl Stack {
 
     /// The times at which something happens to a node: keys within the stack's span, and its ends.
     fn times(&self, nodes: &Nodes, node: u32, properties: &[Property]) -> Vec<f64> {
-        let moving = nodes.moved_by(nodes.model_of(node));
+        let moving = nodes.depends_on(nodes.model_of(node));
         let mut times: Vec<f64> = moving
             .iter()
             .flat_map(|&model| self.key_times_secs(model, properties))
@@ -145,7 +145,7 @@ impl Stack {
         let all = [Property::Translation, Property::Rotation, Property::Scale];
         let of = |property: Property| {
             let transform = &nodes.transforms[node as usize];
-            let is_alone = nodes.moved_by(nodes.model_of(node)).len() == 1;
+            let is_alone = nodes.depends_on(nodes.model_of(node)).len() == 1;
             match property {
                 _ if !is_alone => &all[..],
                 Property::Translation if transform.has_pivots() => &all[..],

@@ -8,7 +8,7 @@ use crate::fbx::{Budget, Document, Record, Value};
 /// Ticks of a second, as Autodesk's `FbxTime` counts.
 pub(super) const TICKS_PER_SEC: f64 = 46_186_158_000.0;
 
-/// So many keys are added at most where a curve repeats them.
+/// Keys that repeating adds at most on each side.
 const MOST_REPEATED: usize = 10_000;
 
 /// Of a tangent without a weight of its own: a third of the way to the next key.
@@ -82,7 +82,7 @@ mod flags {
     pub(super) const WEIGHT_NEXT: i64 = 0x200_0000;
 }
 
-/// Since this version text has the numbers of attributes as bits.
+/// Since this version text has `KeyAttrDataFloat` as the bits of an `f32`.
 const BITS_SINCE: u32 = 7200;
 
 /// Keys while they are read.
@@ -213,6 +213,15 @@ impl Curve {
             growing.add(ticks, value, way, set, right, next);
         }
         growing.curve(beyond(record))
+    }
+
+    /// The same curve with values so many times as great.
+    pub(super) fn scaled(mut self, factor: f64) -> Self {
+        for key in &mut self.keys {
+            key.value *= factor;
+            key.slopes = key.slopes.map(|slope| slope * factor);
+        }
+        self
     }
 
     /// Its keys' times, in seconds.
@@ -433,7 +442,7 @@ fn tangents(flags: i64, [here, next, packed, _]: [f32; 4]) -> [[f64; 2]; 2] {
     ]
 }
 
-/// The slopes of a key that the keys around set, as far as it is known: Autodesk says it of none but by the curves that its programs draw.
+/// The slopes of a key that the keys around set. Autodesk does not document them; the formulas fit the curves that its programs draw.
 fn solved_slopes([before, key, after]: [Option<Key>; 3], set: Slopes) -> Option<[f64; 2]> {
     let key = key?;
     let slope = |from: Key, to: Key| (to.value - from.value) / (to.secs - from.secs);
@@ -455,7 +464,7 @@ fn solved_slopes([before, key, after]: [Option<Key>; 3], set: Slopes) -> Option<
         }
         Slopes::Auto { bias, flags } => Some(match (before, after) {
             (Some(before), Some(after)) => {
-                // The way in has the bias of the key before.
+                // Until it is solved, this slope is what the key before has stored for it: minus its bias.
                 let in_bias = -key.slopes[0];
                 let between = |bias| auto_slope([before, key, after], bias, flags);
                 if (key.slopes[0] + bias).abs() <= 1e-4 {

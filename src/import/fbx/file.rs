@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use glam::DAffine3;
 
 use super::objects::ObjectIndex;
+use super::settings::Settings;
 use crate::diagnostic::{Code, Diagnostic, Subject};
 use crate::fbx::{Budget, Document, Place};
 
@@ -12,6 +13,7 @@ use crate::fbx::{Budget, Document, Place};
 pub(super) struct File<'f, 'a> {
     pub(super) document: &'f Document<'a>,
     pub(super) budget: Budget,
+    pub(super) settings: Settings,
     /// Where the bind pose has each bone.
     pub(super) bind_pose: HashMap<ObjectIndex, DAffine3>,
     /// Bones that a skin bound elsewhere.

@@ -2,11 +2,15 @@
 
 use std::collections::HashMap;
 
+use glam::Vec3;
 use rustc_hash::FxHashMap;
 
-use crate::diagnostic::Fault;
+use super::file::File;
+use crate::diagnostic::collect::counted;
+use crate::diagnostic::{Fault, codes};
 use crate::fbx::{Budget, Place, Record};
 use crate::import::scene::Vertices;
+use crate::slices::Slices;
 
 /// Triangles of one material, by its place among those of the node.
 pub(super) struct Part {
@@ -126,7 +130,7 @@ impl Layer {
     }
 }
 
-/// The first of the values that each is the same as, as our numbers have them: many files repeat a value for each corner.
+/// For each value the index of its first equal one, compared as `f32`: many files repeat a value for each corner.
 fn firsts(values: &[f64], width: usize) -> Vec<u32> {
     let mut known = FxHashMap::default();
     let rows = (0u32..).zip(values.chunks_exact(width));
@@ -144,38 +148,49 @@ fn polygons(corners: &[i64]) -> impl Iterator<Item = std::ops::Range<usize>> {
     ends.map(move |(end, _)| std::mem::replace(&mut start, end + 1)..end + 1)
 }
 
-/// Reads a geometry.
+/// What corners have: normals, texture coordinates, colours, tangents, binormals.
+type Layers = [Option<Layer>; 5];
+
+fn layers(record: &Record<'_>, budget: &Budget) -> Result<Layers, Fault> {
+    let layer = |names, width| Layer::first(record, names, width, budget);
+    Ok([
+        layer(["LayerElementNormal", "Normals", "NormalsIndex"], 3)?,
+        layer(["LayerElementUV", "UV", "UVIndex"], 2)?,
+        layer(["LayerElementColor", "Colors", "ColorIndex"], 4)?,
+        layer(["LayerElementTangent", "Tangents", "TangentsIndex"], 3)?,
+        layer(["LayerElementBinormal", "Binormals", "BinormalsIndex"], 3)?,
+    ])
+}
+
+/// Reads a geometry of this name.
 ///
 /// # Errors
 /// When an array is damaged, or a corner names a control point that is not there.
-pub(super) fn read(record: &Record<'_>, budget: &Budget) -> Result<Geometry, Fault> {
-    let numbers = |name: &str| {
-        record
-            .find(name)
-            .map_or_else(|| Ok(Vec::new()), |found| found.numbers(budget))
-    };
-    let positions = numbers("Vertices")?;
+pub(super) async fn read(
+    (record, name): (&Record<'_>, &str),
+    file: &mut File<'_, '_>,
+    slices: &Slices,
+) -> Result<Geometry, Fault> {
+    let budget = &file.budget;
+    let positions = record.find("Vertices").map_or_else(|| Ok(Vec::new()), |found| found.numbers(budget))?;
     let (points, _) = positions.as_chunks::<3>();
     let Some(corners_record) = record.find("PolygonVertexIndex") else {
         return Ok(Geometry::default());
     };
     let corners = corners_record.integers(budget)?;
-    let layer = |names, width| Layer::first(record, names, width, budget);
-    let normals = layer(["LayerElementNormal", "Normals", "NormalsIndex"], 3)?;
-    let tangents = layer(["LayerElementTangent", "Tangents", "TangentsIndex"], 3)?;
-    let colors = layer(["LayerElementColor", "Colors", "ColorIndex"], 4)?;
-    let uv = layer(["LayerElementUV", "UV", "UVIndex"], 2)?;
-    let layers = [normals, uv, colors, tangents];
+    let layers = layers(record, budget)?;
     let materials = material_layer(record, budget)?;
-
+    let unit_metres = file.settings.unit_metres;
     let mut geometry = Geometry {
         control_point_count: points.len(),
         ..Geometry::default()
     };
-    let mut known: FxHashMap<(u32, [Option<usize>; 4]), u32> = FxHashMap::default();
+    let mut known: FxHashMap<(u32, [Option<usize>; 5]), u32> = FxHashMap::default();
     let mut parts: HashMap<usize, usize> = HashMap::new();
     let mut of_polygon: Vec<u32> = Vec::new();
+    let mut without_values = 0;
     for (polygon, range) in polygons(&corners).enumerate() {
+        slices.pause_before(polygon).await;
         of_polygon.clear();
         if range.len() < 3 {
             geometry.left_out += 1;
@@ -187,7 +202,7 @@ pub(super) fn read(record: &Record<'_>, budget: &Budget) -> Result<Geometry, Fau
             let control_point = if stored < 0 { !stored } else { stored };
             let point = usize::try_from(control_point).ok().and_then(|index| points.get(index));
             let Some(&point) = point else {
-                return Err(out_of_range(corners_record.place, control_point, points.len()));
+                return Err(out_of_range(corners_record.place, name, control_point, points.len()));
             };
             let corner = Corner {
                 index,
@@ -195,20 +210,18 @@ pub(super) fn read(record: &Record<'_>, budget: &Budget) -> Result<Geometry, Fau
                 polygon,
             };
             let values = layers.each_ref().map(|layer| layer.as_ref()?.index(corner));
+            let lacks = |(layer, value): (&Option<Layer>, &Option<usize>)| layer.is_some() && value.is_none();
+            without_values += usize::from(layers.iter().zip(&values).any(lacks));
             let next = geometry.control_points.len() as u32;
             let vertex = *known.entry((corner.control_point, values)).or_insert(next);
             if vertex == next {
                 geometry.control_points.push(corner.control_point);
+                let point = point.map(|number| (number * unit_metres) as f32);
                 push(&mut geometry.vertices, point, &layers, values);
             }
             of_polygon.push(vertex);
         }
-        let corner = Corner {
-            index: 0,
-            control_point: 0,
-            polygon,
-        };
-        let material = materials.as_ref().and_then(|layer| layer.material(corner)).unwrap_or(0);
+        let material = materials.as_ref().and_then(|layer| layer.material(polygon)).unwrap_or(0);
         let part = *parts.entry(material).or_insert(geometry.parts.len());
         if part == geometry.parts.len() {
             geometry.parts.push(Part {
@@ -220,35 +233,48 @@ pub(super) fn read(record: &Record<'_>, budget: &Budget) -> Result<Geometry, Fau
         triangulate(&of_polygon, positions, &mut geometry.parts[part].triangles);
     }
     geometry.parts.sort_by_key(|part| part.material);
+    let open = corners.iter().rev().take_while(|corner| **corner >= 0).count();
+    let corner = ["corner", "corners"];
+    for (count, what) in [
+        (without_values, "a normal, a texture coordinate, a colour or a tangent that is not there; 0 stands in"),
+        (open, "no polygon that ends; left out"),
+    ] {
+        if count > 0 {
+            let message = format!("{} of \"{name}\" with {what}.", counted(count, corner[0], corner[1]));
+            file.note_of(record.place, &codes::FBX_RULE_BROKEN, message);
+        }
+    }
     Ok(geometry)
 }
 
-fn out_of_range(place: Place, index: i64, count: usize) -> Fault {
-    let message = format!("A polygon names control point {index}, but there are {count}.");
-    Box::new(place.says(&crate::diagnostic::codes::VERTEX_OUT_OF_RANGE, message))
+fn out_of_range(place: Place, name: &str, index: i64, count: usize) -> Fault {
+    let message = format!("A polygon of \"{name}\" names control point {index}, but there are {count}.");
+    Box::new(place.says(&codes::VERTEX_OUT_OF_RANGE, message))
 }
 
 /// Adds a vertex; streams that the geometry does not have stay empty.
-fn push(vertices: &mut Vertices, point: [f64; 3], layers: &[Option<Layer>; 4], values: [Option<usize>; 4]) {
-    let [normals, uv, colors, tangents] = layers;
-    let [normal, tex_coord, color, tangent] = values;
-    vertices.positions.push(point.map(|number| number as f32));
-    if let Some(layer) = normals {
-        vertices.normals.push(layer.value(normal));
-    }
+fn push(vertices: &mut Vertices, position: [f32; 3], layers: &Layers, values: [Option<usize>; 5]) {
+    let [normals, uv, colors, tangents, binormals] = layers;
+    let [normal, tex_coord, color, tangent, binormal] = values;
+    vertices.positions.push(position);
+    let normal = normals.as_ref().map(|layer| layer.value(normal));
+    vertices.normals.extend(normal);
     if let Some(layer) = uv {
         // v runs upwards in FBX.
         let [u, v] = layer.value(tex_coord);
         vertices.tex_coords.push([u, 1.0 - v]);
     }
     if let Some(layer) = colors {
-        vertices
-            .colors
-            .push(if color.is_some() { layer.value(color) } else { [1.0; 4] });
+        vertices.colors.push(if color.is_some() { layer.value(color) } else { [1.0; 4] });
     }
     if let Some(layer) = tangents {
-        let [x, y, z] = layer.value(tangent);
-        vertices.tangents.push([x, y, z, 1.0]);
+        let tangent: [f32; 3] = layer.value(tangent);
+        let [normal, stored] = [normal.unwrap_or_default(), tangent].map(Vec3::from_array);
+        let binormal = binormals.as_ref().map_or(Vec3::ZERO, |layer| Vec3::from_array(layer.value(binormal)));
+        // Without a binormal it is as in most files.
+        let is_mirrored = normal.cross(stored).dot(binormal) < 0.0;
+        let [x, y, z] = tangent;
+        vertices.tangents.push([x, y, z, if is_mirrored { -1.0 } else { 1.0 }]);
     }
 }
 
@@ -259,12 +285,8 @@ struct MaterialLayer {
 }
 
 impl MaterialLayer {
-    fn material(&self, corner: Corner) -> Option<usize> {
-        let place = if self.mapping == Mapping::Polygon {
-            corner.polygon
-        } else {
-            0
-        };
+    fn material(&self, polygon: usize) -> Option<usize> {
+        let place = if self.mapping == Mapping::Polygon { polygon } else { 0 };
         usize::try_from(*self.indices.get(place)?).ok()
     }
 }

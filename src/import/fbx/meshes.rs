@@ -1,5 +1,7 @@
 //! The geometries of a file as one mesh: each on the nodes that have it, moved by its skin or by its node.
 
+use std::sync::Arc;
+
 use glam::DAffine3;
 
 use super::file::File;
@@ -65,7 +67,7 @@ impl Meshes {
             slices.pause_at(Stage::Building, at, uses.len()).await;
             if meshes.geometries.last().is_none_or(|(before, _)| *before != index) {
                 let object = objects.get(index);
-                let geometry = geometry::read(object.record, &file.budget)?;
+                let geometry = geometry::read((object.record, &object.name), file, slices).await?;
                 if geometry.left_out > 0 {
                     let message = format!(
                         "{} of \"{}\" with fewer than three corners; left out.",
@@ -74,7 +76,7 @@ impl Meshes {
                     );
                     file.note_of(object.record.place, &codes::FBX_LEFT_OUT, message);
                 }
-                nodes.scene.meshes.push(nodes::mesh_tag(object));
+                nodes.scene.meshes.push(Arc::new(nodes::tag(object)));
                 meshes.geometries.push((index, geometry));
             }
             let mesh = meshes.geometries.len() - 1;

@@ -1,6 +1,6 @@
 //! FBX, binary or as text: what its objects mean ([`crate::fbx`] reads the file).
 //!
-//! All of the scene becomes one model: right-handed, y up, in the file's unit. Nodes get the transform that FBX computes of twelve parts; geometries become
+//! All of the scene becomes one model: right-handed, y up, in metres. Nodes get the transform that FBX computes of twelve parts; geometries become
 //! triangles over vertices that differ in something; skins, joints and meshes go through the one [`scene`](super::scene). What was mended or left out comes
 //! back as diagnostics.
 
@@ -15,6 +15,7 @@ mod meshes;
 mod nodes;
 mod objects;
 pub(super) mod places;
+mod settings;
 mod skins;
 mod transform;
 
@@ -30,6 +31,7 @@ use self::meshes::Meshes;
 use self::nodes::Nodes;
 use self::objects::{ObjectIndex, Objects};
 use self::places::Places;
+use self::settings::Settings;
 use super::scene::Rig;
 use super::{Imported, Refused, Source};
 use crate::diagnostic::collect::Diagnostics;
@@ -56,6 +58,7 @@ pub(super) async fn import(bytes: &[u8], find: FindFile<'_>, slices: &Slices) ->
     let mut file = File {
         document: &document,
         budget: Budget::of_file(bytes.len()),
+        settings: Settings::of(&document),
         bind_pose: HashMap::new(),
         disagreeing: 0,
         noted: Vec::new(),
@@ -75,7 +78,7 @@ pub(super) async fn import(bytes: &[u8], find: FindFile<'_>, slices: &Slices) ->
     }
 }
 
-/// Whether it has curves of bones, and no polygon. Names of records stand in files as they are.
+/// Whether it has curves of bones, and no polygon. Names of records are never compressed, so that a search for their bytes finds them.
 pub(super) fn is_motion(bytes: &[u8]) -> bool {
     let has = |name: &str| memchr::memmem::find(bytes, name.as_bytes()).is_some();
     (has("AnimationCurveNode") || has("KeyCount")) && !has("PolygonVertexIndex")
@@ -95,12 +98,12 @@ async fn model(
 ) -> Result<(Model, Images, Places), Fault> {
     let objects = Objects::of(file.document);
     file.bind_pose = bind_pose(file, &objects)?;
-    let mut nodes = Nodes::of(file.document, &objects);
+    let mut nodes = Nodes::of(file.settings, &objects);
     let images = Images::read(&objects, find);
     let mut materials = Materials::read(file, &objects, &images);
     let stacks = Stack::all(file, &objects, &nodes)?;
     let transforms = nodes.transforms.clone();
-    nodes.place(&objects, |model| {
+    nodes.build_scene(&objects, |model| {
         !transform::is_even(transforms[model as usize].scale)
             || stacks
                 .iter()

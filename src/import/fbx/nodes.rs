@@ -1,19 +1,17 @@
 //! Models of a file as nodes of a scene: who is whose parent, and where each is.
 
-use std::sync::Arc;
-
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::objects::{Object, ObjectIndex, Objects};
+use super::settings::Settings;
 use super::transform::{Inherit, Local, Parts, Transform};
-use crate::fbx::Document;
 use crate::import::scene::{self, Scene};
 use crate::model::Tag;
 
 /// Nodes, with what only FBX knows of them.
 ///
-/// A node whose scale differs by axis, and does not act wholly on what is below, becomes two: a rigid one, and on it one that scales. The first have the
-/// numbers of the file's models, so that what hangs on a model hangs on the one that scales; rigid ones stand behind all of them.
+/// A model whose scale differs by axis, and does not act wholly on its children, becomes two nodes: a rigid parent, and a child that only scales. The
+/// scaling child keeps the model's index, so that meshes hang on it. Rigid nodes are added after all models.
 pub(super) struct Nodes {
     pub(super) scene: Scene,
     /// Of each node.
@@ -35,7 +33,7 @@ pub(super) struct Nodes {
 }
 
 impl Nodes {
-    pub(super) fn of(document: &Document<'_>, objects: &Objects<'_, '_>) -> Self {
+    pub(super) fn of(settings: Settings, objects: &Objects<'_, '_>) -> Self {
         let models: Vec<ObjectIndex> = objects.of_class("Model").map(|(index, _)| index).collect();
         let mut node_of = vec![None; objects.all.len()];
         for (node, model) in (0u32..).zip(&models) {
@@ -52,7 +50,7 @@ impl Nodes {
             .into_iter()
             .map(|node| models[node as usize])
             .collect();
-        let transforms: Vec<Transform> = models.iter().map(|&model| Transform::of(objects.get(model))).collect();
+        let transforms: Vec<Transform> = models.iter().map(|&model| Transform::of(objects.get(model), settings.unit_metres)).collect();
         Self {
             scene: Scene::default(),
             rigid: vec![None; parents.len()],
@@ -62,12 +60,12 @@ impl Nodes {
             objects: models,
             node_of,
             tangled,
-            model_from_file: axes(document),
+            model_from_file: settings.model_from_file,
         }
     }
 
-    /// Makes the scene of the nodes, with where they are at rest. `differs` tells whether the scale of a model's own differs by axis, at rest or in a clip.
-    pub(super) fn place(&mut self, objects: &Objects<'_, '_>, differs: impl Fn(u32) -> bool) {
+    /// Builds the scene of the nodes, with where they are at rest. `differs` tells whether the scale of a model's own differs by axis, at rest or in a clip.
+    pub(super) fn build_scene(&mut self, objects: &Objects<'_, '_>, differs: impl Fn(u32) -> bool) {
         let models = 0..self.above.len() as u32;
         let differs: Vec<bool> = models.clone().map(differs).collect();
         let mut asks = vec![false; differs.len()];
@@ -77,7 +75,7 @@ impl Nodes {
             }
         }
         for model in models.clone() {
-            if asks[model as usize] && self.moved_by(model).iter().any(|&model| differs[model as usize]) {
+            if asks[model as usize] && self.depends_on(model).iter().any(|&model| differs[model as usize]) {
                 self.rigid[model as usize] = Some(self.objects.len() as u32);
                 self.objects.push(self.objects[model as usize]);
                 self.transforms.push(self.transforms[model as usize]);
@@ -145,7 +143,7 @@ impl Nodes {
                         scale,
                         ..plain
                     },
-                    // One number for all axes, which is undone.
+                    // The parent's scale is even here: it is divided out, so that it does not act.
                     None => Local {
                         scale: if of_above.x == 0.0 { scale } else { scale / of_above.x },
                         ..plain
@@ -180,15 +178,15 @@ impl Nodes {
         self.transforms[model as usize].inherit
     }
 
-    /// The scale that acts on what lies in a model: its own, and what it has from above by itself.
+    /// What acts on the children of a model: its own scale times [`Self::scale_from_above`].
     fn scale_below(&self, model: u32, parts: &dyn Fn(u32) -> Parts) -> DVec3 {
         parts(model).scale * self.scale_from_above(model, parts)
     }
 
-    /// The scale that a model has from those above in another way than by lying in them.
+    /// The product of the parents' scales that [`Inherit::ScaleAfterRotation`] applies on the model itself, not through its parent's matrix.
     fn scale_from_above(&self, model: u32, parts: &dyn Fn(u32) -> Parts) -> DVec3 {
         let mut scale = DVec3::ONE;
-        for above in self.moved_by(model).windows(2) {
+        for above in self.depends_on(model).windows(2) {
             if self.inherit(above[0]) == Inherit::ScaleAfterRotation {
                 scale *= parts(above[1]).scale;
             }
@@ -196,8 +194,8 @@ impl Nodes {
         scale
     }
 
-    /// The models on whose parts the place of a model depends, itself first.
-    pub(super) fn moved_by(&self, model: u32) -> Vec<u32> {
+    /// The model, and those above whose scale its local transform needs, nearest first.
+    pub(super) fn depends_on(&self, model: u32) -> Vec<u32> {
         let mut models = vec![model];
         let mut at = model;
         while let (Inherit::ScaleAfterRotation | Inherit::NoScale, Some(above)) =
@@ -228,11 +226,7 @@ pub(super) fn tag(object: &Object<'_, '_>) -> Tag {
     }
 }
 
-pub(super) fn mesh_tag(object: &Object<'_, '_>) -> Arc<Tag> {
-    Arc::new(tag(object))
-}
-
-/// Takes a node of each circle off its parent; which these are.
+/// Cuts each circle of parents at one node; gives those nodes.
 fn untangle(parents: &mut [Option<u32>]) -> Vec<u32> {
     // By which walk upwards a node was reached first.
     let mut walks = vec![0u32; parents.len()];
@@ -253,37 +247,4 @@ fn untangle(parents: &mut [Option<u32>]) -> Vec<u32> {
         }
     }
     tangled
-}
-
-/// The file's axes -> those of a model: its own words say which axis points to the right, up, and to the front.
-fn axes(document: &Document<'_>) -> DMat3 {
-    // Files of 6.1 have them among the objects.
-    let settings = document
-        .find("GlobalSettings")
-        .or_else(|| document.find("Objects")?.find("GlobalSettings"));
-    let settings =
-        settings.and_then(|settings| settings.find("Properties70").or_else(|| settings.find("Properties60")));
-    let integer = |name: &str, default: i64| {
-        let of = |record: &&crate::fbx::Record<'_>| record.bytes(0) == Some(name.as_bytes());
-        let found = settings.and_then(|settings| settings.records.iter().rfind(of));
-        found
-            .and_then(|record| record.integer(if record.name == "P" { 4 } else { 3 }))
-            .unwrap_or(default)
-    };
-    let axis = |name: &str, default: i64| {
-        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-        let axis = axes[integer(name, default).clamp(0, 2) as usize];
-        axis * if integer(&format!("{name}Sign"), 1) < 0 {
-            -1.0
-        } else {
-            1.0
-        }
-    };
-    let rows = DMat3::from_cols(axis("CoordAxis", 0), axis("UpAxis", 1), axis("FrontAxis", 2)).transpose();
-    // Some name an axis twice.
-    if rows.determinant().abs() == 1.0 {
-        rows
-    } else {
-        DMat3::IDENTITY
-    }
 }

@@ -154,7 +154,7 @@ impl<'f, 'a> Objects<'f, 'a> {
         all.filter(move |(_, object)| object.record.name == class)
     }
 
-    /// Of a class and a kind, what hangs on an object, in the file's order.
+    /// The children of an object that are of a class, in the file's order.
     pub(super) fn children<'s>(
         &'s self,
         of: &'s Object<'f, 'a>,
@@ -179,7 +179,7 @@ fn templates<'f, 'a>(document: &'f Document<'a>) -> HashMap<Cow<'f, str>, &'f Re
 }
 
 /// The record of a property, and where its values begin.
-fn property<'s, 'a>(properties: &'s Record<'a>, name: &str) -> Option<(&'s Record<'a>, usize)> {
+pub(super) fn property<'s, 'a>(properties: &'s Record<'a>, name: &str) -> Option<(&'s Record<'a>, usize)> {
     // Of two the last one counts.
     let record = properties
         .records

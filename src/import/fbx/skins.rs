@@ -29,7 +29,7 @@ impl Bound {
 /// A cluster, as far as the file says it.
 struct Cluster {
     node: u32,
-    geometry_from_bone: DAffine3,
+    bone_from_node: DAffine3,
     points: Vec<i64>,
     weights: Vec<f64>,
 }
@@ -114,7 +114,7 @@ pub(super) fn read(
     }
     let slots = clusters
         .iter()
-        .map(|cluster| (cluster.node, cluster.geometry_from_bone * node_from_geometry));
+        .map(|cluster| (cluster.node, cluster.bone_from_node * node_from_geometry));
     let slots = slots.chain(rests.then_some((mesh_node, node_from_geometry)));
     let (joints, joint_from_mesh) = slots.unzip();
     Ok(Some(Bound {
@@ -180,7 +180,7 @@ fn cluster(
     }
     Ok(Some(Cluster {
         node,
-        geometry_from_bone: bone_from_node,
+        bone_from_node: bone_from_node,
         points,
         weights,
     }))
@@ -191,12 +191,16 @@ fn cluster_bone(objects: &Objects<'_, '_>, cluster: &Object<'_, '_>) -> ObjectIn
     bones.next().map_or(ObjectIndex(u32::MAX), |(bone, _)| bone)
 }
 
-/// Sixteen numbers, column by column as we have them.
+/// Sixteen numbers, column by column as we have them; lengths in metres.
 ///
 /// # Errors
 /// When the array is damaged.
 pub(super) fn matrix(record: &Record<'_>, file: &File<'_, '_>) -> Result<Option<DAffine3>, Fault> {
     let numbers = record.numbers(&file.budget)?;
     let matrix = numbers.first_chunk().map(DMat4::from_cols_array);
-    Ok(matrix.map(DAffine3::from_mat4).filter(|matrix| matrix.is_finite()))
+    let matrix = matrix.map(DAffine3::from_mat4).filter(|matrix| matrix.is_finite());
+    Ok(matrix.map(|matrix| DAffine3 {
+        translation: matrix.translation * file.settings.unit_metres,
+        ..matrix
+    }))
 }

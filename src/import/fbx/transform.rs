@@ -75,7 +75,7 @@ impl RotationOrder {
 pub(super) enum Inherit {
     /// `RrSs`: the parent's scale acts between rotation and scale of the node.
     ScaleAfterRotation,
-    /// `RSrs`: that of any other scene.
+    /// `RSrs`: the parent's whole matrix acts, as in other formats.
     #[default]
     Whole,
     /// `Rrs`: the parent's own scale does not act on the node.
@@ -138,26 +138,28 @@ pub(super) struct Transform {
 }
 
 impl Transform {
-    pub(super) fn of(object: &Object<'_, '_>) -> Self {
+    /// `unit_metres` are those of the file's unit.
+    pub(super) fn of(object: &Object<'_, '_>, unit_metres: f64) -> Self {
         let vector = |name: &str, default| {
             object
                 .vector(name)
                 .filter(|vector| vector.is_finite())
                 .unwrap_or(default)
         };
-        let offset = |name: &str| vector(name, DVec3::ZERO);
-        // Orders and turns before and after count where the node says so, as all of 6.1 do.
+        let angles = |name: &str| vector(name, DVec3::ZERO);
+        let offset = |name: &str| vector(name, DVec3::ZERO) * unit_metres;
+        // With `RotationActive` 0, or for limits alone, rotation order, pre- and post-rotation are not used. 6.1 has no such property.
         let has_space = object.integer("RotationActive") != Some(0)
             && object.integer("RotationSpaceForLimitOnly").unwrap_or(0) == 0;
         let turned = |name: &str| match has_space {
-            true => RotationOrder::Xyz.rotation(offset(name)),
+            true => RotationOrder::Xyz.rotation(angles(name)),
             false => DQuat::IDENTITY,
         };
         let order = object.integer("RotationOrder").filter(|_| has_space);
         let order = order.map_or_else(RotationOrder::default, RotationOrder::from_number);
         Self {
             translation: offset("Lcl Translation"),
-            rotation: offset("Lcl Rotation"),
+            rotation: angles("Lcl Rotation"),
             scale: vector("Lcl Scaling", DVec3::ONE),
             order,
             inherit: match object.integer("InheritType") {
@@ -173,7 +175,7 @@ impl Transform {
             scaling_pivot: offset("ScalingPivot"),
             node_from_geometry: DAffine3::from_scale_rotation_translation(
                 vector("GeometricScaling", DVec3::ONE),
-                RotationOrder::Xyz.rotation(offset("GeometricRotation")),
+                RotationOrder::Xyz.rotation(angles("GeometricRotation")),
                 offset("GeometricTranslation"),
             ),
         }
@@ -203,7 +205,7 @@ impl Transform {
             scale,
         } = parts;
         let rotation = self.pre * self.order.rotation(rotation) * self.post_inverse;
-        // Both pivots move what lies beyond them: `x` below is `Sp + S · (v − Sp) + Soff` at v = 0, and what is turned is `x − Rp`.
+        // `scaled` is where the scaling pivot leaves the origin; the rotation turns `scaled − Rp` about the rotation pivot.
         let scaled = self.scaling_offset + self.scaling_pivot - scale * self.scaling_pivot;
         let origin =
             translation + self.rotation_offset + self.rotation_pivot + rotation * (scaled - self.rotation_pivot);

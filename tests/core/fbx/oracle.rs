@@ -31,6 +31,14 @@ const WITHOUT_VALUES: [&str; 2] = [
     "synthetic_unsafe_cube_7500_binary.fbx",
 ];
 
+/// Models are in metres.
+fn in_metres() -> LoadOpts<'static> {
+    LoadOpts {
+        target_unit_meters: 1.0,
+        ..LoadOpts::default()
+    }
+}
+
 fn matrix(matrix: &ufbx::Matrix) -> DAffine3 {
     DAffine3::from_cols_array(&[
         matrix.m00, matrix.m10, matrix.m20, matrix.m01, matrix.m11, matrix.m21, matrix.m02, matrix.m12, matrix.m22,
@@ -166,7 +174,7 @@ fn size(points: &[DVec3]) -> f64 {
 
 /// How far a file is off, as a part of its size: at rest, and in each clip.
 fn compare(bytes: &[u8], imported: &Imported) -> Result<Vec<(String, f64)>, String> {
-    let scene = ufbx::load_memory(bytes, LoadOpts::default())
+    let scene = ufbx::load_memory(bytes, in_metres())
         .map_err(|error| format!("ufbx does not read it: {}", &*error.description))?;
     let model = &imported.model;
     let theirs = all_points(&scene);
@@ -299,7 +307,7 @@ fn corners_off(model: &Model, scene: &Scene) -> f64 {
 fn vertices_have_what_ufbx_gives_them() {
     let mut wrong = Vec::new();
     for (name, bytes) in files("files") {
-        let (Ok(imported), Ok(scene)) = (import(&bytes), ufbx::load_memory(&bytes, LoadOpts::default())) else {
+        let (Ok(imported), Ok(scene)) = (import(&bytes), ufbx::load_memory(&bytes, in_metres())) else {
             continue;
         };
         // Normals of what is skinned are turned by its bones.
@@ -332,7 +340,7 @@ fn vertices_are_where_ufbx_has_them() {
             Ok(imported) => imported,
             Err(refused) => {
                 println!("{name}: {}", refused.error.message);
-                if ufbx::load_memory(&bytes, LoadOpts::default()).is_ok() && refused.error.code != "fbx-version" {
+                if ufbx::load_memory(&bytes, in_metres()).is_ok() && refused.error.code != "fbx-version" {
                     wrong.push(format!("{name}: refused: {}", refused.error.message));
                 }
                 continue;
@@ -373,7 +381,7 @@ fn joints_are_where_ufbx_has_them() {
     let mut wrong = Vec::new();
     let mut count = 0;
     for (name, bytes) in files("files").into_iter().chain(files("mixamo")).chain(own()) {
-        let (Ok(imported), Ok(scene)) = (import(&bytes), ufbx::load_memory(&bytes, LoadOpts::default())) else {
+        let (Ok(imported), Ok(scene)) = (import(&bytes), ufbx::load_memory(&bytes, in_metres())) else {
             continue;
         };
         let model = &imported.model;

@@ -46,6 +46,19 @@ struct Axes {
     without: [Option<f64>; 3],
 }
 
+impl Axes {
+    /// The same with lengths in metres.
+    fn in_metres(self, property: Property, unit_metres: f64) -> Self {
+        if property != Property::Translation {
+            return self;
+        }
+        Self {
+            curves: self.curves.map(|curve| curve.map(|curve| curve.scaled(unit_metres))),
+            without: self.without.map(|value| value.map(|value| value * unit_metres)),
+        }
+    }
+}
+
 /// How a layer comes over those below: Autodesk's `FbxAnimLayer::EBlendMode`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Blend {
@@ -101,8 +114,8 @@ impl Layer {
             }
             for parent in &curve_node.parents {
                 match (Property::named(&parent.property), node_of(nodes, parent.to)) {
-                    (Some(property), Some(node)) => {
-                        moved.insert((node, property), axes.clone());
+                    (Some(property), Some(model)) => {
+                        moved.insert((model, property), axes.clone().in_metres(property, file.settings.unit_metres));
                     }
                     _ if parent.property == "Weight" => weight_curve = axes.curves[0].clone(),
                     _ => (),
@@ -124,7 +137,7 @@ impl Layer {
     }
 
     /// The one layer of a take of 6.1.
-    pub(super) fn of_take(take: &Record<'_>, objects: &Objects<'_, '_>, nodes: &Nodes) -> Self {
+    pub(super) fn of_take(take: &Record<'_>, objects: &Objects<'_, '_>, nodes: &Nodes, unit_metres: f64) -> Self {
         let mut moved: Moved<Axes> = HashMap::new();
         for model in take.all("Model") {
             let Some(node) = model
@@ -148,7 +161,7 @@ impl Layer {
                     axes.curves[axis] =
                         Some(Curve::read_take(of_axis)).filter(|curve| curve.times_secs().next().is_some());
                 }
-                moved.insert((node, property), axes);
+                moved.insert((node, property), axes.in_metres(property, unit_metres));
             }
         }
         Self {
