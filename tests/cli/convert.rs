@@ -725,3 +725,30 @@ fn real_files_go_every_way() {
         assert_book_shows(&book, counts["bones"] != 0);
     }
 }
+
+#[test]
+fn a_character_and_its_motions_of_fbx_become_the_books_demo() {
+    let file = |name: &str| fixture(&format!("fbx/{name}.fbx"));
+    let (walker, walking, waving) = (file("walker"), file("walking"), file("waving"));
+    let motions = ["--add-clips", &*walking, "--add-clips", &*waving];
+    let glb = out("fbx", "walker.glb");
+    convert(&walker, &glb, &motions);
+    assert_eq!(clip_names(&glb), ["walking", "waving"]);
+    let book = out("fbx", "walker.m3d");
+    let told = convert(&walker, &book, &[&motions[..], &["--in-place", "walking", "--for-book"]].concat());
+    for code in ["in-place", "book-clip-name"] {
+        assert!(codes(&told["changes"]).contains(&code), "{told}");
+    }
+    assert!(codes(&told["losses"]).contains(&"joint-names"), "{told}");
+    assert_eq!(clip_names(&book), ["Take1", "waving"]);
+    assert!(words(["check", &book, "--book", "d3d12"]).contains("shows it"));
+    // What waves is posed alike, whatever its size.
+    for secs in [0.0, 0.5, 1.3] {
+        let [source, written] = [(&glb, "waving"), (&book, "waving")].map(|(file, clip)| lengths(&positions(file, clip, secs)));
+        let factor = written.iter().sum::<f64>() / source.iter().sum::<f64>();
+        assert_alike(&source, &written, factor, 1e-3);
+    }
+    let refused = run(["convert", &walker, &glb, "--add-clips", FIGURE]);
+    assert_eq!(refused.code, Some(1), "{}", refused.err);
+    assert!(refused.err.contains("clips-bones-differ"), "{}", refused.err);
+}

@@ -108,6 +108,12 @@ fn corpora(verb: &str) -> Result<(), Failure> {
     })
 }
 
+/// Files of others that another fuzzer damaged, where they are at hand.
+fn damaged(target: &str) -> Option<&'static str> {
+    const FOLDER: &str = "../shared/fbx/damaged";
+    (target == "fbx" && Path::new(FOLDER).is_dir()).then_some(FOLDER)
+}
+
 fn fuzz(program: &Path, target: &str, secs: u32) -> Result<(), Failure> {
     let found = format!("-artifact_prefix={}/found-{target}-", folder().display());
     let time = format!("-max_total_time={secs}");
@@ -115,6 +121,7 @@ fn fuzz(program: &Path, target: &str, secs: u32) -> Result<(), Failure> {
     let outcome = Line::new(&program.to_string_lossy())
         .env("BINDPOSE_FUZZ_TARGET", target)
         .args([&*corpus(target).to_string_lossy(), "tests/fixtures"])
+        .args(damaged(target))
         .args(LIMITS)
         .args([&*time, &found, "-print_final_stats=1"])
         .run_into(&mut printed);
