@@ -45,33 +45,46 @@ pub(super) enum Content<'a> {
     Numbers(Vec<f64>),
 }
 
-/// How many bytes the arrays of a file may become yet.
+/// How many bytes the arrays of a file may still become, and what is made of them.
 #[derive(Debug)]
-pub struct Budget(Cell<u64>);
+pub struct Budget {
+    arrays: Cell<u64>,
+    made: Cell<u64>,
+}
 
 impl Budget {
-    /// For a file of so many bytes. Arrays of zeros shrink a thousandfold, whole files do not.
+    /// For a file of so many bytes: a least one, and so many times the file for each of both.
     pub fn of_file(len: usize) -> Self {
-        const LEAST: u64 = 16 << 20;
+        const LEAST: u64 = 64 << 20;
         const GROWTH: u64 = 20;
-        Self(Cell::new(LEAST + GROWTH * len as u64))
+        let most = || Cell::new(LEAST + GROWTH * len as u64);
+        Self {
+            arrays: most(),
+            made: most(),
+        }
     }
 
-    /// Takes what is made of the file besides.
+    /// Takes bytes of what is made of the arrays.
     ///
     /// # Errors
     /// When there is no room left.
     pub fn keep(&self, bytes: u64, place: Place) -> Result<(), Fault> {
-        self.take(bytes, place)
+        take(&self.made, bytes, place)
     }
 
-    fn take(&self, bytes: u64, place: Place) -> Result<(), Fault> {
-        let left = self.0.get().checked_sub(bytes);
-        let left =
-            left.ok_or_else(|| place.damaged("The arrays of the file would become many times as large as the file."))?;
-        self.0.set(left);
-        Ok(())
+    /// Takes bytes that arrays become.
+    ///
+    /// # Errors
+    /// As [`keep`](Self::keep).
+    pub(super) fn unpack(&self, bytes: u64, place: Place) -> Result<(), Fault> {
+        take(&self.arrays, bytes, place)
     }
+}
+
+fn take(from: &Cell<u64>, bytes: u64, place: Place) -> Result<(), Fault> {
+    let left = from.get().checked_sub(bytes);
+    from.set(left.ok_or_else(|| place.damaged("What is in the file would become many times as large as the file."))?);
+    Ok(())
 }
 
 impl Array<'_> {
@@ -92,8 +105,14 @@ impl Array<'_> {
     /// Its numbers; `place` is that of its record.
     pub(super) fn numbers(&self, budget: &Budget, place: Place) -> Result<Vec<f64>, Fault> {
         match &self.0 {
-            Content::Numbers(numbers) => Ok(numbers.clone()),
-            Content::Integers(integers) => Ok(integers.iter().map(|&integer| integer as f64).collect()),
+            Content::Numbers(numbers) => {
+                budget.unpack(8 * numbers.len() as u64, place)?;
+                Ok(numbers.clone())
+            }
+            Content::Integers(integers) => {
+                budget.unpack(8 * integers.len() as u64, place)?;
+                Ok(integers.iter().map(|&integer| integer as f64).collect())
+            }
             Content::Packed { element, .. } => {
                 let bytes = self.unpacked(budget, place)?;
                 Ok(match element {
@@ -110,7 +129,10 @@ impl Array<'_> {
     /// Its numbers as whole ones; what follows the point is cut off.
     pub(super) fn integers(&self, budget: &Budget, place: Place) -> Result<Vec<i64>, Fault> {
         match &self.0 {
-            Content::Integers(integers) => Ok(integers.clone()),
+            Content::Integers(integers) => {
+                budget.unpack(8 * integers.len() as u64, place)?;
+                Ok(integers.clone())
+            }
             Content::Packed {
                 element: element @ (Element::U8 | Element::I32 | Element::I64),
                 ..
@@ -143,7 +165,7 @@ impl Array<'_> {
         let len = u64::from(*count) * element.size() as u64;
         let at = Place::Offset(*offset);
         let wrong = |found: String| at.damaged(format!("An array of {count} numbers takes {len} bytes; {found}."));
-        budget.take(len, place)?;
+        budget.unpack(len, place)?;
         if !is_deflated {
             if bytes.len() as u64 != len {
                 return Err(wrong(format!("it has {}", bytes.len())));

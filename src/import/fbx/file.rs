@@ -1,6 +1,6 @@
 //! A file while a model is made of it.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use glam::DAffine3;
 
@@ -14,10 +14,10 @@ pub(super) struct File<'f, 'a> {
     pub(super) document: &'f Document<'a>,
     pub(super) budget: Budget,
     pub(super) settings: Settings,
-    /// Where the bind pose has each bone.
+    /// Of each bone: bone -> world in the file's axes, as the bind pose has it.
     pub(super) bind_pose: HashMap<ObjectIndex, DAffine3>,
     /// Bones that a skin bound elsewhere.
-    pub(super) disagreeing: usize,
+    pub(super) disagreeing: BTreeSet<ObjectIndex>,
     pub(super) noted: Vec<Diagnostic>,
 }
 

@@ -20,17 +20,17 @@ fn kind(object: &Object<'_, '_>) -> Option<[&'static str; 2]> {
         }
         ("Model", "Camera" | "CameraSwitcher") | ("NodeAttribute", "Camera") => ["camera", "cameras"],
         ("Model" | "NodeAttribute", "Light") => ["light", "lights"],
-        ("Constraint" | "Character" | "ControlSetPlug", _) => {
+        ("Constraint" | "Character" | "ControlSetPlug" | "IKEffector" | "FKEffector", _) => {
             ["constraint or rig of a program", "constraints or rigs of a program"]
         }
         ("Deformer", "VertexCacheDeformer") | ("Cache", _) => ["cache of vertices", "caches of vertices"],
         ("NodeAttribute", "LodGroup") => [
-            "group of details, all of which are shown",
-            "groups of details, all of which are shown",
+            "choice of levels of detail: all are shown",
+            "choices of levels of detail: all are shown",
         ],
         ("LayeredTexture", _) => [
-            "layered texture, of which the first layer is shown",
-            "layered textures, of which the first layer is shown",
+            "further layer of a texture",
+            "further layers of textures",
         ],
         ("Audio" | "AudioLayer", _) => ["sound", "sounds"],
         _ => return None,
@@ -57,10 +57,10 @@ pub(super) fn note(file: &mut File<'_, '_>, objects: &Objects<'_, '_>, nodes: &N
         let message = format!("Not taken: {}{listed}{}.", counted(count, one, many), few(&names));
         file.note_of(place, &codes::FBX_LEFT_OUT, message);
     }
-    if file.disagreeing > 0 {
+    if !file.disagreeing.is_empty() {
         let message = format!(
             "{} bound in another way than the bind pose says; the skin is believed.",
-            counted(file.disagreeing, "bone is", "bones are")
+            counted(file.disagreeing.len(), "bone is", "bones are")
         );
         file.note(&codes::FBX_LEFT_OUT, message);
     }
@@ -74,11 +74,11 @@ pub(super) fn note(file: &mut File<'_, '_>, objects: &Objects<'_, '_>, nodes: &N
         file.note(&codes::FBX_OBJECTS_MERGED, message);
     }
     for (places, what) in [
-        (&objects.doubled, "has the number of another one; left out"),
-        (&objects.missing, "names what is not there; left out"),
+        (&objects.doubled, ["record has an id that another one has", "records have ids that others have"]),
+        (&objects.missing, ["record names an object that is not there", "records name objects that are not there"]),
     ] {
         if let Some(&place) = places.first() {
-            let message = format!("{} {what}.", counted(places.len(), "record", "records"));
+            let message = format!("{}; left out.", counted(places.len(), what[0], what[1]));
             file.note_of(place, &codes::FBX_RULE_BROKEN, message);
         }
     }

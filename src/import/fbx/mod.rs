@@ -19,7 +19,7 @@ mod settings;
 mod skins;
 mod transform;
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use glam::DAffine3;
 
@@ -60,7 +60,7 @@ pub(super) async fn import(bytes: &[u8], find: FindFile<'_>, slices: &Slices) ->
         budget: Budget::of_file(bytes.len()),
         settings: Settings::of(&document),
         bind_pose: HashMap::new(),
-        disagreeing: 0,
+        disagreeing: BTreeSet::new(),
         noted: Vec::new(),
     };
     let mut diagnostics = Diagnostics::default();

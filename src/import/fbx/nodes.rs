@@ -207,6 +207,11 @@ impl Nodes {
         models
     }
 
+    /// The file's axes -> the model's.
+    pub(super) fn model_from_file(&self) -> DAffine3 {
+        DAffine3::from_mat3(self.model_from_file)
+    }
+
     /// The models of the file, which are the first nodes.
     pub(super) fn models(&self) -> &[ObjectIndex] {
         &self.objects[..self.above.len()]

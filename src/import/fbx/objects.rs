@@ -4,7 +4,8 @@
 //! class in `Definitions`.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
 
 use glam::DVec3;
 
@@ -30,7 +31,7 @@ pub(super) struct Object<'f, 'a> {
     /// Those of its own.
     properties: Option<&'f Record<'a>>,
     /// Those of its class.
-    template: Option<&'f Record<'a>>,
+    template: Option<Rc<Template<'f, 'a>>>,
     /// What hangs on it, in the file's order.
     pub(super) children: Vec<Connection>,
     /// What it hangs on.
@@ -94,6 +95,7 @@ impl<'f, 'a> Objects<'f, 'a> {
             // Those of 6.1 have no number before the name.
             let at_name = usize::from(matches!(key, Key::Number(_)));
             let (name, _) = record.name_and_class(at_name).unwrap_or_default();
+            let name = shortened(name);
             let properties = record.find("Properties70").or_else(|| record.find("Properties60"));
             if by_key.contains_key(&key) {
                 objects.doubled.push(record.place);
@@ -105,11 +107,12 @@ impl<'f, 'a> Objects<'f, 'a> {
                 name,
                 kind: record.text(at_name + 1).unwrap_or_default(),
                 properties,
-                template: templates.get(&*record.name).copied(),
+                template: templates.get(&*record.name).cloned(),
                 children: Vec::new(),
                 parents: Vec::new(),
             });
         }
+        let mut known = HashSet::new();
         let connections = document.find("Connections").into_iter().flat_map(|all| &all.records);
         for record in connections.filter(|record| matches!(&*record.name, "C" | "Connect")) {
             let (Some(child), Some(parent)) = (key(record, 1), key(record, 2)) else {
@@ -119,6 +122,10 @@ impl<'f, 'a> Objects<'f, 'a> {
             match (of_child, of_parent) {
                 (Some(child), Some(parent)) => {
                     let property = record.text(3).unwrap_or_default().into_owned();
+                    // Some stand there twice.
+                    if !known.insert((child, parent, property.clone())) {
+                        continue;
+                    }
                     let connection = |to| Connection {
                         to,
                         property: property.clone(),
@@ -165,34 +172,50 @@ impl<'f, 'a> Objects<'f, 'a> {
     }
 }
 
+/// Names are told and kept for each use of an object.
+fn shortened(name: Cow<'_, str>) -> Cow<'_, str> {
+    const MOST_BYTES: usize = 1024;
+    if name.len() <= MOST_BYTES {
+        return name;
+    }
+    let end = (0..=MOST_BYTES).rev().find(|&end| name.is_char_boundary(end)).unwrap_or(0);
+    Cow::Owned(name[..end].to_owned())
+}
+
 /// The properties that objects of each class have, by its name.
-fn templates<'f, 'a>(document: &'f Document<'a>) -> HashMap<Cow<'f, str>, &'f Record<'a>> {
+fn templates<'f, 'a>(document: &'f Document<'a>) -> HashMap<Cow<'f, str>, Rc<Template<'f, 'a>>> {
     let types = document
         .find("Definitions")
         .into_iter()
         .flat_map(|all| all.all("ObjectType"));
     let of_type = |record: &'f Record<'a>| {
         let properties = record.find("PropertyTemplate")?.find("Properties70")?;
-        Some((record.text(0)?, properties))
+        let named = properties.records.iter();
+        let named = named.filter_map(|record| Some((record.bytes(0)?, (record, values_at(record)))));
+        Some((record.text(0)?, Rc::new(named.collect())))
     };
     types.filter_map(of_type).collect()
 }
 
-/// The record of a property, and where its values begin.
+/// Properties by their names: each has a record, and the index of its first value in it.
+type Template<'f, 'a> = HashMap<&'f [u8], (&'f Record<'a>, usize)>;
+
+/// The record of a property, and the index of its first value. Of two of one name the last one counts.
 pub(super) fn property<'s, 'a>(properties: &'s Record<'a>, name: &str) -> Option<(&'s Record<'a>, usize)> {
-    // Of two the last one counts.
-    let record = properties
-        .records
-        .iter()
-        .rfind(|record| record.bytes(0) == Some(name.as_bytes()))?;
-    // P: name, type, label, flags, values; Property: name, type, flags, values.
-    Some((record, if record.name == "P" { 4 } else { 3 }))
+    let mut named = properties.records.iter();
+    let record = named.rfind(|record| record.bytes(0) == Some(name.as_bytes()))?;
+    Some((record, values_at(record)))
+}
+
+/// `P: name, type, label, flags, values`; `Property: name, type, flags, values`.
+fn values_at(record: &Record<'_>) -> usize {
+    if record.name == "P" { 4 } else { 3 }
 }
 
 impl<'f, 'a> Object<'f, 'a> {
     fn property(&self, name: &str) -> Option<(&'f Record<'a>, usize)> {
-        let lists = [self.properties, self.template];
-        lists.into_iter().flatten().find_map(|list| property(list, name))
+        let own = self.properties.and_then(|properties| property(properties, name));
+        own.or_else(|| self.template.as_ref()?.get(name.as_bytes()).copied())
     }
 
     /// A property of the object's own or of its class.

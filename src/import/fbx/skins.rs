@@ -9,29 +9,84 @@ use crate::diagnostic::{Fault, codes};
 use crate::fbx::Record;
 use crate::import::scene::{Skin, is_invertible};
 
-/// The weights of a geometry's control points, and the bones of each slot.
-pub(super) struct Bound {
-    /// Bones and, of each, geometry -> bone. What stands behind the clusters is the node of the geometry itself, for points without weights.
-    pub(super) skin: Skin,
+/// What moves the control points of a geometry, wherever it is used.
+pub(super) struct Weights {
+    clusters: Vec<Cluster>,
+    /// Whether a point has no weight: it follows the node of its mesh, by a slot behind those of the clusters.
+    has_unweighted: bool,
     /// Weight and slot, by control point.
     pairs: Vec<(f32, u32)>,
     starts: Vec<u32>,
 }
 
-impl Bound {
-    /// Weights with their slots of a control point: all above 0.
+/// The bone of a cluster, and how it was bound as far as the file says it.
+struct Cluster {
+    node: u32,
+    /// The space of the mesh's node -> the bone's.
+    bone_from_node: Option<DAffine3>,
+    /// The bone -> the world, in the file's axes.
+    file_from_bone: Option<DAffine3>,
+}
+
+/// What a control point has at most; of more the greatest are taken.
+const MOST_PAIRS: usize = 64;
+
+impl Weights {
+    /// Weights with their slots of a control point: all above 0, with a sum of 1.
     pub(super) fn pairs(&self, control_point: u32) -> &[(f32, u32)] {
         let [start, end] = [0, 1].map(|step| self.starts[control_point as usize + step] as usize);
         &self.pairs[start..end]
     }
-}
 
-/// A cluster, as far as the file says it.
-struct Cluster {
-    node: u32,
-    bone_from_node: DAffine3,
-    points: Vec<i64>,
-    weights: Vec<f64>,
+    /// The skin of a mesh on a node.
+    pub(super) fn skin(&self, nodes: &Nodes, mesh_node: u32) -> Skin {
+        let model = |node: u32| nodes.scene.nodes[node as usize].model_from_node;
+        let node_from_geometry = nodes.transforms[mesh_node as usize].node_from_geometry;
+        let slots = self.clusters.iter().map(|cluster| {
+            // Where a cluster does not say how it was bound, it was as the scene stands.
+            let at_rest = || match cluster.file_from_bone {
+                Some(file_from_bone) => (nodes.model_from_file() * file_from_bone).inverse() * model(mesh_node),
+                None => model(cluster.node).inverse() * model(mesh_node),
+            };
+            (cluster.node, cluster.bone_from_node.unwrap_or_else(at_rest) * node_from_geometry)
+        });
+        let slots = slots.chain(self.has_unweighted.then_some((mesh_node, node_from_geometry)));
+        let (joints, joint_from_mesh) = slots.unzip();
+        Skin {
+            joints,
+            joint_from_mesh,
+        }
+    }
+
+    /// Of entries with control point, weight and slot, each point below `count`.
+    fn of(clusters: Vec<Cluster>, mut entries: Vec<(u32, f32, u32)>, count: usize) -> Self {
+        // By point; of one point the greatest come first, and stay in the order of the clusters where they are equal.
+        entries.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
+        let of_node = clusters.len() as u32;
+        let mut weights = Self {
+            clusters,
+            has_unweighted: false,
+            pairs: Vec::with_capacity(entries.len()),
+            starts: Vec::with_capacity(count + 1),
+        };
+        let mut rest = entries.as_slice();
+        for point in 0..count as u32 {
+            weights.starts.push(weights.pairs.len() as u32);
+            let (of_point, others) = rest.split_at(rest.partition_point(|entry| entry.0 <= point));
+            rest = others;
+            let of_point = &of_point[..of_point.len().min(MOST_PAIRS)];
+            // FBX takes weights as parts of their sum.
+            let sum: f64 = of_point.iter().map(|&(_, weight, _)| f64::from(weight)).sum();
+            let parts = of_point.iter().map(|&(_, weight, slot)| ((f64::from(weight) / sum) as f32, slot));
+            weights.pairs.extend(parts.filter(|&(weight, _)| weight > 0.0));
+            if of_point.is_empty() {
+                weights.has_unweighted = true;
+                weights.pairs.push((1.0, of_node));
+            }
+        }
+        weights.starts.push(weights.pairs.len() as u32);
+        weights
+    }
 }
 
 /// The first skin of a geometry; `None` where it has none, or none of its bones is there.
@@ -42,9 +97,9 @@ pub(super) fn read(
     file: &mut File<'_, '_>,
     objects: &Objects<'_, '_>,
     nodes: &Nodes,
-    (geometry, mesh_node): (ObjectIndex, u32),
+    geometry: ObjectIndex,
     control_point_count: usize,
-) -> Result<Option<Bound>, Fault> {
+) -> Result<Option<Weights>, Fault> {
     let geometry = objects.get(geometry);
     let mut skins = objects
         .children(geometry, "Deformer")
@@ -54,77 +109,29 @@ pub(super) fn read(
         let message = format!("\"{}\" has several skins; the first moves it.", geometry.name);
         file.note_of(other.record.place, &codes::FBX_LEFT_OUT, message);
     }
-    let is_dual = skin
-        .record
-        .find("SkinningType")
-        .and_then(|kind| kind.text(0))
-        .is_some_and(|kind| matches!(&*kind, "DualQuaternion" | "Blend"));
-    if is_dual {
-        let message = format!(
-            "\"{}\" is skinned by dual quaternions; here it is linearly.",
-            geometry.name
-        );
+    let method = skin.record.find("SkinningType").and_then(|kind| kind.text(0));
+    if method.is_some_and(|kind| matches!(&*kind, "DualQuaternion" | "Blend")) {
+        let name = &geometry.name;
+        let message = format!("\"{name}\" is skinned by dual quaternions; here it is linearly.");
         file.note_of(skin.record.place, &codes::FBX_LEFT_OUT, message);
     }
-    let node_from_geometry = nodes.transforms[mesh_node as usize].node_from_geometry;
     let mut clusters = Vec::new();
-    for (_, cluster) in objects
-        .children(skin, "Deformer")
-        .filter(|(_, deformer)| deformer.kind == "Cluster")
-    {
-        clusters.extend(self::cluster(file, objects, nodes, cluster, mesh_node)?);
+    let mut entries = Vec::new();
+    let all = objects.children(skin, "Deformer");
+    for (_, cluster) in all.filter(|(_, deformer)| deformer.kind == "Cluster") {
+        let mut add = |point: i64, weight: f64, slot: usize| {
+            let weight = weight as f32;
+            let point = usize::try_from(point).ok().filter(|&point| point < control_point_count);
+            if let Some(point) = point.filter(|_| weight.is_finite() && weight > 0.0) {
+                entries.push((point as u32, weight, slot as u32));
+            }
+        };
+        let slot = clusters.len();
+        let read = self::cluster(file, objects, nodes, cluster, |point, weight| add(point, weight, slot))?;
+        clusters.extend(read);
     }
-    if clusters.is_empty() {
-        return Ok(None);
-    }
-    // By control point, in the order of the clusters.
-    let is_weight = |weight: f64| weight.is_finite() && weight > 0.0;
-    let entries = || {
-        clusters.iter().enumerate().flat_map(|(slot, cluster)| {
-            let pairs = cluster.points.iter().zip(&cluster.weights);
-            let pairs = pairs.filter_map(|(&point, &weight)| Some((usize::try_from(point).ok()?, weight)));
-            pairs
-                .filter(|&(point, weight)| point < control_point_count && is_weight(weight))
-                .map(move |(point, weight)| (point, weight as f32, slot as u32))
-        })
-    };
-    let mut starts = vec![0u32; control_point_count + 1];
-    entries().for_each(|(point, _, _)| starts[point + 1] += 1);
-    let rests = starts[1..].contains(&0);
-    if rests {
-        starts[1..].iter_mut().for_each(|count| *count = (*count).max(1));
-    }
-    for point in 0..control_point_count {
-        starts[point + 1] += starts[point];
-    }
-    let of_node = clusters.len() as u32;
-    let mut pairs = vec![(1.0, of_node); starts[control_point_count] as usize];
-    let mut next = starts.clone();
-    for (point, weight, slot) in entries() {
-        pairs[next[point] as usize] = (weight, slot);
-        next[point] += 1;
-    }
-    // FBX takes weights as parts of their sum.
-    for point in 0..control_point_count {
-        let of_point = &mut pairs[starts[point] as usize..starts[point + 1] as usize];
-        let sum: f64 = of_point.iter().map(|&(weight, _)| f64::from(weight)).sum();
-        of_point
-            .iter_mut()
-            .for_each(|(weight, _)| *weight = (f64::from(*weight) / sum) as f32);
-    }
-    let slots = clusters
-        .iter()
-        .map(|cluster| (cluster.node, cluster.bone_from_node * node_from_geometry));
-    let slots = slots.chain(rests.then_some((mesh_node, node_from_geometry)));
-    let (joints, joint_from_mesh) = slots.unzip();
-    Ok(Some(Bound {
-        skin: Skin {
-            joints,
-            joint_from_mesh,
-        },
-        pairs,
-        starts,
-    }))
+    let is_none = clusters.is_empty();
+    Ok((!is_none).then(|| Weights::of(clusters, entries, control_point_count)))
 }
 
 fn cluster(
@@ -132,63 +139,37 @@ fn cluster(
     objects: &Objects<'_, '_>,
     nodes: &Nodes,
     cluster: &Object<'_, '_>,
-    mesh_node: u32,
+    add: impl FnMut(i64, f64),
 ) -> Result<Option<Cluster>, Fault> {
     let record = cluster.record;
-    let Some(node) = objects
-        .children(cluster, "Model")
-        .find_map(|(model, _)| nodes.node_of[model.index()])
-    else {
+    let mut bones = objects.children(cluster, "Model");
+    let bone = bones.find_map(|(model, _)| Some((model, nodes.node_of[model.index()]?)));
+    let Some((bone, node)) = bone else {
         let message = format!("Cluster \"{}\" names no bone; its weights are left out.", cluster.name);
         file.note_of(record.place, &codes::FBX_RULE_BROKEN, message);
         return Ok(None);
     };
-    let budget = &file.budget;
-    let integers = |name: &str| {
-        record
-            .find(name)
-            .map_or_else(|| Ok(Vec::new()), |found| found.integers(budget))
-    };
-    let numbers = |name: &str| {
-        record
-            .find(name)
-            .map_or_else(|| Ok(Vec::new()), |found| found.numbers(budget))
-    };
-    let (points, weights) = (integers("Indexes")?, numbers("Weights")?);
-    let [transform, link] = ["Transform", "TransformLink"].map(|name| record.find(name));
-    let matrix = |found: Option<&Record<'_>>| found.map_or(Ok(None), |found| matrix(found, file));
-    let (bone_from_node, model_from_bone) = (matrix(transform)?, matrix(link)?);
-    let model = |node: u32| nodes.scene.nodes[node as usize].model_from_node;
-    // Where a cluster does not say how it was bound, it was as the scene stands.
-    let at_rest = || model_from_bone.unwrap_or_else(|| model(node)).inverse() * model(mesh_node);
-    let bone_from_node = bone_from_node.filter(is_invertible).unwrap_or_else(at_rest);
+    let points = record.find("Indexes").map_or_else(|| Ok(Vec::new()), |found| found.integers(&file.budget))?;
+    let weights = record.find("Weights").map_or_else(|| Ok(Vec::new()), |found| found.numbers(&file.budget))?;
     if points.len() != weights.len() {
-        let message = format!(
-            "Cluster \"{}\" has {} control points, but {} weights.",
-            cluster.name,
-            points.len(),
-            weights.len()
-        );
+        let counts = format!("{} control points, but {} weights", points.len(), weights.len());
+        let message = format!("Cluster \"{}\" has {counts}.", cluster.name);
         file.note_of(record.place, &codes::FBX_RULE_BROKEN, message);
     }
-    if let (Some(link), Some(posed)) = (
-        model_from_bone,
-        file.bind_pose.get(&cluster_bone(objects, cluster)).copied(),
-    ) && !link.abs_diff_eq(posed, 1e-3 * (1.0 + link.translation.length()))
+    let mut add = add;
+    points.iter().zip(&weights).for_each(|(&point, &weight)| add(point, weight));
+    let matrix = |name: &str| record.find(name).map_or(Ok(None), |found| matrix(found, file));
+    let (bone_from_node, file_from_bone) = (matrix("Transform")?, matrix("TransformLink")?);
+    if let (Some(link), Some(posed)) = (file_from_bone, file.bind_pose.get(&bone))
+        && !link.abs_diff_eq(*posed, 1e-3 * (1.0 + link.translation.length()))
     {
-        file.disagreeing += 1;
+        file.disagreeing.insert(bone);
     }
     Ok(Some(Cluster {
         node,
-        bone_from_node: bone_from_node,
-        points,
-        weights,
+        bone_from_node: bone_from_node.filter(is_invertible),
+        file_from_bone: file_from_bone.filter(is_invertible),
     }))
-}
-
-fn cluster_bone(objects: &Objects<'_, '_>, cluster: &Object<'_, '_>) -> ObjectIndex {
-    let mut bones = objects.children(cluster, "Model");
-    bones.next().map_or(ObjectIndex(u32::MAX), |(bone, _)| bone)
 }
 
 /// Sixteen numbers, column by column as we have them; lengths in metres.
