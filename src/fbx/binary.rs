@@ -141,8 +141,7 @@ impl<'a> Reader<'a> {
         let [name_len] = self.array()?;
         let name = String::from_utf8_lossy(self.take(usize::from(name_len))?);
         let values_end = self.at + head.values_len;
-        // The smallest value has two bytes.
-        let mut values = Vec::with_capacity((head.value_count as usize).min(head.values_len / 2));
+        let mut values = Vec::new();
         for _ in 0..head.value_count {
             values.push(self.value()?);
         }

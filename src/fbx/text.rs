@@ -26,6 +26,8 @@ struct Reader<'a> {
     at: usize,
     line: u32,
     line_start: usize,
+    /// Whether it reads an array: none lies in another.
+    in_array: bool,
 }
 
 pub(super) async fn parse<'a>(bytes: &'a [u8], slices: &Slices) -> Result<Document<'a>, Fault> {
@@ -34,6 +36,7 @@ pub(super) async fn parse<'a>(bytes: &'a [u8], slices: &Slices) -> Result<Docume
         at: bytes.len() - bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).len(),
         line: 1,
         line_start: 0,
+        in_array: false,
     };
     let told = version_of_comment(bytes);
     if let Some(version) = told {
@@ -261,6 +264,9 @@ impl<'a> Reader<'a> {
     /// `*3 { a: 1,2,3 }`.
     fn array(&mut self) -> Result<Value<'a>, Fault> {
         let place = self.place();
+        if std::mem::replace(&mut self.in_array, true) {
+            return Err(place.damaged("An array lies in an array."));
+        }
         self.at += 1;
         let count = self.word();
         self.skip_space();
@@ -282,6 +288,7 @@ impl<'a> Reader<'a> {
             return Err(self.place().damaged("An array has more than numbers, or does not end."));
         }
         self.at += 1;
+        self.in_array = false;
         let array = match <[Value<'a>; 1]>::try_from(values) {
             Ok([Value::Array(array)]) => array,
             Ok([single]) => numbers_of(vec![single]),

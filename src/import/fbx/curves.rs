@@ -9,7 +9,7 @@ use crate::fbx::{Budget, Document, Record, Value};
 pub(super) const TICKS_PER_SEC: f64 = 46_186_158_000.0;
 
 /// So many keys are added at most where a curve repeats them.
-const MOST_REPEATED: usize = 10_000;
+const MOST_REPEATED: usize = 1000;
 
 /// Of a tangent without a weight of its own: a third of the way to the next key.
 const PLAIN_WEIGHT: f64 = 1.0 / 3.0;
@@ -167,7 +167,7 @@ impl Curve {
                 run += 1;
                 left = counts[run];
             }
-            left -= 1;
+            left = left.saturating_sub(1);
             let flags = flags.get(run).copied().unwrap_or_default();
             let data = data
                 .get(4 * run..4 * run + 4)

@@ -10,6 +10,9 @@ use crate::fbx::Document;
 use crate::import::scene::{self, Scene};
 use crate::model::Tag;
 
+/// Of so many models above it the scale of one depends at most: chains of joints that do not inherit scale are shorter.
+const MOST_DEPTH: usize = 64;
+
 /// Nodes, with what only FBX knows of them.
 ///
 /// A node whose scale differs by axis, and does not act wholly on what is below, becomes two: a rigid one, and on it one that scales. The first have the
@@ -205,6 +208,9 @@ impl Nodes {
         {
             models.push(above);
             at = above;
+            if models.len() == MOST_DEPTH {
+                break;
+            }
         }
         models
     }

@@ -78,7 +78,7 @@ pub(super) fn read(
         return Ok(None);
     }
     // By control point, in the order of the clusters.
-    let is_weight = |weight: f64| weight.is_finite() && weight > 0.0;
+    let is_weight = |weight: f64| (weight as f32).is_finite() && weight as f32 > 0.0;
     let entries = || {
         clusters.iter().enumerate().flat_map(|(slot, cluster)| {
             let pairs = cluster.points.iter().zip(&cluster.weights);
