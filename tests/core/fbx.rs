@@ -330,3 +330,11 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn arrays_in_arrays_and_runs_without_end_are_an_answer() {
+    let nested = format!("; FBX 7.4.0 project file\nA: {}", "*{a:".repeat(200_000));
+    assert_eq!(fault(nested.as_bytes()).message, "An array lies in an array.");
+    let counts = format!("{TEXT}Runs: {}", i64::MIN);
+    assert!(parse(counts.as_bytes()).is_ok());
+}

@@ -8,6 +8,9 @@ use super::transform::{Inherit, Local, Parts, Transform};
 use crate::import::scene::{self, Scene};
 use crate::model::Tag;
 
+/// Of so many models above it the scale of one depends at most: chains of joints that do not inherit scale are shorter.
+const MOST_DEPTH: usize = 64;
+
 /// Nodes, with what only FBX knows of them.
 ///
 /// A model whose scale differs by axis, and does not act wholly on its children, becomes two nodes: a rigid parent, and a child that only scales. The
@@ -203,6 +206,9 @@ impl Nodes {
         {
             models.push(above);
             at = above;
+            if models.len() == MOST_DEPTH {
+                break;
+            }
         }
         models
     }

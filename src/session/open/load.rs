@@ -216,7 +216,9 @@ pub(in crate::session) async fn load_whole(
     let mut joined = before.as_ref().map_or(Vec::new(), |before| before.open.joined.clone());
     joined.extend(motions_beside(&files, &joined));
     let (mut open, same) = match &before {
-        Some(before) if before.is_same(&files, file, slices).await => (Arc::clone(&before.open), Some(before)),
+        Some(before) if joined.is_empty() && before.is_same(&files, file, slices).await => {
+            (Arc::clone(&before.open), Some(before))
+        }
         _ => (Arc::new(read_whole(&files, file, &joined, slices).await?), None),
     };
     let pictures = files.images().chain(&open.pictures).cloned();

@@ -150,7 +150,7 @@ test("of a folder archives and what cannot be read yet arrive too, and notes do 
 test("the dialog for clips offers models, archives and buffers, and the one for any file offers all", () => {
   const inputs = Object.fromEntries(["files", "folder", "clips"].map((name) => [name, { addEventListener() {} }]));
   takeChoices(inputs, { receive() {}, refuse() {} });
-  assert.deepEqual([inputs.files.accept, inputs.clips.accept], [undefined, ".m3d,.glb,.gltf,.zip,.bin"]);
+  assert.deepEqual([inputs.files.accept, inputs.clips.accept], [undefined, ".m3d,.glb,.gltf,.fbx,.zip,.bin"]);
 });
 
 /** States around an opening: the number of the opening that brought the model, or null, and an error. */

@@ -152,5 +152,5 @@ test("a visit begins with what was open, else once with what the page is for", (
   ]) {
     assert.equal(greeting(before), words);
   }
-  assert.match(greeting({}), /drop a \.m3d, \.glb or a folder\. Files stay on this machine\.$/);
+  assert.match(greeting({}), /drop a \.m3d, \.glb, \.fbx or a folder\. Files stay on this machine\.$/);
 });
