@@ -1,7 +1,7 @@
 //! Clips of one skeleton for another one: bones that have the same name move alike.
 //!
-//! A bone's frame is where its children lie in it. Where both skeletons have their children at the same places, up to one scale, frames are the same and the
-//! keys are taken as they are. Elsewhere a motion is kept relative to the rest pose: `P · R′ · R′₀⁻¹ · P⁻¹ · R₀`, where R′ is the other's rotation, R′₀ and R₀ are
+//! Two bones have the same frame where their children have the same local positions, up to one scale for the whole skeleton. Where most bones have, the keys
+//! are taken as they are. Elsewhere a motion is kept relative to the rest pose: `P · R′ · R′₀⁻¹ · P⁻¹ · R₀`, where R′ is the other's rotation, R′₀ and R₀ are
 //! both at rest, and P leads from the space of the other's parent to that of ours, both at rest.
 
 use std::collections::HashMap;
@@ -25,11 +25,9 @@ pub struct Retargeted {
     pub at_rest: Vec<String>,
     /// Whether the motion was kept relative to the rest pose.
     pub is_relative: bool,
-    /// Our size as a part of theirs, by the distances between bones.
-    pub scale: f64,
 }
 
-/// A name as programs share it: without what stands before a colon, and without `mixamorig`, numbered or not, which some leave without one.
+/// The part of a bone's name that programs agree on: without anything up to the last colon, and without `mixamorig`, a number or `_` after it.
 pub fn common_name(name: &str) -> &str {
     let name = name.rsplit(':').next().unwrap_or(name);
     match name.strip_prefix("mixamorig") {
@@ -83,7 +81,7 @@ impl AtRest {
     }
 }
 
-/// How long bones of ours are as a part of theirs: that of the middle one.
+/// The lengths of our bones over those of theirs: the median.
 fn scale(places: &[[DVec3; 2]]) -> f64 {
     let ratios = places.iter().map(|[our, their]| our.length() / their.length());
     let mut ratios: Vec<f64> = ratios.filter(|ratio| ratio.is_finite() && *ratio > 0.0).collect();
@@ -134,7 +132,7 @@ pub fn retarget(ours: &Skeleton, theirs: &Skeleton, clips: &[Clip]) -> Result<Op
         return Ok(None);
     }
     let rests = [AtRest::of(ours), AtRest::of(theirs)];
-    // Both ends of a bone have to be there to compare it.
+    // Only a bone whose parent is found too has a length to compare.
     let is_inner = |&(joint, found): &(JointIndex, JointIndex)| {
         let parents = [ours.parents()[joint.index()], theirs.parents()[found.index()]];
         matches!(parents, [Some(our), Some(their)] if pairs[our.index()] == Some(their))
@@ -160,17 +158,17 @@ pub fn retarget(ours: &Skeleton, theirs: &Skeleton, clips: &[Clip]) -> Result<Op
             };
             let (our_turn, our_scale) = rests[0].above(ours, joint);
             let (their_turn, their_scale) = rests[1].above(theirs, found);
-            let way = Way {
+            let map = BoneMap {
                 // Parents with the same frame may rest in another pose.
                 from_theirs: match have_same_frames && is_inner(&(joint, found)) {
                     true => DQuat::IDENTITY,
                     false => (our_turn.inverse() * their_turn).normalize(),
                 },
-                scale: scale * their_scale / our_scale,
+                scale: Some(scale * their_scale / our_scale).filter(|scale| scale.is_finite()).unwrap_or(scale),
                 rests: [rest, theirs.rest()[found.index()]],
                 is_relative: !have_same_frames,
             };
-            tracks.push(way.track(&clip.tracks[found.index()])?);
+            tracks.push(map.track(&clip.tracks[found.index()])?);
         }
         of_clips.push(Clip::new(clip.name.clone(), tracks));
     }
@@ -189,12 +187,11 @@ pub fn retarget(ours: &Skeleton, theirs: &Skeleton, clips: &[Clip]) -> Result<Op
             .map(|(joint, _)| name(ours, joint))
             .collect(),
         is_relative: !have_same_frames,
-        scale,
     }))
 }
 
 /// How the keys of a bone become those of ours.
-struct Way {
+struct BoneMap {
     /// From the space of the other's parent to that of ours, at rest: P.
     from_theirs: DQuat,
     /// Of lengths, on that way.
@@ -204,7 +201,7 @@ struct Way {
     is_relative: bool,
 }
 
-impl Way {
+impl BoneMap {
     /// Whether keys stay as they are.
     fn is_plain(&self) -> bool {
         !self.is_relative && self.from_theirs.w.abs() >= 1.0 - 1e-12 && (self.scale - 1.0).abs() <= 1e-5
@@ -227,16 +224,14 @@ impl Way {
             (before * DQuat::from_xyzw(x, y, z, w) * after).as_quat()
         };
         let place = |place: Vec3| before.mul_vec3(place.as_dvec3() * self.scale).as_vec3();
-        let sizes = match self.is_relative {
-            true => {
-                our.scale.as_dvec3()
-                    / their
-                        .scale
-                        .as_dvec3()
-                        .map(|number| if number == 0.0 { 1.0 } else { number })
-            }
-            false => DVec3::ONE,
+        let ratio = |our: f32, their: f32| {
+            let ratio = f64::from(our) / f64::from(their);
+            // Far from 1 it is of another unit; a stretched pose is not.
+            let is_unit = !(0.5..2.0).contains(&ratio.abs());
+            if ratio.is_finite() && (self.is_relative || is_unit) { ratio } else { 1.0 }
         };
+        let (our_scale, their_scale) = (our.scale.to_array(), their.scale.to_array());
+        let sizes = DVec3::from_array(std::array::from_fn(|axis| ratio(our_scale[axis], their_scale[axis])));
         let offset = match self.is_relative {
             true => our.translation - place(their.translation),
             false => Vec3::ZERO,

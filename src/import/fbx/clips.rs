@@ -6,12 +6,16 @@
 mod fitting;
 mod layers;
 
+use std::cell::Cell;
+use std::collections::HashMap;
+use std::rc::Rc;
+
 use self::fitting::{Fitted, Source};
 use self::layers::{Layer, Property};
 use super::curves::TICKS_PER_SEC;
 use super::file::File;
 use super::nodes::Nodes;
-use super::objects::Objects;
+use super::objects::{ObjectIndex, Objects};
 use super::transform::{Local, Parts, Transform, is_even};
 use crate::diagnostic::codes;
 use crate::diagnostic::collect::counted;
@@ -24,12 +28,18 @@ use crate::slices::Slices;
 /// a chain of ten, nothing is off by a ten-thousandth.
 pub(super) const MOST_OFF: f64 = 5e-6;
 
+/// More tracks than this do not come from a file of a character.
+const MOST_TRACKS: usize = 1_000_000;
+
+/// Between two keys a joint is asked for as often as it turns by so much: a whole turn would be seen by no one who looks at both its ends.
+const MOST_TURN_DEGREES: f64 = 60.0;
+
 /// A stack: what it is called, when it is, and its layers, the lowest first.
 pub(super) struct Stack {
     name: String,
     /// Where it says so. In seconds.
     span_secs: Option<[f64; 2]>,
-    layers: Vec<Layer>,
+    layers: Vec<Rc<Layer>>,
 }
 
 impl Stack {
@@ -39,12 +49,19 @@ impl Stack {
     /// When an array of a curve is damaged.
     pub(super) fn all(file: &File<'_, '_>, objects: &Objects<'_, '_>, nodes: &Nodes) -> Result<Vec<Self>, Fault> {
         let mut stacks = Vec::new();
+        let mut known_layers: HashMap<ObjectIndex, Rc<Layer>> = HashMap::new();
+        let mut curves = HashMap::new();
         for (_, stack) in objects.of_class("AnimationStack") {
             let secs = |name: &str| stack.number(name).map(|ticks| ticks / TICKS_PER_SEC);
-            let layers = objects.children(stack, "AnimationLayer");
-            let layers = layers
-                .map(|(_, layer)| Layer::read(file, objects, nodes, layer))
-                .collect::<Result<_, _>>()?;
+            let mut layers = Vec::new();
+            for (index, layer) in objects.children(stack, "AnimationLayer") {
+                let known = match known_layers.get(&index) {
+                    Some(known) => Rc::clone(known),
+                    None => Rc::new(Layer::read((file, &mut curves), objects, nodes, (index, layer))?),
+                };
+                known_layers.insert(index, Rc::clone(&known));
+                layers.push(known);
+            }
             stacks.push(Self {
                 name: stack.name.clone().into_owned(),
                 span_secs: secs("LocalStart").zip(secs("LocalStop")).map(Into::into),
@@ -66,7 +83,7 @@ impl Stack {
                 stacks.push(Self {
                     name: take.text(0).unwrap_or_default().into_owned(),
                     span_secs: span.map(|span| span.map(|ticks| ticks / TICKS_PER_SEC)),
-                    layers: vec![layer],
+                    layers: vec![Rc::new(layer)],
                 });
             }
         }
@@ -78,7 +95,7 @@ impl Stack {
         let mut is_moved = vec![false; nodes.transforms.len()];
         self.layers
             .iter()
-            .flat_map(Layer::models)
+            .flat_map(|layer| layer.models())
             .for_each(|model| is_moved[model as usize] = true);
         for node in 0..nodes.scene.nodes.len() as u32 {
             let by_own = is_moved[nodes.model_of(node) as usize];
@@ -100,7 +117,8 @@ impl Stack {
 
     /// From when to when it is, where it says so.
     fn span(&self) -> Option<[f64; 2]> {
-        self.span_secs.filter(|[start, end]| start < end)
+        let is_one = |[start, end]: &[f64; 2]| start < end && start.is_finite() && end.is_finite();
+        self.span_secs.filter(is_one)
     }
 
     /// The parts of a model at a time.
@@ -136,12 +154,39 @@ impl Stack {
             times.insert(0, start);
             times.push(end);
         }
-        // Nearer ones would be the same to a clip.
+        if properties.contains(&Property::Rotation) {
+            let added = self.turning(nodes, nodes.model_of(node), &times);
+            times.extend(added);
+            times.sort_by(f64::total_cmp);
+        }
+        // Equal ones as a clip has them.
         times.dedup_by(|next, before| *next as f32 <= *before as f32);
         times
     }
 
-    fn track(&self, nodes: &Nodes, node: u32, rest: LocalJoint, size: f64) -> Result<Track, Fault> {
+    /// Times between those at which a model turns far.
+    fn turning(&self, nodes: &Nodes, model: u32, times: &[f64]) -> Vec<f64> {
+        const MOST_PIECES: f64 = 128.0;
+        let transform = &nodes.transforms[model as usize];
+        let degrees = |secs: f64, is_before| self.parts(transform, model, secs, is_before).rotation;
+        let mut added = Vec::new();
+        for &[from, to] in times.array_windows() {
+            let turn = (degrees(to, true) - degrees(from, false)).abs().max_element();
+            let pieces = (turn / MOST_TURN_DEGREES).ceil().clamp(1.0, MOST_PIECES) as u32;
+            added.extend((1..pieces).map(|piece| from + (to - from) * f64::from(piece) / f64::from(pieces)));
+        }
+        added
+    }
+
+    /// `evaluations_left` is how often joints of the file may still be asked for.
+    fn track(
+        &self,
+        nodes: &Nodes,
+        node: u32,
+        rest: LocalJoint,
+        size: f64,
+        evaluations_left: &Cell<u64>,
+    ) -> Result<Track, Fault> {
         let all = [Property::Translation, Property::Rotation, Property::Scale];
         let of = |property: Property| {
             let transform = &nodes.transforms[node as usize];
@@ -166,6 +211,7 @@ impl Stack {
                 },
                 is_rotation: property == Property::Rotation,
                 tolerance,
+                evaluations_left,
             };
             source.fitted(&self.times(nodes, node, of(property)))
         };
@@ -192,16 +238,23 @@ pub(super) async fn clips(
     slices: &Slices,
 ) -> Result<Vec<Clip>, Fault> {
     let mut read = Vec::new();
-    for stack in stacks {
+    // Tracks whose numbers are too great for any.
+    let mut unwritten = 0;
+    let most = MOST_TRACKS / rig.node_of_joint.len().max(1);
+    for stack in &stacks[..stacks.len().min(most)] {
         let mut tracks = Vec::with_capacity(rig.node_of_joint.len());
         for (joint, (&node, &rest)) in (0u32..).zip(rig.node_of_joint.iter().zip(rig.skeleton.rest())) {
             slices.pause().await;
             let stands_in = rig.joint_of_node[node as usize] != Some(joint);
-            tracks.push(if stands_in {
+            // A joint that stands in for another has no motion of its own.
+            let track = match stands_in {
+                true => Ok(Track::at_rest(rest)),
+                false => stack.track(nodes, node, rest, size, &file.evaluations_left),
+            };
+            tracks.push(track.unwrap_or_else(|_| {
+                unwritten += 1;
                 Track::at_rest(rest)
-            } else {
-                stack.track(nodes, node, rest, size)?
-            });
+            }));
         }
         if tracks.iter().any(Track::has_keys) {
             read.push((stack, tracks));
@@ -211,6 +264,21 @@ pub(super) async fn clips(
         let message = format!("Another clip has the same name; this one is shown as \"{name}\".");
         file.note_about(Subject::Clip(index), &codes::DUPLICATE_CLIP_NAME, message);
     });
+    if unwritten > 0 {
+        let message = format!(
+            "{} numbers that overflow; at rest.",
+            counted(unwritten, "track has", "tracks have")
+        );
+        file.note(&codes::FBX_RULE_BROKEN, message);
+    }
+    if stacks.len() > most {
+        let message = format!("{} beyond what fits into memory; left out.", counted(stacks.len() - most, "clip is", "clips are"));
+        file.note(&codes::FBX_LEFT_OUT, message);
+    }
+    if file.evaluations_left.get() == 0 {
+        let message = "There are more curves than can be followed exactly; some are straight between their keys.".to_owned();
+        file.note(&codes::FBX_LEFT_OUT, message);
+    }
     let layered = read.iter().filter(|(stack, _)| stack.layers.len() > 1).count();
     if layered > 0 {
         let message = format!(

@@ -215,15 +215,6 @@ impl Curve {
         growing.curve(beyond(record))
     }
 
-    /// The same curve with values so many times as great.
-    pub(super) fn scaled(mut self, factor: f64) -> Self {
-        for key in &mut self.keys {
-            key.value *= factor;
-            key.slopes = key.slopes.map(|slope| slope * factor);
-        }
-        self
-    }
-
     /// Its keys' times, in seconds.
     pub(super) fn times_secs(&self) -> impl Iterator<Item = f64> + '_ {
         self.keys.iter().map(|key| key.secs)

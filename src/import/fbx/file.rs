@@ -1,5 +1,6 @@
 //! A file while a model is made of it.
 
+use std::cell::Cell;
 use std::collections::{BTreeSet, HashMap};
 
 use glam::DAffine3;
@@ -14,6 +15,8 @@ pub(super) struct File<'f, 'a> {
     pub(super) document: &'f Document<'a>,
     pub(super) budget: Budget,
     pub(super) settings: Settings,
+    /// How often joints may still be asked for where they are: curves can be made that no keys follow.
+    pub(super) evaluations_left: Cell<u64>,
     /// Of each bone: bone -> world in the file's axes, as the bind pose has it.
     pub(super) bind_pose: HashMap<ObjectIndex, DAffine3>,
     /// Bones that a skin bound elsewhere.

@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 
 use glam::Vec3;
-use rustc_hash::FxHashMap;
 
 use super::file::File;
 use crate::diagnostic::collect::counted;
@@ -132,7 +131,8 @@ impl Layer {
 
 /// For each value the index of its first equal one, compared as `f32`: many files repeat a value for each corner.
 fn firsts(values: &[f64], width: usize) -> Vec<u32> {
-    let mut known = FxHashMap::default();
+    // Hashed with a key: a file could make all rows fall on one place of a quicker map.
+    let mut known = HashMap::new();
     let rows = (0u32..).zip(values.chunks_exact(width));
     let row = |row: &[f64]| -> [u32; 4] {
         std::array::from_fn(|index| row.get(index).map_or(0, |&number| (number as f32).to_bits()))
@@ -185,10 +185,11 @@ pub(super) async fn read(
         control_point_count: points.len(),
         ..Geometry::default()
     };
-    let mut known: FxHashMap<(u32, [Option<usize>; 5]), u32> = FxHashMap::default();
+    let mut known: HashMap<(u32, [Option<usize>; 5]), u32> = HashMap::new();
     let mut parts: HashMap<usize, usize> = HashMap::new();
     let mut of_polygon: Vec<u32> = Vec::new();
     let mut without_values = 0;
+    let mut tests_left = MOST_TESTS + TESTS_PER_CORNER * corners.len();
     for (polygon, range) in polygons(&corners).enumerate() {
         slices.pause_before(polygon).await;
         of_polygon.clear();
@@ -230,7 +231,7 @@ pub(super) async fn read(
             });
         }
         let positions = &geometry.vertices.positions;
-        triangulate(&of_polygon, positions, &mut geometry.parts[part].triangles);
+        triangulate(&of_polygon, positions, &mut geometry.parts[part].triangles, &mut tests_left);
     }
     geometry.parts.sort_by_key(|part| part.material);
     let open = corners.iter().rev().take_while(|corner| **corner >= 0).count();
@@ -310,7 +311,7 @@ fn material_layer(record: &Record<'_>, budget: &Budget) -> Result<Option<Materia
 }
 
 /// Cuts a polygon into triangles whose corners run as its own do.
-fn triangulate(polygon: &[u32], positions: &[[f32; 3]], triangles: &mut Vec<[u32; 3]>) {
+fn triangulate(polygon: &[u32], positions: &[[f32; 3]], triangles: &mut Vec<[u32; 3]>, tests_left: &mut usize) {
     if let &[a, b, c] = polygon {
         triangles.push([a, b, c]);
         return;
@@ -326,13 +327,12 @@ fn triangulate(polygon: &[u32], positions: &[[f32; 3]], triangles: &mut Vec<[u32
         .sum();
     let mut at = 0;
     let mut tried = 0;
-    let mut budget = MOST_TESTS;
     // What is left when the tests are used up is cut like a fan.
-    while left.len() > 3 && budget > 0 {
+    while left.len() > 3 && *tests_left > 0 {
         let count = left.len();
         let [before, ear, after] = [(at + count - 1) % count, at % count, (at + 1) % count].map(|place| left[place]);
         // An outline that crosses itself has no ear at the end.
-        let is_cut = tried >= count || is_ear(&outline, &left, [before, ear, after], normal, &mut budget);
+        let is_cut = tried >= count || is_ear(&outline, &left, [before, ear, after], normal, tests_left);
         if is_cut {
             triangles.push([before, ear, after].map(|place| polygon[place]));
             left.remove(at % count);
@@ -347,8 +347,9 @@ fn triangulate(polygon: &[u32], positions: &[[f32; 3]], triangles: &mut Vec<[u32
     triangles.extend(fan.map(|&[b, c]| [left[0], b, c].map(|place| polygon[place])));
 }
 
-/// Tests of a corner against a triangle in one polygon: enough for one of a thousand corners, whatever its shape.
+/// Tests of a corner against a triangle in one geometry: enough for a polygon of a thousand corners, whatever its shape, and for all small ones.
 const MOST_TESTS: usize = 1_000_000;
+const TESTS_PER_CORNER: usize = 16;
 
 /// Whether a corner can be cut off: it bends outwards, and no other corner lies in it.
 fn is_ear(
@@ -356,15 +357,15 @@ fn is_ear(
     left: &[usize],
     [a, b, c]: [usize; 3],
     normal: glam::DVec3,
-    budget: &mut usize,
+    tests_left: &mut usize,
 ) -> bool {
-    *budget = budget.saturating_sub(1);
+    *tests_left = tests_left.saturating_sub(1);
     let side = |from: glam::DVec3, to: glam::DVec3, point: glam::DVec3| (to - from).cross(point - from).dot(normal);
     let corners @ [pa, pb, pc] = [a, b, c].map(|place| outline[place]);
     if side(pa, pb, pc) <= 0.0 {
         return false;
     }
-    *budget = budget.saturating_sub(left.len());
+    *tests_left = tests_left.saturating_sub(left.len());
     let is_inside =
         |point: glam::DVec3| side(pa, pb, point) >= 0.0 && side(pb, pc, point) >= 0.0 && side(pc, pa, point) >= 0.0;
     let others = left.iter().filter(|place| ![a, b, c].contains(place));

@@ -7,7 +7,7 @@ use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 
 use super::objects::{Object, ObjectIndex, Objects};
-use crate::fbx::{Record, Value};
+use crate::fbx::Record;
 use crate::gltf::FindFile;
 use crate::import::Picture;
 use crate::model::unique_names;
@@ -30,9 +30,12 @@ impl Images {
         let mut of_texture = Vec::with_capacity(textures.len());
         for (index, texture) in textures {
             let Some(path) = path(objects, texture) else { continue };
-            let place = *known.entry(path.to_lowercase()).or_insert(paths.len());
+            // What lies in the file is one picture, whatever its textures call it.
+            let video = with_content(objects, texture);
+            let key = video.map_or_else(|| path.to_lowercase(), |(video, _)| format!("#{}", video.index()));
+            let place = *known.entry(key).or_insert(paths.len());
             if place == paths.len() {
-                inside.push(content(objects, texture));
+                inside.push(video.and_then(|(_, record)| content(record)));
                 paths.push(path);
             }
             of_texture.push((index, place));
@@ -78,7 +81,7 @@ impl Images {
 pub(super) fn beside(objects: &Objects<'_, '_>) -> Vec<String> {
     let textures = objects
         .of_class("Texture")
-        .filter(|(_, texture)| content(objects, texture).is_none());
+        .filter(|(_, texture)| with_content(objects, texture).is_none());
     let mut paths: Vec<String> = textures.filter_map(|(_, texture)| path(objects, texture)).collect();
     paths.sort();
     paths.dedup();
@@ -111,24 +114,25 @@ fn base(path: &str) -> &str {
     path.rsplit('/').next().unwrap_or(path)
 }
 
-/// The bytes of a texture's picture inside the file. Text has them in base 64, in pieces.
-fn content<'f>(objects: &Objects<'f, '_>, texture: &Object<'f, '_>) -> Option<Cow<'f, [u8]>> {
-    let records: Vec<&'f Record<'_>> = objects
-        .children(texture, "Video")
-        .filter_map(|(_, video)| video.record.find("Content"))
-        .collect();
-    let values = records
-        .into_iter()
-        .find(|record| record.bytes(0).is_some_and(|bytes| !bytes.is_empty()))?;
-    if let [Value::Text(bytes)] = values.values.as_slice()
-        && BASE64_STANDARD.decode(bytes).is_err()
-    {
-        return Some(Cow::Borrowed(bytes));
+/// The object that has the bytes of a texture's picture in the file, and the record of them.
+fn with_content<'f, 'a>(objects: &Objects<'f, 'a>, texture: &Object<'f, 'a>) -> Option<(ObjectIndex, &'f Record<'a>)> {
+    let mut videos = objects.children(texture, "Video");
+    videos.find_map(|(index, video)| {
+        let record = video.record.find("Content")?;
+        let has_bytes = record.bytes(0).is_some_and(|bytes| !bytes.is_empty());
+        has_bytes.then_some((index, record))
+    })
+}
+
+/// The bytes of a picture. Text has them in base 64, in pieces; one value that is none are the bytes themselves.
+fn content<'f>(record: &'f Record<'_>) -> Option<Cow<'f, [u8]>> {
+    let mut decoded = Vec::new();
+    for index in 0..record.values.len() {
+        match BASE64_STANDARD.decode(record.bytes(index)?) {
+            Ok(piece) => decoded.extend(piece),
+            Err(_) if record.values.len() == 1 => return record.bytes(0).map(Cow::Borrowed),
+            Err(_) => (),
+        }
     }
-    let pieces = (0..values.values.len()).filter_map(|index| values.bytes(index));
-    let decoded: Vec<u8> = pieces
-        .filter_map(|piece| BASE64_STANDARD.decode(piece).ok())
-        .flatten()
-        .collect();
     (!decoded.is_empty()).then_some(Cow::Owned(decoded))
 }

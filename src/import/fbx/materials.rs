@@ -243,22 +243,23 @@ fn opacity(object: &Object<'_, '_>) -> f32 {
     if opacity > 0.0 { opacity.min(1.0) } else { 1.0 }
 }
 
+/// A material has a map for each of its properties.
+const MOST_TEXTURES: usize = 64;
+
 /// The maps of a material by the properties on which they hang; those of its models without any by no name.
 fn maps(objects: &Objects<'_, '_>, material: &Object<'_, '_>, images: &Images) -> Vec<(String, MaterialMap)> {
     let textures = |object: &Object<'_, '_>| {
         let textures = object
             .children
             .iter()
-            .filter_map(|child| Some((child.property.clone(), texture(objects, child.to)?)));
+            .filter_map(|child| Some((child.property.clone(), texture(objects, child.to)?)))
+            .take(MOST_TEXTURES);
         textures.collect::<Vec<_>>()
     };
     let mut found = textures(material);
     if found.is_empty() {
-        let models = material.parents.iter().map(|parent| objects.get(parent.to));
-        found = models
-            .filter(|parent| parent.record.name == "Model")
-            .flat_map(textures)
-            .collect();
+        let mut models = material.parents.iter().map(|parent| objects.get(parent.to));
+        found = models.find(|parent| parent.record.name == "Model").map(textures).unwrap_or_default();
     }
     let named = found.into_iter().filter_map(|(property, texture)| {
         let name = images.name(texture)?.to_owned();

@@ -9,7 +9,7 @@ use super::geometry::{self, Geometry};
 use super::materials::Materials;
 use super::nodes::{self, Nodes};
 use super::objects::{ObjectIndex, Objects};
-use super::skins::{self, Bound};
+use super::skins::{self, Weights};
 use crate::diagnostic::collect::{Diagnostics, counted};
 use crate::diagnostic::{Fault, codes};
 use crate::fbx::Place;
@@ -20,13 +20,13 @@ use crate::slices::{Slices, Stage};
 /// What is kept of a mesh on each node: all streams of a vertex, and three indices.
 const BYTES_PER_VERTEX: u64 = 104;
 const BYTES_PER_TRIANGLE: u64 = 12;
+/// And of a skin on each: two matrices of a slot, and a joint that may stand in.
+const BYTES_PER_SLOT: u64 = 320;
 
 /// The geometries that nodes have, with their skins.
 #[derive(Default)]
 pub(super) struct Meshes {
-    geometries: Vec<(ObjectIndex, Geometry)>,
-    /// Of each use of a mesh, in the scene's order.
-    bound: Vec<Option<Bound>>,
+    geometries: Vec<(ObjectIndex, Geometry, Option<Weights>)>,
 }
 
 /// The meshes of a scene as one.
@@ -65,7 +65,7 @@ impl Meshes {
         uses.sort();
         for (at, &(index, node)) in uses.iter().enumerate() {
             slices.pause_at(Stage::Building, at, uses.len()).await;
-            if meshes.geometries.last().is_none_or(|(before, _)| *before != index) {
+            if meshes.geometries.last().is_none_or(|(before, ..)| *before != index) {
                 let object = objects.get(index);
                 let geometry = geometry::read((object.record, &object.name), file, slices).await?;
                 if geometry.left_out > 0 {
@@ -76,20 +76,24 @@ impl Meshes {
                     );
                     file.note_of(object.record.place, &codes::FBX_LEFT_OUT, message);
                 }
+                let weights = skins::read(file, objects, nodes, index, geometry.control_point_count)?;
                 nodes.scene.meshes.push(Arc::new(nodes::tag(object)));
-                meshes.geometries.push((index, geometry));
+                meshes.geometries.push((index, geometry, weights));
             }
             let mesh = meshes.geometries.len() - 1;
-            let geometry = &meshes.geometries[mesh].1;
+            let (_, geometry, weights) = &meshes.geometries[mesh];
             if geometry.parts.is_empty() {
                 continue;
             }
             let triangles: usize = geometry.parts.iter().map(|part| part.triangles.len()).sum();
-            let bytes = BYTES_PER_VERTEX * geometry.control_points.len() as u64 + BYTES_PER_TRIANGLE * triangles as u64;
+            let slots = weights.as_ref().map_or(0, Weights::slot_count);
+            let bytes = BYTES_PER_VERTEX * geometry.control_points.len() as u64
+                + BYTES_PER_TRIANGLE * triangles as u64
+                + BYTES_PER_SLOT * slots as u64;
             file.budget.keep(bytes, objects.get(index).record.place)?;
-            let mut bound = skins::read(file, objects, nodes, (index, node), geometry.control_point_count)?;
-            let skin = bound.as_mut().map(|bound| {
-                nodes.scene.skins.push(Some(bound.skin.clone()));
+            let skin = weights.as_ref().map(|weights| {
+                let skin = weights.skin(nodes, node);
+                nodes.scene.skins.push(Some(skin));
                 nodes.scene.skins.len() - 1
             });
             nodes.scene.uses.push(MeshUse {
@@ -98,7 +102,6 @@ impl Meshes {
                 skin,
                 is_on_node: skin.is_none(),
             });
-            meshes.bound.push(bound);
         }
         Ok(meshes)
     }
@@ -119,18 +122,18 @@ impl Meshes {
         let normal_maps = materials.materials.iter().any(|material| material.normal_map.is_some());
         let mut builder = MeshBuilder::new(normal_maps, false);
         let mut places = Vec::new();
-        for (at, (mesh, bound)) in scene.uses.iter().zip(&self.bound).enumerate() {
+        for (at, mesh) in scene.uses.iter().enumerate() {
             slices.pause_at(Stage::Building, at, scene.uses.len()).await;
-            let (object, geometry) = &self.geometries[mesh.mesh];
+            let (object, geometry, weights) = &self.geometries[mesh.mesh];
             let place = objects.get(*object).record.place;
             let start = builder.vertex_count() as u32;
-            let influences = influences(&mut builder, geometry, bound.as_ref(), rig, mesh);
-            let node_from_geometry = match bound {
+            let influences = influences(&mut builder, geometry, weights.as_ref(), rig, mesh);
+            let node_from_geometry = match weights {
                 // A skin's matrices have it.
                 Some(_) => DAffine3::IDENTITY,
                 None => nodes.transforms[mesh.node as usize].node_from_geometry,
             };
-            let placement = rig.placement(mesh, bound.is_some()) * node_from_geometry;
+            let placement = rig.placement(mesh, weights.is_some()) * node_from_geometry;
             let too_many = || {
                 Box::new(place.says(
                     &codes::FBX_DAMAGED,
@@ -162,12 +165,12 @@ impl Meshes {
 fn influences(
     builder: &mut MeshBuilder,
     geometry: &Geometry,
-    bound: Option<&Bound>,
+    weights: Option<&Weights>,
     rig: &Rig,
     mesh: &MeshUse,
 ) -> Vec<Influences> {
     let count = geometry.control_points.len();
-    let (Some(bound), Some(joints)) = (bound, rig.slots(mesh, true)) else {
+    let (Some(weights), Some(joints)) = (weights, rig.slots(mesh, true)) else {
         let influences = rig.influences_on(mesh.node);
         return influences.map_or_else(Vec::new, |influences| vec![influences; count]);
     };
@@ -176,7 +179,7 @@ fn influences(
     let all = (first..).zip(&geometry.control_points).map(|(vertex, &point)| {
         pairs.clear();
         pairs.extend(
-            bound
+            weights
                 .pairs(point)
                 .iter()
                 .map(|&(weight, slot)| (weight, joints[slot as usize])),

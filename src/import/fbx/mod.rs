@@ -19,6 +19,7 @@ mod settings;
 mod skins;
 mod transform;
 
+use std::cell::Cell;
 use std::collections::{BTreeSet, HashMap};
 
 use glam::DAffine3;
@@ -59,6 +60,8 @@ pub(super) async fn import(bytes: &[u8], find: FindFile<'_>, slices: &Slices) ->
         document: &document,
         budget: Budget::of_file(bytes.len()),
         settings: Settings::of(&document),
+        // A key takes a dozen bytes, and is asked for a dozen times.
+        evaluations_left: Cell::new(4_000_000 + 8 * bytes.len() as u64),
         bind_pose: HashMap::new(),
         disagreeing: BTreeSet::new(),
         noted: Vec::new(),
@@ -188,5 +191,6 @@ fn size(positions: &[glam::Vec3], skeleton: &Skeleton) -> f64 {
         [] => Aabb::from_points(joints),
         positions => Aabb::from_points(positions.iter().copied()),
     };
-    f64::from(bounds.size().length())
+    let size = f64::from(bounds.size().length());
+    if size > 0.0 && size.is_finite() { size } else { 1.0 }
 }

@@ -38,6 +38,10 @@ impl Weights {
         &self.pairs[start..end]
     }
 
+    pub(super) fn slot_count(&self) -> usize {
+        self.clusters.len() + usize::from(self.has_unweighted)
+    }
+
     /// The skin of a mesh on a node.
     pub(super) fn skin(&self, nodes: &Nodes, mesh_node: u32) -> Skin {
         let model = |node: u32| nodes.scene.nodes[node as usize].model_from_node;

@@ -165,20 +165,18 @@ async fn are_same(a: &[u8], b: &[u8], slices: &Slices) -> bool {
     are_same
 }
 
-/// The motions of a drop, as Mixamo gives them, but those that joined before.
-fn motions_beside(files: &FileSet, joined: &[JoinedFile]) -> Vec<JoinedFile> {
-    let is_known = |motion: &File| {
-        joined
-            .iter()
-            .any(|joined| joined.file.base_name() == motion.base_name())
-    };
+/// The motions of a drop, as Mixamo gives them, join after those of before; one of the same name takes its place.
+fn join_motions(files: &FileSet, joined: &mut Vec<JoinedFile>) {
     let mut motions = files.motions();
-    motions.retain(|motion| !is_known(motion));
     motions.sort_by_key(|motion| motion.path.to_lowercase());
-    motions
-        .into_iter()
-        .map(|motion| JoinedFile::of(motion, files))
-        .collect()
+    for motion in motions {
+        let now = JoinedFile::of(motion, files);
+        let same = |joined: &&mut JoinedFile| joined.file.base_name() == motion.base_name();
+        match joined.iter_mut().find(same) {
+            Some(before) => *before = now,
+            None => joined.push(now),
+        }
+    }
 }
 
 async fn read_whole(
@@ -214,7 +212,7 @@ pub(in crate::session) async fn load_whole(
     slices: &Slices,
 ) -> Result<Box<Loaded>, Box<LoadError>> {
     let mut joined = before.as_ref().map_or(Vec::new(), |before| before.open.joined.clone());
-    joined.extend(motions_beside(&files, &joined));
+    join_motions(&files, &mut joined);
     let (mut open, same) = match &before {
         Some(before) if joined.is_empty() && before.is_same(&files, file, slices).await => {
             (Arc::clone(&before.open), Some(before))

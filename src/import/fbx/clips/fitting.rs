@@ -1,12 +1,14 @@
 //! From what is asked at any time to the keys of a channel.
 
+use std::cell::Cell;
+
 use glam::{DQuat, DVec4};
 
 use crate::diagnostic::Fault;
 use crate::model::{Channel, ChannelValue};
 
-/// Into so many halves a way between two keys is cut at most.
-const MOST_HALVES: u32 = 7;
+/// So often an interval between two keys is halved at most: into 128 pieces.
+const MOST_HALVINGS: u32 = 7;
 
 /// A value over time. Vectors have 0 as their fourth number.
 pub(super) struct Source<'a> {
@@ -15,6 +17,8 @@ pub(super) struct Source<'a> {
     pub(super) is_rotation: bool,
     /// How far keys may be off.
     pub(super) tolerance: f64,
+    /// How often it may still be asked.
+    pub(super) evaluations_left: &'a Cell<u64>,
 }
 
 /// Keys with times in seconds.
@@ -43,22 +47,30 @@ struct Way {
 }
 
 impl Source<'_> {
+    fn at(&self, secs: f64, is_before: bool) -> DVec4 {
+        self.evaluations_left.set(self.evaluations_left.get().saturating_sub(1));
+        (self.at)(secs, is_before)
+    }
+
     pub(super) fn fitted(&self, times: &[f64]) -> Fitted {
         let Some(&first) = times.first() else {
             return Fitted::Rest(None);
         };
-        let start = (self.at)(first, false);
+        let start = self.at(first, false);
+        if !start.is_finite() {
+            return Fitted::Rest(None);
+        }
         let ways: Vec<[f64; 2]> = times.array_windows().copied().collect();
         let is_near = |a: DVec4, b: DVec4, part: f64| self.distance(a, b) <= part * self.tolerance;
         // The three places that are looked at between two keys, and what is there.
         let probes =
-            |[from, to]: [f64; 2]| [0.25, 0.5, 0.75].map(|part| (part, (self.at)(from + (to - from) * part, false)));
-        let ends = |[from, to]: [f64; 2]| [(self.at)(from, false), (self.at)(to, true)];
+            |[from, to]: [f64; 2]| [0.25, 0.5, 0.75].map(|part| (part, self.at(from + (to - from) * part, false)));
+        let ends = |[from, to]: [f64; 2]| [self.at(from, false), self.at(to, true)];
         let stays = |&way: &[f64; 2]| {
             let [from, to] = ends(way);
             is_near(from, to, 0.1) && probes(way).iter().all(|(_, value)| is_near(from, *value, 0.1))
         };
-        let values = || times.iter().map(|&secs| (secs as f32, (self.at)(secs, false)));
+        let values = || times.iter().map(|&secs| (secs as f32, self.at(secs, false)));
         if ways.iter().all(stays) {
             let moves = values().any(|(_, value)| !is_near(start, value, 0.1));
             return if moves {
@@ -69,7 +81,7 @@ impl Source<'_> {
         }
         let is_straight = |&way: &[f64; 2]| {
             let [from, to] = ends(way);
-            is_near(to, (self.at)(way[1], false), 1.0)
+            is_near(to, self.at(way[1], false), 1.0)
                 && probes(way)
                     .iter()
                     .all(|&(part, value)| is_near(self.between(from, to, part), value, 1.0))
@@ -79,7 +91,7 @@ impl Source<'_> {
         }
         let mut knots = Vec::with_capacity(2 * times.len());
         for way in ways {
-            self.add(way, MOST_HALVES, &mut knots);
+            self.add(way, MOST_HALVINGS, &mut knots);
         }
         Fitted::Spline(knots)
     }
@@ -88,12 +100,12 @@ impl Source<'_> {
     fn add(&self, way: [f64; 2], halves: u32, knots: &mut Vec<Knot>) {
         let spline = self.way(way);
         let is_near = |part: f64| {
-            let wanted = (self.at)(way[0] + (way[1] - way[0]) * part, false);
+            let wanted = self.at(way[0] + (way[1] - way[0]) * part, false);
             self.distance(self.unit(spline.at(part)), wanted) <= self.tolerance
         };
         let middle = 0.5 * (way[0] + way[1]);
         let has_middle = way[0] as f32 <= (middle as f32).next_down() && middle as f32 <= (way[1] as f32).next_down();
-        if halves > 0 && has_middle && ![0.25, 0.5, 0.75].into_iter().all(is_near) {
+        if halves > 0 && has_middle && self.evaluations_left.get() > 0 && ![0.25, 0.5, 0.75].into_iter().all(is_near) {
             self.add([way[0], middle], halves - 1, knots);
             self.add([middle, way[1]], halves - 1, knots);
             return;
@@ -139,8 +151,8 @@ impl Source<'_> {
     /// The spline of a way by values and slopes at both ends.
     fn way(&self, [from, to]: [f64; 2]) -> Way {
         let step = (to - from) * 1e-3;
-        let start = (self.at)(from, false);
-        let at = |secs: f64, is_before| self.near((self.at)(secs, is_before), start);
+        let start = self.at(from, false);
+        let at = |secs: f64, is_before| self.near(self.at(secs, is_before), start);
         let end = at(to, true);
         // One-sided differences of four places.
         let slope = |end: DVec4, step: f64| {

@@ -1,6 +1,7 @@
 //! A layer of a stack: curves of nodes, and how they come over the layers below.
 
 use std::collections::HashMap;
+use std::rc::Rc;
 
 use glam::DVec3;
 
@@ -42,21 +43,8 @@ impl Property {
 /// A curve for each axis, and what stands where there is none.
 #[derive(Clone, Debug, Default)]
 struct Axes {
-    curves: [Option<Curve>; 3],
+    curves: [Option<Rc<Curve>>; 3],
     without: [Option<f64>; 3],
-}
-
-impl Axes {
-    /// The same with lengths in metres.
-    fn in_metres(self, property: Property, unit_metres: f64) -> Self {
-        if property != Property::Translation {
-            return self;
-        }
-        Self {
-            curves: self.curves.map(|curve| curve.map(|curve| curve.scaled(unit_metres))),
-            without: self.without.map(|value| value.map(|value| value * unit_metres)),
-        }
-    }
 }
 
 /// How a layer comes over those below: Autodesk's `FbxAnimLayer::EBlendMode`.
@@ -74,7 +62,9 @@ pub(super) struct Layer {
     blend: Blend,
     /// Of the layer, 0…1.
     weight: f64,
-    weight_curve: Option<Curve>,
+    weight_curve: Option<Rc<Curve>>,
+    /// Metres of a unit of its translations.
+    unit_metres: f64,
     /// Whether rotations follow each other, where angles add up otherwise; and whether scales multiply.
     turns: bool,
     multiplies: bool,
@@ -87,16 +77,16 @@ impl Layer {
     /// # Errors
     /// When an array of a curve is damaged.
     pub(super) fn read(
-        file: &File<'_, '_>,
+        (file, curves): (&File<'_, '_>, &mut HashMap<ObjectIndex, Rc<Curve>>),
         objects: &Objects<'_, '_>,
         nodes: &Nodes,
-        layer: &Object<'_, '_>,
+        (index, layer): (ObjectIndex, &Object<'_, '_>),
     ) -> Result<Self, Fault> {
         let mut moved: Moved<Axes> = HashMap::new();
         let mut weight_curve = None;
         for (_, curve_node) in objects.children(layer, "AnimationCurveNode") {
             let mut axes = Axes {
-                without: ["d|X", "d|Y", "d|Z"].map(|name| curve_node.number(name)),
+                without: ["d|X", "d|Y", "d|Z"].map(|name| curve_node.number(name).filter(|number| number.is_finite())),
                 ..Axes::default()
             };
             for child in &curve_node.children {
@@ -110,14 +100,19 @@ impl Layer {
                     "d|Z" => 2,
                     _ => continue,
                 };
-                axes.curves[axis] = Some(Curve::read(curve.record, file.document, &file.budget)?);
+                let known = match curves.get(&child.to) {
+                    Some(known) => Rc::clone(known),
+                    None => Rc::new(Curve::read(curve.record, file.document, &file.budget)?),
+                };
+                curves.insert(child.to, Rc::clone(&known));
+                axes.curves[axis] = Some(known);
             }
             for parent in &curve_node.parents {
                 match (Property::named(&parent.property), node_of(nodes, parent.to)) {
                     (Some(property), Some(model)) => {
-                        moved.insert((model, property), axes.clone().in_metres(property, file.settings.unit_metres));
+                        moved.insert((model, property), axes.clone());
                     }
-                    _ if parent.property == "Weight" => weight_curve = axes.curves[0].clone(),
+                    _ if parent.property == "Weight" && parent.to == index => weight_curve = axes.curves[0].clone(),
                     _ => (),
                 }
             }
@@ -132,6 +127,7 @@ impl Layer {
             weight_curve,
             turns: layer.integer("RotationAccumulationMode").unwrap_or(0) == 0,
             multiplies: layer.integer("ScaleAccumulationMode").unwrap_or(0) == 0,
+            unit_metres: file.settings.unit_metres,
             moved,
         })
     }
@@ -159,13 +155,14 @@ impl Layer {
                     };
                     axes.without[axis] = of_axis.find("Default").and_then(|default| default.number(0));
                     axes.curves[axis] =
-                        Some(Curve::read_take(of_axis)).filter(|curve| curve.times_secs().next().is_some());
+                        Some(Rc::new(Curve::read_take(of_axis))).filter(|curve| curve.times_secs().next().is_some());
                 }
-                moved.insert((node, property), axes.in_metres(property, unit_metres));
+                moved.insert((node, property), axes);
             }
         }
         Self {
             moved,
+            unit_metres,
             ..Self::default()
         }
     }
@@ -221,11 +218,15 @@ impl Layer {
                 continue;
             };
             let below = property.of(parts);
-            let mut value = *below;
+            let is_over = !is_lowest && self.blend == Blend::Additive;
+            // Where it says nothing of an axis, it adds nothing.
+            let nothing = if property == Property::Scale { DVec3::ONE } else { DVec3::ZERO };
+            let mut value = if is_over { nothing } else { *below };
+            let unit = if property == Property::Translation { self.unit_metres } else { 1.0 };
             for axis in 0..3 {
                 let curve = axes.curves[axis].as_ref().and_then(|curve| curve.at(secs, is_before));
                 if let Some(number) = curve.or(axes.without[axis]) {
-                    value[axis] = number;
+                    value[axis] = number * unit;
                 }
             }
             if is_lowest || (self.blend == Blend::Override && self.weight >= 1.0 && self.weight_curve.is_none()) {
