@@ -233,11 +233,16 @@ impl Fitted {
             Self::Rest(Some(still)) => Ok(Channel::at_rest(value(still))),
             Self::Straight(found) => Channel::straight(keys(found)),
             Self::Held(found) => Channel::held(keys(found)),
-            Self::Spline(knots) => Channel::spline(
-                knots
-                    .into_iter()
-                    .map(|knot| (knot.secs, value(knot.value), knot.slopes.map(&value))),
-            ),
+            Self::Spline(mut knots) => {
+                // Keys that are nearer to each other than numbers for them stand side by side.
+                let mut free_secs = f32::NEG_INFINITY;
+                for knot in &mut knots {
+                    knot.secs = knot.secs.max(free_secs);
+                    free_secs = knot.secs.next_up();
+                }
+                let keys = knots.into_iter();
+                Channel::spline(keys.map(|knot| (knot.secs, value(knot.value), knot.slopes.map(&value))))
+            }
         }
     }
 }
