@@ -741,7 +741,8 @@ fn a_character_and_its_motions_of_fbx_become_the_books_demo() {
     }
     assert!(codes(&told["losses"]).contains(&"joint-names"), "{told}");
     assert_eq!(clip_names(&book), ["Take1", "waving"]);
-    assert!(words(["check", &book, "--book", "d3d12"]).contains("shows it"));
+    let check = run(["check", &book, "--book", "d3d12"]);
+    assert!(check.out.contains("shows it"), "{}", check.out);
     // What waves is posed alike, whatever its size.
     for secs in [0.0, 0.5, 1.3] {
         let [source, written] = [(&glb, "waving"), (&book, "waving")].map(|(file, clip)| lengths(&positions(file, clip, secs)));

@@ -205,7 +205,7 @@ fn an_array_is_no_larger_than_its_bytes_allow() {
     let vertices = of_mesh(&document).find("Vertices").expect("it is there");
     let budget = Budget::of_file(0);
     let times = (0..).take_while(|_| vertices.numbers(&budget).is_ok()).count();
-    assert_eq!(times, (16 << 20) / 800);
+    assert_eq!(times, (64 << 20) / 800);
 }
 
 #[test]
