@@ -34,15 +34,28 @@ def export(name, things, bakes):
         bake_anim_use_all_actions=False, bake_anim_simplify_factor=0, object_types={"ARMATURE", "MESH"})
 
 
-export("walker.fbx", [rig, body], False)
-hips = rig.pose.bones["mixamorig:Hips"]
-for name, file in (("Walk cycle", "walking.fbx"), ("Wave", "waving.fbx")):
-    action = bpy.data.actions[name]
+def take(action):
     for pose in rig.pose.bones:
         pose.location, pose.rotation_euler = (0, 0, 0), (0, 0, 0)
     rig.animation_data.action = action
     first, last = (int(frame) for frame in action.frame_range)
     bpy.context.scene.frame_start, bpy.context.scene.frame_end = first, last
+    return first, last
+
+
+# The character has a clip of its own: it breathes.
+idle = bpy.data.actions.new("Idle")
+take(idle)
+spine = rig.pose.bones["mixamorig:Spine"]
+for frame, bend in ((1, 0), (31, 0.06), (61, 0)):
+    spine.rotation_euler = (bend, 0, 0)
+    spine.keyframe_insert("rotation_euler", frame=frame)
+take(idle)
+export("walker.fbx", [rig, body], True)
+hips = rig.pose.bones["mixamorig:Hips"]
+for name, file in (("Walk cycle", "walking.fbx"), ("Wave", "waving.fbx")):
+    action = bpy.data.actions[name]
+    first, last = take(action)
     if name == "Walk cycle":
         # Two steps lead on by 1.2 m, as motions do that are not made in place. The bone's own y is up, and its z to the front.
         for frame in range(first, last + 1, 3):

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use glam::{DQuat, DVec3, Quat, Vec3};
 
 use crate::diagnostic::Fault;
-use crate::model::{Clip, JointIndex, LocalJoint, Skeleton, Track};
+use crate::model::{Channel, Clip, JointIndex, LocalJoint, Skeleton, Track};
 
 /// Places of children that are off by less than this part of their distance are the same.
 const SAME_PLACE: f64 = 0.02;
@@ -168,7 +168,7 @@ pub fn retarget(ours: &Skeleton, theirs: &Skeleton, clips: &[Clip]) -> Result<Op
                 rests: [rest, theirs.rest()[found.index()]],
                 is_relative: !have_same_frames,
             };
-            tracks.push(map.track(&clip.tracks[found.index()])?);
+            tracks.push(map.track(&clip.tracks[found.index()], clip.start_secs)?);
         }
         of_clips.push(Clip::new(clip.name.clone(), tracks));
     }
@@ -207,11 +207,23 @@ impl BoneMap {
         !self.is_relative && self.from_theirs.w.abs() >= 1.0 - 1e-12 && (self.scale - 1.0).abs() <= 1e-5
     }
 
-    fn track(&self, track: &Track) -> Result<Track, Fault> {
-        if self.is_plain() {
-            return Ok(track.clone());
-        }
+    /// A channel that the other's clip leaves at rest has a key where our bone rests elsewhere.
+    fn track(&self, track: &Track, start_secs: f32) -> Result<Track, Fault> {
         let [our, their] = &self.rests;
+        let of_channels = |translation: Channel<Vec3>, rotation: Channel<Quat>, scale: Channel<Vec3>| {
+            Track::of_channels(
+                translation.kept_from(our.translation, start_secs),
+                rotation.kept_from(our.rotation, start_secs),
+                scale.kept_from(our.scale, start_secs),
+            )
+        };
+        if self.is_plain() {
+            return Ok(of_channels(
+                track.translation().clone(),
+                track.rotation().clone(),
+                track.scale().clone(),
+            ));
+        }
         let before = self.from_theirs;
         let after = match self.is_relative {
             true => their.rotation.as_dquat().inverse() * before.inverse() * our.rotation.as_dquat(),
@@ -236,7 +248,7 @@ impl BoneMap {
             true => our.translation - place(their.translation),
             false => Vec3::ZERO,
         };
-        Ok(Track::of_channels(
+        Ok(of_channels(
             track.translation().mapped(place)?.moved(offset)?,
             track.rotation().mapped(rotation)?,
             track.scale().mapped(|scale| (scale.as_dvec3() * sizes).as_vec3())?,

@@ -213,6 +213,17 @@ impl<T: ChannelValue> Channel<T> {
         }
     }
 
+    /// The same for a joint that rests at `rest`: where it has another value at rest than that, it gets a key.
+    pub(crate) fn kept_from(self, rest: T, secs: f32) -> Self {
+        match self.has_keys() || self.values[0].bits() == rest.bits() {
+            true => self,
+            false => Self {
+                times_secs: [secs].into(),
+                ..self
+            },
+        }
+    }
+
     /// The same keys, `secs` earlier. Two keys make a jump: where rounding would bring their times together, the second has the next time
     /// that a number can name.
     ///
