@@ -25,10 +25,15 @@ impl Sheet {
         let points = || (0..=SIDE).flat_map(|y| (0..=SIDE).map(move |x| [f64::from(x), f64::from(y)]));
         let height = |x: f64, y: f64| (x * 0.11).sin() * (y * 0.07).cos() * 5.0;
         let quads = (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| y * (SIDE + 1) + x));
-        let corners: Vec<u32> = quads.flat_map(|at| [at, at + 1, at + SIDE + 2, at + SIDE + 1]).collect();
+        let corners: Vec<u32> = quads
+            .flat_map(|at| [at, at + 1, at + SIDE + 2, at + SIDE + 1])
+            .collect();
         let normal = |&at: &u32| {
             let [x, y] = [f64::from(at % (SIDE + 1)), f64::from(at / (SIDE + 1))];
-            let slopes = [height(x + 0.01, y) - height(x - 0.01, y), height(x, y + 0.01) - height(x, y - 0.01)];
+            let slopes = [
+                height(x + 0.01, y) - height(x - 0.01, y),
+                height(x, y + 0.01) - height(x, y - 0.01),
+            ];
             let length = (slopes[0].powi(2) + slopes[1].powi(2) + 4e-4).sqrt();
             [-slopes[0] / length, -slopes[1] / length, 0.02 / length]
         };
@@ -36,14 +41,18 @@ impl Sheet {
         Self {
             positions: points().flat_map(|[x, y]| [x, y, height(x, y)]).collect(),
             normals: corners.iter().flat_map(normal).collect(),
-            tex_coords: points().flat_map(|[x, y]| [x, y].map(|at| at / f64::from(SIDE))).collect(),
+            tex_coords: points()
+                .flat_map(|[x, y]| [x, y].map(|at| at / f64::from(SIDE)))
+                .collect(),
             tex_coord_indices: corners.iter().map(|&at| at as i32).collect(),
             corners: corners.iter().enumerate().map(ends).collect(),
         }
     }
 
     fn text(&self) -> Vec<u8> {
-        let mut file = String::from("; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n\tFBXVersion: 7400\n}\nObjects:  {\n\tGeometry: 1, \"Geometry::Sheet\", \"Mesh\" {\n");
+        let mut file = String::from(
+            "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n\tFBXVersion: 7400\n}\nObjects:  {\n\tGeometry: 1, \"Geometry::Sheet\", \"Mesh\" {\n",
+        );
         fn array<T: std::fmt::Display>(file: &mut String, name: &str, numbers: &[T]) {
             write!(file, "{name}: *{} {{\na: ", numbers.len()).expect("a string");
             for (place, number) in numbers.iter().enumerate() {
@@ -75,21 +84,33 @@ impl Sheet {
             });
         };
         file.record("Objects", &[], |file| {
-            file.record("Geometry", &[long(1), text("Sheet\0\x01Geometry"), text("Mesh")], |file| {
-                file.record("Vertices", &[doubles(&self.positions)], |_| ());
-                file.record("PolygonVertexIndex", &[ints(&self.corners)], |_| ());
-                layer(file, "LayerElementNormal", "Direct", &[("Normals", doubles(&self.normals))]);
-                let uv = [("UV", doubles(&self.tex_coords)), ("UVIndex", ints(&self.tex_coord_indices))];
-                layer(file, "LayerElementUV", "IndexToDirect", &uv);
-                file.record("Layer", &[int(0)], |file| {
-                    for name in ["LayerElementNormal", "LayerElementUV"] {
-                        file.record("LayerElement", &[], |file| {
-                            file.record("Type", &[text(name)], |_| ());
-                            file.record("TypedIndex", &[int(0)], |_| ());
-                        });
-                    }
-                });
-            });
+            file.record(
+                "Geometry",
+                &[long(1), text("Sheet\0\x01Geometry"), text("Mesh")],
+                |file| {
+                    file.record("Vertices", &[doubles(&self.positions)], |_| ());
+                    file.record("PolygonVertexIndex", &[ints(&self.corners)], |_| ());
+                    layer(
+                        file,
+                        "LayerElementNormal",
+                        "Direct",
+                        &[("Normals", doubles(&self.normals))],
+                    );
+                    let uv = [
+                        ("UV", doubles(&self.tex_coords)),
+                        ("UVIndex", ints(&self.tex_coord_indices)),
+                    ];
+                    layer(file, "LayerElementUV", "IndexToDirect", &uv);
+                    file.record("Layer", &[int(0)], |file| {
+                        for name in ["LayerElementNormal", "LayerElementUV"] {
+                            file.record("LayerElement", &[], |file| {
+                                file.record("Type", &[text(name)], |_| ());
+                                file.record("TypedIndex", &[int(0)], |_| ());
+                            });
+                        }
+                    });
+                },
+            );
             file.record("Model", &[long(2), text("Sheet\0\x01Model"), text("Mesh")], |_| ());
         });
         file.record("Connections", &[], |file| {
@@ -136,11 +157,25 @@ fn text(text: &str) -> Vec<u8> {
 }
 
 fn doubles(numbers: &[f64]) -> Vec<u8> {
-    packed(b'd', numbers.len(), &numbers.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<_>>())
+    packed(
+        b'd',
+        numbers.len(),
+        &numbers
+            .iter()
+            .flat_map(|number| number.to_le_bytes())
+            .collect::<Vec<_>>(),
+    )
 }
 
 fn ints(numbers: &[i32]) -> Vec<u8> {
-    packed(b'i', numbers.len(), &numbers.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<_>>())
+    packed(
+        b'i',
+        numbers.len(),
+        &numbers
+            .iter()
+            .flat_map(|number| number.to_le_bytes())
+            .collect::<Vec<_>>(),
+    )
 }
 
 fn packed(kind: u8, count: usize, bytes: &[u8]) -> Vec<u8> {
@@ -162,7 +197,11 @@ fn reading(_: &mut Criterion) {
         let scene = ufbx::load_memory(&bytes, LoadOpts::default()).expect("it is sound");
         assert_eq!(model.mesh.triangle_count(), scene.meshes[0].num_triangles);
         let mut ours = || drop(black_box(import(black_box(&bytes)).expect("it is sound")));
-        let mut theirs = || drop(black_box(ufbx::load_memory(black_box(&bytes), LoadOpts::default()).expect("it is sound")));
+        let mut theirs = || {
+            drop(black_box(
+                ufbx::load_memory(black_box(&bytes), LoadOpts::default()).expect("it is sound"),
+            ))
+        };
         let mut rounds: Vec<[f64; 2]> = (0..15).map(|_| [seconds(&mut ours), seconds(&mut theirs)]).collect();
         rounds.sort_by(|a, b| (a[0] / a[1]).total_cmp(&(b[0] / b[1])));
         let [ours, theirs] = rounds[rounds.len() / 2];

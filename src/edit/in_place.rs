@@ -27,8 +27,23 @@ pub(super) fn keep_in_place(edited: &mut Edited, names: &[String]) -> Result<(),
     Ok(())
 }
 
-/// The clip in place, and how far it went; `None` where it goes nowhere.
-fn in_place(model: &Model, clip: &Clip) -> Option<(Clip, f64)> {
+/// The topmost joint of a clip that goes over the ground.
+struct Walker {
+    root: JointIndex,
+    /// The joint's parent -> the model, without its place.
+    above: DMat3,
+    up: DVec3,
+    start: Vec3,
+    /// How far it goes at most.
+    way: f64,
+}
+
+/// Whether a clip leads away from where it starts.
+pub fn leads_away(model: &Model, clip: &Clip) -> bool {
+    walker(model, clip).is_some()
+}
+
+fn walker(model: &Model, clip: &Clip) -> Option<Walker> {
     let skeleton = &model.skeleton;
     let root = root(skeleton, clip)?;
     let up = match model.up_axis {
@@ -52,15 +67,32 @@ fn in_place(model: &Model, clip: &Clip) -> Option<(Clip, f64)> {
         .iter()
         .map(|rest| f64::from(rest.translation.length()))
         .sum();
-    if way <= LEAST_WAY * reach || above.determinant() == 0.0 {
-        return None;
-    }
+    let walks = way > LEAST_WAY * reach && above.determinant() != 0.0;
+    walks.then_some(Walker {
+        root,
+        above,
+        up,
+        start,
+        way,
+    })
+}
+
+/// The clip in place, and how far it went; `None` where it goes nowhere.
+pub fn in_place(model: &Model, clip: &Clip) -> Option<(Clip, f64)> {
+    let Walker {
+        root,
+        above,
+        up,
+        start,
+        way,
+    } = walker(model, clip)?;
     // Only what is along the up axis is kept of a place.
     let upwards = DMat3::from_cols(up * up.x, up * up.y, up * up.z);
     let kept = above.inverse() * upwards * above;
     let keep = |place: Vec3| (kept * place.as_dvec3()).as_vec3();
     let offset = start - keep(start);
-    let translation = channel.mapped(keep).and_then(|channel| channel.moved(offset)).ok()?;
+    let translation = clip.tracks[root.index()].translation().mapped(keep);
+    let translation = translation.and_then(|channel| channel.moved(offset)).ok()?;
     let mut tracks = clip.tracks.clone();
     let track = &tracks[root.index()];
     tracks[root.index()] = Track::of_channels(translation, track.rotation().clone(), track.scale().clone());

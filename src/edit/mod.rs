@@ -19,6 +19,7 @@ mod space;
 pub use edited::{Change, Edited};
 pub use error::EditError;
 pub use for_book::too_large_for_book;
+pub use in_place::{in_place, leads_away};
 pub use retarget::{Retargeted, common_name, has_names, retarget};
 
 use crate::model::{Front, Handedness, JointNames, Model, UpAxis};

@@ -164,7 +164,9 @@ pub fn retarget(ours: &Skeleton, theirs: &Skeleton, clips: &[Clip]) -> Result<Op
                     true => DQuat::IDENTITY,
                     false => (our_turn.inverse() * their_turn).normalize(),
                 },
-                scale: Some(scale * their_scale / our_scale).filter(|scale| scale.is_finite()).unwrap_or(scale),
+                scale: Some(scale * their_scale / our_scale)
+                    .filter(|scale| scale.is_finite())
+                    .unwrap_or(scale),
                 rests: [rest, theirs.rest()[found.index()]],
                 is_relative: !have_same_frames,
             };
@@ -212,9 +214,9 @@ impl BoneMap {
         let [our, their] = &self.rests;
         let of_channels = |translation: Channel<Vec3>, rotation: Channel<Quat>, scale: Channel<Vec3>| {
             Track::of_channels(
-                translation.kept_from(our.translation, start_secs),
-                rotation.kept_from(our.rotation, start_secs),
-                scale.kept_from(our.scale, start_secs),
+                translation.resting_at(our.translation, start_secs),
+                rotation.resting_at(our.rotation, start_secs),
+                scale.resting_at(our.scale, start_secs),
             )
         };
         if self.is_plain() {
@@ -240,7 +242,11 @@ impl BoneMap {
             let ratio = f64::from(our) / f64::from(their);
             // Far from 1 it is of another unit; a stretched pose is not.
             let is_unit = !(0.5..2.0).contains(&ratio.abs());
-            if ratio.is_finite() && (self.is_relative || is_unit) { ratio } else { 1.0 }
+            if ratio.is_finite() && (self.is_relative || is_unit) {
+                ratio
+            } else {
+                1.0
+            }
         };
         let (our_scale, their_scale) = (our.scale.to_array(), their.scale.to_array());
         let sizes = DVec3::from_array(std::array::from_fn(|axis| ratio(our_scale[axis], their_scale[axis])));

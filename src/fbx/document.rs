@@ -94,7 +94,7 @@ impl<'a> Record<'a> {
     /// When the array is damaged, or `budget` has no room for it.
     pub fn numbers(&self, budget: &Budget) -> Result<Vec<f64>, Fault> {
         match self.values.as_slice() {
-            [Value::Array(array)] => array.numbers(budget, self.place),
+            [Value::Array(array)] => array.numbers(budget, self.place).map_err(|fault| self.named(fault)),
             values => Ok((0..values.len()).map_while(|index| self.number(index)).collect()),
         }
     }
@@ -105,9 +105,31 @@ impl<'a> Record<'a> {
     /// As [`numbers`](Self::numbers).
     pub fn integers(&self, budget: &Budget) -> Result<Vec<i64>, Fault> {
         match self.values.as_slice() {
-            [Value::Array(array)] => array.integers(budget, self.place),
+            [Value::Array(array)] => array.integers(budget, self.place).map_err(|fault| self.named(fault)),
             values => Ok((0..values.len()).map_while(|index| self.integer(index)).collect()),
         }
+    }
+
+    /// The numbers of the record of this name in it; none where there is no such.
+    ///
+    /// # Errors
+    /// As [`numbers`](Self::numbers).
+    pub fn numbers_of(&self, name: &str, budget: &Budget) -> Result<Vec<f64>, Fault> {
+        self.find(name).map_or(Ok(Vec::new()), |found| found.numbers(budget))
+    }
+
+    /// The same as whole numbers.
+    ///
+    /// # Errors
+    /// As [`numbers`](Self::numbers).
+    pub fn integers_of(&self, name: &str, budget: &Budget) -> Result<Vec<i64>, Fault> {
+        self.find(name).map_or(Ok(Vec::new()), |found| found.integers(budget))
+    }
+
+    /// A fault in the record, with its name.
+    fn named(&self, mut fault: Fault) -> Fault {
+        fault.message = format!("{}: {}", self.name, fault.message);
+        fault
     }
 
     /// Name and class of an object, from its value at this place: `Cube` and `Model`. Binary files part them by two bytes, and have the name first.

@@ -213,10 +213,15 @@ impl<T: ChannelValue> Channel<T> {
         }
     }
 
-    /// The same for a joint that rests at `rest`: where it has another value at rest than that, it gets a key.
-    pub(crate) fn kept_from(self, rest: T, secs: f32) -> Self {
-        match self.has_keys() || self.values[0].bits() == rest.bits() {
-            true => self,
+    /// Of a joint that rests at `rest`: a channel that stays elsewhere has a key at `secs`, and one that stays there has none.
+    pub(crate) fn resting_at(self, rest: T, secs: f32) -> Self {
+        if self.has_keys() {
+            return self;
+        }
+        let value = self.values[0].near(rest);
+        let stays = value.is_some_and(|value| (value - rest).greatest() <= 1e-6 * rest.greatest());
+        match stays {
+            true => Self::at_rest(rest),
             false => Self {
                 times_secs: [secs].into(),
                 ..self

@@ -7,7 +7,7 @@ import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync 
 import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { paint, writeModel } from "./bench_files.js";
+import { paint, writeModel, writeSheet } from "./bench_files.js";
 
 const ROUNDS = 3;
 const MEGABYTE = 1e6;
@@ -148,14 +148,15 @@ const openAlone = (page, sliced = true) =>
     return { counts: model.counts, keys: model.clips.reduce((all, { keys }) => all + keys, 0), stages, wholeMs };
   }, sliced);
 
-/** Reads the .glb of these bytes with three.js, which the page has from `/three/`. */
-const readWithThree = (page) =>
-  page.evaluate(async () => {
-    const { GLTFLoader } = await import("/three/examples/jsm/loaders/GLTFLoader.js");
-    const loader = new GLTFLoader();
-    const bytes = globalThis.glb.slice(0);
+/** Reads the .glb of these bytes with three.js, or the FBX file of the page's input, which the page has from `/three/`. */
+const readWithThree = (page, isFbx = false) =>
+  page.evaluate(async (isFbx) => {
+    const name = isFbx ? "FBXLoader" : "GLTFLoader";
+    const loader = new (await import(`/three/examples/jsm/loaders/${name}.js`))[name]();
+    const bytes = isFbx ? await document.getElementById("bench").files[0].arrayBuffer() : globalThis.glb.slice(0);
     const start = performance.now();
-    const { scene, animations } = await loader.parseAsync(bytes, "");
+    const read = isFbx ? loader.parse(bytes, "") : await loader.parseAsync(bytes, "");
+    const { scene = read, animations } = read;
     const took = performance.now() - start;
     const seen = { vertices: new Set(), triangles: 0 };
     scene.traverse((object) => {
@@ -166,7 +167,7 @@ const readWithThree = (page) =>
     const vertices = [...seen.vertices].reduce((all, { count }) => all + count, 0);
     const keys = animations.reduce((all, { tracks }) => all + tracks.reduce((sum, { times }) => sum + times.length, 0), 0);
     return { took, vertices, triangles: seen.triangles, keys };
-  });
+  }, isFbx);
 
 // ---- One backend.
 
@@ -273,6 +274,19 @@ async function measure(model) {
       row(`${name}, ${when}: reading and building / the same`, told(built), "", null, check);
       row(`${name}, ${when}: all of opening`, ms(median(all.map(({ ours }) => ours.wholeMs))), "", null, "");
     }
+  }
+
+  if (BACKEND === "webgpu") {
+    const sheet = writeSheet(join(folder, "sheet.fbx"));
+    const all = await alone(addresses, async (page) => {
+      await page.setInputFiles("#bench", sheet);
+      return rounds(async () => ({ ours: await openAlone(page), three: await readWithThree(page, true) }), 9);
+    });
+    const built = ({ stages }) => stages.reading + stages.building;
+    const ratio = median(all.map(({ ours, three }) => built(ours) / three.took));
+    const [{ ours, three }] = all;
+    const told = `${ratio.toFixed(2)} (${ms(median(all.map(({ ours }) => built(ours))))} / ${ms(median(all.map(({ three }) => three.took)))})`;
+    row("an FBX file of 20 MB: reading and building / FBXLoader", told, "≤ 0.7", ratio <= 0.7, `${ours.counts.triangles} and ${three.triangles} triangles`);
   }
 
   // Large files, each on a page of its own, so that its memory is what this file took.

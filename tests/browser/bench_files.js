@@ -1,6 +1,7 @@
 // Large models and pictures, made for what bench.js measures.
 
-import { closeSync, openSync, writeSync } from "node:fs";
+import { closeSync, openSync, writeFileSync, writeSync } from "node:fs";
+import { deflateSync } from "node:zlib";
 
 /** Writes a model as text: squares in rows of vertices, for each material an equal part; bones in a tree; the same number of keys for each. */
 export function writeModel(path, { vertices = 2048, materials = 1, bones = 4, keys = 2 }) {
@@ -56,6 +57,80 @@ export function writeModel(path, { vertices = 2048, materials = 1, bones = 4, ke
   write("}\n");
   flush();
   closeSync(file);
+  return path;
+}
+
+/** A record of a binary FBX file of 7.4 that begins at a byte: its values, as bytes, and what is in it. */
+function record(start, name, values, inner = []) {
+  const head = Buffer.alloc(13 + name.length);
+  const all = [head, ...values];
+  let at = start + all.reduce((sum, { length }) => sum + length, 0);
+  for (const make of inner) {
+    all.push(make(at));
+    at += all.at(-1).length;
+  }
+  if (inner.length) all.push(Buffer.alloc(13));
+  const bytes = Buffer.concat(all);
+  [start + bytes.length, values.length, values.reduce((sum, { length }) => sum + length, 0)].forEach((word, place) => head.writeUInt32LE(word, 4 * place));
+  head[12] = name.length;
+  head.write(name, 13, "latin1");
+  head.copy(bytes);
+  return bytes;
+}
+
+const word = (number) => Buffer.from(Uint32Array.of(number).buffer);
+const textOf = (text) => Buffer.concat([Buffer.from("S"), word(text.length), Buffer.from(text, "latin1")]);
+const longOf = (number) => Buffer.concat([Buffer.from("L"), Buffer.from(BigInt64Array.of(BigInt(number)).buffer)]);
+const intOf = (number) => Buffer.concat([Buffer.from("I"), word(number)]);
+
+function arrayOf(kind, numbers) {
+  const packed = deflateSync(Buffer.from(numbers.buffer), { level: 1 });
+  return Buffer.concat([Buffer.from(kind), word(numbers.length), word(1), word(packed.length), packed]);
+}
+
+/** Writes a hilly sheet as a binary FBX file of about 20 MB: quads with a normal at each corner and indexed texture coordinates. */
+export function writeSheet(path, side = 520) {
+  const points = (side + 1) ** 2;
+  const [positions, uv] = [new Float64Array(3 * points), new Float64Array(2 * points)];
+  const height = (x, y) => Math.sin(x * 0.11) * Math.cos(y * 0.07) * 5;
+  for (let at = 0; at < points; at += 1) {
+    const [x, y] = [at % (side + 1), Math.floor(at / (side + 1))];
+    positions.set([x, y, height(x, y)], 3 * at);
+    uv.set([x / side, y / side], 2 * at);
+  }
+  const count = 4 * side * side;
+  const [corners, ends, normals] = [new Int32Array(count), new Int32Array(count), new Float64Array(3 * count)];
+  for (let quad = 0; quad < side * side; quad += 1) {
+    const at = Math.floor(quad / side) * (side + 1) + (quad % side);
+    corners.set([at, at + 1, at + side + 2, at + side + 1], 4 * quad);
+  }
+  corners.forEach((at, corner) => {
+    ends[corner] = corner % 4 === 3 ? ~at : at;
+    const [x, y] = [at % (side + 1), Math.floor(at / (side + 1))];
+    const slopes = [height(x + 0.01, y) - height(x - 0.01, y), height(x, y + 0.01) - height(x, y - 0.01)];
+    const length = Math.hypot(...slopes, 0.02);
+    normals.set([-slopes[0] / length, -slopes[1] / length, 0.02 / length], 3 * corner);
+  });
+  const make = (name, values, inner) => (start) => record(start, name, values, inner);
+  const layer = (name, reference, arrays) =>
+    make(name, [intOf(0)], [
+      make("MappingInformationType", [textOf("ByPolygonVertex")]),
+      make("ReferenceInformationType", [textOf(reference)]),
+      ...arrays.map(([array, bytes]) => make(array, [bytes])),
+    ]);
+  const geometry = make("Geometry", [longOf(1), textOf("Sheet\0\x01Geometry"), textOf("Mesh")], [
+    make("Vertices", [arrayOf("d", positions)]),
+    make("PolygonVertexIndex", [arrayOf("i", ends)]),
+    layer("LayerElementNormal", "Direct", [["Normals", arrayOf("d", normals)]]),
+    layer("LayerElementUV", "IndexToDirect", [["UV", arrayOf("d", uv)], ["UVIndex", arrayOf("i", corners)]]),
+  ]);
+  const model = make("Model", [longOf(2), textOf("Sheet\0\x01Model"), textOf("Mesh")]);
+  const connect = (child, parent) => make("C", [textOf("OO"), longOf(child), longOf(parent)]);
+  const parts = [Buffer.from("Kaydara FBX Binary  \0\x1a\0\xe8\x1c\0\0", "latin1")];
+  for (const top of [make("Objects", [], [geometry, model]), make("Connections", [], [connect(1, 2), connect(2, 0)])]) {
+    parts.push(top(parts.reduce((sum, { length }) => sum + length, 0)));
+  }
+  writeFileSync(path, Buffer.concat([...parts, Buffer.alloc(13)]));
   return path;
 }
 

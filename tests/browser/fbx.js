@@ -8,7 +8,7 @@ const FILES = ["walking", "walker", "waving"].map((name) => `${FIXTURES}fbx/${na
 
 test("a character and its motions are one drop, and walk in place in what is exported", { draws: true }, async (page) => {
   const { model } = await dropAndWait(page, FILES);
-  assert.deepEqual([model.name, model.clips.map(({ name }) => name)], ["walker.fbx", ["walking", "waving"]]);
+  assert.deepEqual([model.name, model.clips.map(({ name }) => name)], ["walker.fbx", ["Scene", "walking", "waving"]]);
   assert.equal(await page.evaluate(() => bindpose.state().models?.length ?? 1), 2, "the motions are no models of the list");
   await keep(page, "fbx-walker");
   const exported = (options) =>

@@ -733,9 +733,17 @@ fn a_character_and_its_motions_of_fbx_become_the_books_demo() {
     let motions = ["--add-clips", &*walking, "--add-clips", &*waving];
     let glb = out("fbx", "walker.glb");
     convert(&walker, &glb, &motions);
-    assert_eq!(clip_names(&glb), ["walking", "waving"]);
+    assert_eq!(clip_names(&glb), ["Scene", "walking", "waving"]);
     let book = out("fbx", "walker.m3d");
-    let told = convert(&walker, &book, &[&motions[..], &["--in-place", "walking", "--for-book"]].concat());
+    let told = convert(
+        &walker,
+        &book,
+        &[
+            &motions[..],
+            &["--in-place", "walking", "--clips", "walking,waving", "--for-book"],
+        ]
+        .concat(),
+    );
     for code in ["in-place", "book-clip-name"] {
         assert!(codes(&told["changes"]).contains(&code), "{told}");
     }
@@ -745,7 +753,8 @@ fn a_character_and_its_motions_of_fbx_become_the_books_demo() {
     assert!(check.out.contains("shows it"), "{}", check.out);
     // What waves is posed alike, whatever its size.
     for secs in [0.0, 0.5, 1.3] {
-        let [source, written] = [(&glb, "waving"), (&book, "waving")].map(|(file, clip)| lengths(&positions(file, clip, secs)));
+        let [source, written] =
+            [(&glb, "waving"), (&book, "waving")].map(|(file, clip)| lengths(&positions(file, clip, secs)));
         let factor = written.iter().sum::<f64>() / source.iter().sum::<f64>();
         assert_alike(&source, &written, factor, 1e-3);
     }

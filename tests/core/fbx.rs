@@ -2,10 +2,11 @@
 
 mod motion;
 mod oracle;
+mod surface;
 
 use bindpose::diagnostic::{Fault, Position};
-use bindpose::import::import;
 use bindpose::fbx::{Budget, Document, Record, begins_like_fbx, parse};
+use bindpose::import::import;
 
 use proptest::prelude::*;
 
@@ -335,6 +336,23 @@ proptest! {
 fn arrays_in_arrays_and_runs_without_end_are_an_answer() {
     let nested = format!("; FBX 7.4.0 project file\nA: {}", "*{a:".repeat(200_000));
     assert_eq!(fault(nested.as_bytes()).message, "An array lies in an array.");
-    let counts = format!("{TEXT}Runs: {}", i64::MIN);
-    assert!(parse(counts.as_bytes()).is_ok());
+    let file = surface::skinned(&[1.0]);
+    let curve = format!(
+        "\tAnimationStack: 10, \"AnimStack::Take\", \"\" {{\n\t}}\n\tAnimationLayer: 11, \"AnimLayer::Base\", \"\" {{\n\t}}\n\t\
+         AnimationCurveNode: 12, \"AnimCurveNode::T\", \"\" {{\n\t}}\n\tAnimationCurve: 13, \"AnimCurve::\", \"\" {{\n\t\tKeyTime: *3 \
+         {{\n\t\t\ta: 0,46186158000,92372316000\n\t\t}}\n\t\tKeyValueFloat: *3 {{\n\t\t\ta: 0,100,200\n\t\t}}\n\t\tKeyAttrFlags: *1 \
+         {{\n\t\t\ta: 4\n\t\t}}\n\t\tKeyAttrRefCount: *1 {{\n\t\t\ta: {}\n\t\t}}\n\t}}\n\tModel: 2,",
+        i64::MIN
+    );
+    let connections = "C: \"OO\",11,10\n\tC: \"OO\",12,11\n\tC: \"OP\",13,12,\"d|X\"\n\tC: \"OP\",12,100,\"Lcl Translation\"\n\tC: \"OO\",2,0\n";
+    let file = file
+        .replacen("\tModel: 2,", &curve, 1)
+        .replacen("C: \"OO\",2,0\n", connections, 1);
+    let model = import(file.as_bytes()).expect("it is read").model;
+    let [clip] = &*model.clips else {
+        panic!("{} clips", model.clips.len())
+    };
+    assert_eq!((clip.start_secs, clip.end_secs), (0.0, 2.0));
+    let joint = model.skeleton.joint_of_bone()[0];
+    assert_eq!(clip.tracks[joint.index()].translation().at(1.0).x, 1.0, "metres");
 }

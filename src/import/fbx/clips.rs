@@ -272,11 +272,15 @@ pub(super) async fn clips(
         file.note(&codes::FBX_RULE_BROKEN, message);
     }
     if stacks.len() > most {
-        let message = format!("{} beyond what fits into memory; left out.", counted(stacks.len() - most, "clip is", "clips are"));
+        let message = format!(
+            "{} beyond what fits into memory; left out.",
+            counted(stacks.len() - most, "clip is", "clips are")
+        );
         file.note(&codes::FBX_LEFT_OUT, message);
     }
     if file.evaluations_left.get() == 0 {
-        let message = "There are more curves than can be followed exactly; some are straight between their keys.".to_owned();
+        let message =
+            "There are more curves than can be followed exactly; some are straight between their keys.".to_owned();
         file.note(&codes::FBX_LEFT_OUT, message);
     }
     let layered = read.iter().filter(|(stack, _)| stack.layers.len() > 1).count();

@@ -135,16 +135,8 @@ impl Growing {
 impl Curve {
     /// An `AnimationCurve` of 7.x.
     pub(super) fn read(record: &Record<'_>, document: &Document<'_>, budget: &Budget) -> Result<Self, Fault> {
-        let integers = |name: &str| {
-            record
-                .find(name)
-                .map_or_else(|| Ok(Vec::new()), |found| found.integers(budget))
-        };
-        let numbers = |name: &str| {
-            record
-                .find(name)
-                .map_or_else(|| Ok(Vec::new()), |found| found.numbers(budget))
-        };
+        let integers = |name| record.integers_of(name, budget);
+        let numbers = |name| record.numbers_of(name, budget);
         let (times, values) = (integers("KeyTime")?, numbers("KeyValueFloat")?);
         let (flags, counts) = (integers("KeyAttrFlags")?, integers("KeyAttrRefCount")?);
         let are_bits = !document.is_binary && document.version >= BITS_SINCE;

@@ -7,7 +7,7 @@ use glam::DAffine3;
 
 use super::objects::ObjectIndex;
 use super::settings::Settings;
-use crate::diagnostic::{Code, Diagnostic, Subject};
+use crate::diagnostic::{Code, Diagnostic, Fault, Subject};
 use crate::fbx::{Budget, Document, Place};
 
 /// A file while a model is made of it, and what is noted of it.
@@ -39,6 +39,14 @@ impl File<'_, '_> {
 
     pub(super) fn note_at(&mut self, place: Place, subject: Subject, code: &Code, message: String) {
         self.noted.push(about(subject, place.says(code, message)));
+    }
+}
+
+/// A fault in an object, with the object's name.
+pub(super) fn in_object(name: &str) -> impl Fn(Fault) -> Fault {
+    move |mut fault| {
+        fault.message = format!("In \"{name}\": {}", fault.message);
+        fault
     }
 }
 

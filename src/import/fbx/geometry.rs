@@ -172,7 +172,7 @@ pub(super) async fn read(
     slices: &Slices,
 ) -> Result<Geometry, Fault> {
     let budget = &file.budget;
-    let positions = record.find("Vertices").map_or_else(|| Ok(Vec::new()), |found| found.numbers(budget))?;
+    let positions = record.numbers_of("Vertices", budget)?;
     let (points, _) = positions.as_chunks::<3>();
     let Some(corners_record) = record.find("PolygonVertexIndex") else {
         return Ok(Geometry::default());
@@ -203,7 +203,7 @@ pub(super) async fn read(
             let control_point = if stored < 0 { !stored } else { stored };
             let point = usize::try_from(control_point).ok().and_then(|index| points.get(index));
             let Some(&point) = point else {
-                return Err(out_of_range(corners_record.place, name, control_point, points.len()));
+                return Err(out_of_range(corners_record.place, control_point, points.len()));
             };
             let corner = Corner {
                 index,
@@ -222,7 +222,10 @@ pub(super) async fn read(
             }
             of_polygon.push(vertex);
         }
-        let material = materials.as_ref().and_then(|layer| layer.material(polygon)).unwrap_or(0);
+        let material = materials
+            .as_ref()
+            .and_then(|layer| layer.material(polygon))
+            .unwrap_or(0);
         let part = *parts.entry(material).or_insert(geometry.parts.len());
         if part == geometry.parts.len() {
             geometry.parts.push(Part {
@@ -231,13 +234,21 @@ pub(super) async fn read(
             });
         }
         let positions = &geometry.vertices.positions;
-        triangulate(&of_polygon, positions, &mut geometry.parts[part].triangles, &mut tests_left);
+        triangulate(
+            &of_polygon,
+            positions,
+            &mut geometry.parts[part].triangles,
+            &mut tests_left,
+        );
     }
     geometry.parts.sort_by_key(|part| part.material);
     let open = corners.iter().rev().take_while(|corner| **corner >= 0).count();
     let corner = ["corner", "corners"];
     for (count, what) in [
-        (without_values, "a normal, a texture coordinate, a colour or a tangent that is not there; 0 stands in"),
+        (
+            without_values,
+            "a normal, a texture coordinate, a colour or a tangent that is not there; 0 stands in",
+        ),
         (open, "no polygon that ends; left out"),
     ] {
         if count > 0 {
@@ -248,8 +259,8 @@ pub(super) async fn read(
     Ok(geometry)
 }
 
-fn out_of_range(place: Place, name: &str, index: i64, count: usize) -> Fault {
-    let message = format!("A polygon of \"{name}\" names control point {index}, but there are {count}.");
+fn out_of_range(place: Place, index: i64, count: usize) -> Fault {
+    let message = format!("PolygonVertexIndex: A polygon names control point {index}, but there are {count}.");
     Box::new(place.says(&codes::VERTEX_OUT_OF_RANGE, message))
 }
 
@@ -266,12 +277,16 @@ fn push(vertices: &mut Vertices, position: [f32; 3], layers: &Layers, values: [O
         vertices.tex_coords.push([u, 1.0 - v]);
     }
     if let Some(layer) = colors {
-        vertices.colors.push(if color.is_some() { layer.value(color) } else { [1.0; 4] });
+        vertices
+            .colors
+            .push(if color.is_some() { layer.value(color) } else { [1.0; 4] });
     }
     if let Some(layer) = tangents {
         let tangent: [f32; 3] = layer.value(tangent);
         let [normal, stored] = [normal.unwrap_or_default(), tangent].map(Vec3::from_array);
-        let binormal = binormals.as_ref().map_or(Vec3::ZERO, |layer| Vec3::from_array(layer.value(binormal)));
+        let binormal = binormals
+            .as_ref()
+            .map_or(Vec3::ZERO, |layer| Vec3::from_array(layer.value(binormal)));
         // Without a binormal it is as in most files.
         let is_mirrored = normal.cross(stored).dot(binormal) < 0.0;
         let [x, y, z] = tangent;

@@ -11,6 +11,11 @@ use crate::fbx::Place;
 
 /// Kinds of objects by how they are told of, for one and for many.
 fn kind(object: &Object<'_, '_>) -> Option<[&'static str; 2]> {
+    let smoothness = object.record.find("Smoothness").and_then(|record| record.integer(0));
+    // 1 shows the cage alone.
+    if smoothness.is_some_and(|smoothness| smoothness > 1) {
+        return Some(["subdivision: its cage is shown", "subdivisions: their cages are shown"]);
+    }
     Some(match (&*object.record.name, &*object.kind) {
         ("Geometry", "Shape") | ("Deformer", "BlendShapeChannel") => {
             ["blend shape, which stands still", "blend shapes, which stand still"]
@@ -20,18 +25,15 @@ fn kind(object: &Object<'_, '_>) -> Option<[&'static str; 2]> {
         }
         ("Model", "Camera" | "CameraSwitcher") | ("NodeAttribute", "Camera") => ["camera", "cameras"],
         ("Model" | "NodeAttribute", "Light") => ["light", "lights"],
-        ("Constraint" | "Character" | "ControlSetPlug" | "IKEffector" | "FKEffector", _) => {
+        ("Constraint" | "Character" | "ControlSetPlug", _) | ("Model", "IKEffector" | "FKEffector") => {
             ["constraint or rig of a program", "constraints or rigs of a program"]
         }
         ("Deformer", "VertexCacheDeformer") | ("Cache", _) => ["cache of vertices", "caches of vertices"],
         ("NodeAttribute", "LodGroup") => [
-            "choice of levels of detail: all are shown",
-            "choices of levels of detail: all are shown",
+            "choice between levels of detail, which are all shown",
+            "choices between levels of detail, which are all shown",
         ],
-        ("LayeredTexture", _) => [
-            "further layer of a texture",
-            "further layers of textures",
-        ],
+        ("LayeredTexture", _) => ["further layer of a texture", "further layers of textures"],
         ("Audio" | "AudioLayer", _) => ["sound", "sounds"],
         _ => return None,
     })
@@ -58,9 +60,11 @@ pub(super) fn note(file: &mut File<'_, '_>, objects: &Objects<'_, '_>, nodes: &N
         file.note_of(place, &codes::FBX_LEFT_OUT, message);
     }
     if !file.disagreeing.is_empty() {
+        let names = file.disagreeing.iter().map(|&bone| objects.get(bone).name.to_string());
         let message = format!(
-            "{} bound in another way than the bind pose says; the skin is believed.",
-            counted(file.disagreeing.len(), "bone is", "bones are")
+            "{} bound in another way than the bind pose says; the skin is believed: {}.",
+            counted(file.disagreeing.len(), "bone is", "bones are"),
+            few(&names.collect::<Vec<_>>())
         );
         file.note(&codes::FBX_LEFT_OUT, message);
     }
@@ -74,8 +78,20 @@ pub(super) fn note(file: &mut File<'_, '_>, objects: &Objects<'_, '_>, nodes: &N
         file.note(&codes::FBX_OBJECTS_MERGED, message);
     }
     for (places, what) in [
-        (&objects.doubled, ["record has an id that another one has", "records have ids that others have"]),
-        (&objects.missing, ["record names an object that is not there", "records name objects that are not there"]),
+        (
+            &objects.doubled,
+            [
+                "record has an id that another one has",
+                "records have ids that others have",
+            ],
+        ),
+        (
+            &objects.missing,
+            [
+                "record names an object that is not there",
+                "records name objects that are not there",
+            ],
+        ),
     ] {
         if let Some(&place) = places.first() {
             let message = format!("{}; left out.", counted(places.len(), what[0], what[1]));

@@ -259,7 +259,10 @@ fn maps(objects: &Objects<'_, '_>, material: &Object<'_, '_>, images: &Images) -
     let mut found = textures(material);
     if found.is_empty() {
         let mut models = material.parents.iter().map(|parent| objects.get(parent.to));
-        found = models.find(|parent| parent.record.name == "Model").map(textures).unwrap_or_default();
+        found = models
+            .find(|parent| parent.record.name == "Model")
+            .map(textures)
+            .unwrap_or_default();
     }
     let named = found.into_iter().filter_map(|(property, texture)| {
         let name = images.name(texture)?.to_owned();

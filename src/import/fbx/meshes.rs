@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DAffine3;
 
-use super::file::File;
+use super::file::{File, in_object};
 use super::geometry::{self, Geometry};
 use super::materials::Materials;
 use super::nodes::{self, Nodes};
@@ -67,7 +67,8 @@ impl Meshes {
             slices.pause_at(Stage::Building, at, uses.len()).await;
             if meshes.geometries.last().is_none_or(|(before, ..)| *before != index) {
                 let object = objects.get(index);
-                let geometry = geometry::read((object.record, &object.name), file, slices).await?;
+                let geometry = geometry::read((object.record, &object.name), file, slices).await;
+                let geometry = geometry.map_err(in_object(&object.name))?;
                 if geometry.left_out > 0 {
                     let message = format!(
                         "{} of \"{}\" with fewer than three corners; left out.",

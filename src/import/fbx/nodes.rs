@@ -53,7 +53,10 @@ impl Nodes {
             .into_iter()
             .map(|node| models[node as usize])
             .collect();
-        let transforms: Vec<Transform> = models.iter().map(|&model| Transform::of(objects.get(model), settings.unit_metres)).collect();
+        let transforms: Vec<Transform> = models
+            .iter()
+            .map(|&model| Transform::of(objects.get(model), settings.unit_metres))
+            .collect();
         Self {
             scene: Scene::default(),
             rigid: vec![None; parents.len()],

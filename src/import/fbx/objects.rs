@@ -178,7 +178,10 @@ fn shortened(name: Cow<'_, str>) -> Cow<'_, str> {
     if name.len() <= MOST_BYTES {
         return name;
     }
-    let end = (0..=MOST_BYTES).rev().find(|&end| name.is_char_boundary(end)).unwrap_or(0);
+    let end = (0..=MOST_BYTES)
+        .rev()
+        .find(|&end| name.is_char_boundary(end))
+        .unwrap_or(0);
     Cow::Owned(name[..end].to_owned())
 }
 

@@ -24,18 +24,32 @@ impl Settings {
             .or_else(|| document.find("Objects")?.find("GlobalSettings"));
         let properties = record.and_then(|record| record.find("Properties70").or_else(|| record.find("Properties60")));
         let found = |name: &str| properties.and_then(|properties| property(properties, name));
-        let integer = |name: &str, default: i64| found(name).and_then(|(record, at)| record.integer(at)).unwrap_or(default);
+        let integer = |name: &str, default: i64| {
+            found(name)
+                .and_then(|(record, at)| record.integer(at))
+                .unwrap_or(default)
+        };
         let axis = |name: &str, default: i64| {
             let axes = [DVec3::X, DVec3::Y, DVec3::Z];
             let axis = axes[integer(name, default).clamp(0, 2) as usize];
-            axis * if integer(&format!("{name}Sign"), 1) < 0 { -1.0 } else { 1.0 }
+            axis * if integer(&format!("{name}Sign"), 1) < 0 {
+                -1.0
+            } else {
+                1.0
+            }
         };
         let rows = DMat3::from_cols(axis("CoordAxis", 0), axis("UpAxis", 1), axis("FrontAxis", 2)).transpose();
         let factor = found("UnitScaleFactor").and_then(|(record, at)| record.number(at));
-        let factor = factor.filter(|factor| factor.is_finite() && *factor > 0.0).unwrap_or(1.0);
+        let factor = factor
+            .filter(|factor| factor.is_finite() && *factor > 0.0)
+            .unwrap_or(1.0);
         Self {
             // Some name an axis twice.
-            model_from_file: if rows.determinant().abs() == 1.0 { rows } else { DMat3::IDENTITY },
+            model_from_file: if rows.determinant().abs() == 1.0 {
+                rows
+            } else {
+                DMat3::IDENTITY
+            },
             unit_metres: factor * METRES_OF_A_CENTIMETRE,
         }
     }

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DMat4};
 
-use super::file::File;
+use super::file::{File, in_object};
 use super::nodes::Nodes;
 use super::objects::{Object, ObjectIndex, Objects};
 use crate::diagnostic::{Fault, codes};
@@ -52,7 +52,10 @@ impl Weights {
                 Some(file_from_bone) => (nodes.model_from_file() * file_from_bone).inverse() * model(mesh_node),
                 None => model(cluster.node).inverse() * model(mesh_node),
             };
-            (cluster.node, cluster.bone_from_node.unwrap_or_else(at_rest) * node_from_geometry)
+            (
+                cluster.node,
+                cluster.bone_from_node.unwrap_or_else(at_rest) * node_from_geometry,
+            )
         });
         let slots = slots.chain(self.has_unweighted.then_some((mesh_node, node_from_geometry)));
         let (joints, joint_from_mesh) = slots.unzip();
@@ -81,7 +84,9 @@ impl Weights {
             let of_point = &of_point[..of_point.len().min(MOST_PAIRS)];
             // FBX takes weights as parts of their sum.
             let sum: f64 = of_point.iter().map(|&(_, weight, _)| f64::from(weight)).sum();
-            let parts = of_point.iter().map(|&(_, weight, slot)| ((f64::from(weight) / sum) as f32, slot));
+            let parts = of_point
+                .iter()
+                .map(|&(_, weight, slot)| ((f64::from(weight) / sum) as f32, slot));
             weights.pairs.extend(parts.filter(|&(weight, _)| weight > 0.0));
             if of_point.is_empty() {
                 weights.has_unweighted = true;
@@ -153,15 +158,19 @@ fn cluster(
         file.note_of(record.place, &codes::FBX_RULE_BROKEN, message);
         return Ok(None);
     };
-    let points = record.find("Indexes").map_or_else(|| Ok(Vec::new()), |found| found.integers(&file.budget))?;
-    let weights = record.find("Weights").map_or_else(|| Ok(Vec::new()), |found| found.numbers(&file.budget))?;
+    let named = in_object(&cluster.name);
+    let points = record.integers_of("Indexes", &file.budget).map_err(&named)?;
+    let weights = record.numbers_of("Weights", &file.budget).map_err(named)?;
     if points.len() != weights.len() {
         let counts = format!("{} control points, but {} weights", points.len(), weights.len());
         let message = format!("Cluster \"{}\" has {counts}.", cluster.name);
         file.note_of(record.place, &codes::FBX_RULE_BROKEN, message);
     }
     let mut add = add;
-    points.iter().zip(&weights).for_each(|(&point, &weight)| add(point, weight));
+    points
+        .iter()
+        .zip(&weights)
+        .for_each(|(&point, &weight)| add(point, weight));
     let matrix = |name: &str| record.find(name).map_or(Ok(None), |found| matrix(found, file));
     let (bone_from_node, file_from_bone) = (matrix("Transform")?, matrix("TransformLink")?);
     if let (Some(link), Some(posed)) = (file_from_bone, file.bind_pose.get(&bone))

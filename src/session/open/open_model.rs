@@ -8,7 +8,7 @@ use super::files::{File, FileSet};
 use crate::anim::{self, CompiledClip, Extent, JointActivity, LoopGap, VertexGroups};
 use crate::check;
 use crate::diagnostic::{Diagnostic, Position, Severity, Subject, codes};
-use crate::edit::Change;
+use crate::edit::{self, Change};
 use crate::export::Loss;
 use crate::format::{self, Excerpt};
 use crate::import::{FileFormat, Imported, Source};
@@ -72,6 +72,8 @@ pub struct ClipSummary<'a> {
     pub keys_per_sec: f32,
     /// Number of its last frame, counted from 0.
     pub last_frame: u32,
+    /// Whether it is kept over where it starts.
+    pub in_place: bool,
 }
 
 /// What is known of one clip beside its keys.
@@ -80,6 +82,8 @@ pub(in crate::session) struct ClipFacts {
     pub(in crate::session) file_name: String,
     /// Whether it came from another file than the model.
     pub(in crate::session) joined: bool,
+    /// The clip as its file has it, where it is kept in place.
+    pub(in crate::session) leading_away: Option<Arc<Clip>>,
     extent: OnceLock<Extent>,
     key_times: OnceLock<Vec<f32>>,
     loop_gap: OnceLock<LoopGap>,
@@ -263,7 +267,28 @@ impl OpenModel {
                 key_count: clip.key_count,
                 keys_per_sec: clip.keys_per_sec,
                 last_frame: clip.last_frame(),
+                in_place: facts.leading_away.is_some(),
             })
+    }
+
+    /// Keeps a clip over where it starts, or lets it go as its file has it.
+    pub(in crate::session) fn keep_in_place(&mut self, index: usize, is_kept: bool) {
+        let clip = &self.model.clips[index];
+        let facts = ClipFacts {
+            joined: self.clip_facts[index].joined,
+            ..ClipFacts::of_file(&self.clip_facts[index].file_name)
+        };
+        let (clip, leading_away) = match (&self.clip_facts[index].leading_away, is_kept) {
+            (None, true) => match edit::in_place(&self.model, clip) {
+                Some((kept, _)) => (kept, Some(Arc::new(clip.clone()))),
+                None => return,
+            },
+            (Some(away), false) => (Clip::clone(away), None),
+            _ => return,
+        };
+        self.compiled[index] = CompiledClip::new(&clip);
+        self.model.clips[index] = clip;
+        self.clip_facts[index] = ClipFacts { leading_away, ..facts };
     }
 
     /// Length of the model's diagonal in the bind pose, in its own units: a mesh's, or else that of its joints; 1 where both

@@ -243,6 +243,17 @@ impl Session {
         }
     }
 
+    /// Keeps a clip over where it starts, or lets it go.
+    pub(in crate::session) fn keep_in_place(&mut self, clip: usize, is_kept: bool) {
+        let before = self.shown_clips();
+        let Some(open) = &mut self.content.open else { return };
+        let facts = open.clip_facts.get(clip);
+        if facts.is_some_and(|facts| facts.leading_away.is_some() != is_kept) {
+            Arc::make_mut(open).keep_in_place(clip, is_kept);
+            self.show_clips_again(&before);
+        }
+    }
+
     /// The wish that a cube map is the sky, unless it is.
     pub(super) fn sky_wish(&self, cube: Option<File>) -> Option<Wish> {
         cube.filter(|cube| self.sky_file() != Some(cube)).map(Wish::Sky)

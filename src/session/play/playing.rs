@@ -66,6 +66,13 @@ pub enum PlayCommand {
     },
     /// Shows the clip on show alone.
     ClearBlend,
+    /// Keeps a clip over where it starts, or lets it go as its file has it. Nothing for one that goes nowhere.
+    SetInPlace {
+        /// Index of the clip.
+        clip: usize,
+        /// Whether it stays.
+        on: bool,
+    },
     /// Speed as a factor of the file's, clamped to [`crate::anim::MIN_SPEED`] and [`crate::anim::MAX_SPEED`].
     SetSpeed(f32),
     /// One of the [`crate::session::SPEEDS`] down.
@@ -129,6 +136,7 @@ impl Session {
                 actor.set_blend(Blend { clip, weight }, self.content.clip_count());
             }
             PlayCommand::ClearBlend => actor.mixer.set_blend(None),
+            PlayCommand::SetInPlace { clip, on } => self.keep_in_place(clip, on),
             PlayCommand::SetSpeed(speed) => actor.player.playback.set_speed(speed),
             PlayCommand::Slower => self.step_speed(|speeds, speed| speeds.iter().rev().find(|&&s| s < speed - 1e-4)),
             PlayCommand::Faster => self.step_speed(|speeds, speed| speeds.iter().find(|&&s| s > speed + 1e-4)),

@@ -43,6 +43,7 @@ pub(super) const FIELDS: &[Field] = &[
     ("wrap", "/view/playback/wrapMode", Form::Text),
     ("range", "/view/playback/rangeSecs", Form::List),
     ("blend", "/view/playback/blend", Form::Pair),
+    ("inplace", "/view/playback/inPlace", Form::List),
     ("fade", "/view/playback/crossfadeSecs", Form::Number),
     ("bind", "/view/playback/bindWeight", Form::Number),
     ("bone", "/view/selection/bone", Form::Number),

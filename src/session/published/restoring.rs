@@ -5,6 +5,7 @@ use crate::model::JointIndex;
 use crate::scene::Overlays;
 use crate::session::choose::selecting::{JointCommand, SubmeshCommand};
 use crate::session::look::LookCommand;
+use crate::session::open::open_model::OpenModel;
 use crate::session::play::mixer::Blend;
 use crate::session::{Event, Session};
 
@@ -18,7 +19,10 @@ impl Session {
             camera: CameraState::of(&self.view),
             crowd: self.crowd(),
             appearance: AppearanceState::of(&self.view, file_bones),
-            playback: PlaybackState::of(&self.actor, self.content.clips()),
+            playback: PlaybackState {
+                in_place: self.clips_in_place(),
+                ..PlaybackState::of(&self.actor, self.content.clips())
+            },
             selection: SelectionState {
                 bone: joints.selected().map(|joint| self.bone_number(joint)),
                 vertex: joints.selected_vertex().map(|selected| selected.vertex),
@@ -86,7 +90,17 @@ impl Session {
         view.up_axis = state.up_axis;
     }
 
+    fn clips_in_place(&self) -> Vec<String> {
+        let clips = self.open_model().into_iter().flat_map(OpenModel::clip_list);
+        let in_place = clips.filter(|clip| clip.in_place);
+        in_place.map(|clip| clip.name.to_owned()).collect()
+    }
+
     fn restore_playback(&mut self, state: &PlaybackState) {
+        for clip in 0..self.content.clip_count() {
+            let is_kept = state.in_place.contains(&self.content.clips()[clip].name);
+            self.keep_in_place(clip, is_kept);
+        }
         let actor = &mut self.actor;
         actor.mixer.set_crossfade(state.crossfade_secs);
         actor.mixer.end_fades();

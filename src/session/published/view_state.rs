@@ -127,6 +127,8 @@ pub struct PlaybackState {
     pub range_secs: Option<[f32; 2]>,
     /// Name of a clip that is blended in, and its weight, 0…1.
     pub blend: Option<(String, f32)>,
+    /// Names of clips that are kept over where they start.
+    pub in_place: Vec<String>,
     /// Length of crossfades, seconds.
     pub crossfade_secs: f32,
     /// How far the pose is brought to the bind pose, 0…1.
@@ -243,6 +245,7 @@ impl PlaybackState {
             wrap_mode: playback.wrap_mode(),
             range_secs: playback.range_secs(),
             blend: mixer.blend().and_then(|blend| Some((name(blend.clip)?, blend.weight))),
+            in_place: Vec::new(),
             crossfade_secs: mixer.crossfade_secs(),
             bind_weight: actor.bind_weight,
         }

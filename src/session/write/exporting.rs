@@ -144,11 +144,22 @@ impl Session {
             message: "Green of normal maps is taken as it was chosen here.".to_owned(),
         });
         let (name, clips) = (open.file.base_name(), options.clips.as_deref());
+        let is_written = |name: &str| clips.is_none_or(|clips| clips.iter().any(|clip| clip == name));
+        let in_place = open.clip_list().filter(|clip| clip.in_place && is_written(clip.name));
+        let in_place = in_place.map(|clip| Change {
+            code: "in-place",
+            message: format!("\"{}\" stays over where it starts.", clip.name),
+        });
         let what = ToExport {
             turns_green: green_flipped || model.front == Front::Positive,
             model,
             names: self.joint_names(),
-            changes: open.mended(clips).chain(edited).chain(flipped).collect(),
+            changes: open
+                .mended(clips)
+                .chain(edited)
+                .chain(flipped)
+                .chain(in_place)
+                .collect(),
             losses: open.left_out(clips, options.format.dialect().is_none()).collect(),
             edits: self.edits(options),
             maps: self.maps(),

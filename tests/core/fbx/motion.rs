@@ -1,10 +1,12 @@
 //! Motions: as the same file in another format has them, and when they join a character.
 
-use bindpose::anim::{CompiledClip, PoseBuffers};
+use bindpose::anim::{CompiledClip, PoseBuffers, skin_positions};
 use bindpose::edit::{Edits, apply, common_name};
+use bindpose::export::m3d;
+use bindpose::format::Dialect;
 use bindpose::import::import;
 use bindpose::model::{Clip, JointIndex, JointNames, Model};
-use bindpose::session::{File, FileCommand, Session};
+use bindpose::session::{Command, ExportOptions, File, FileCommand, HistoryCommand, PlayCommand, Session};
 use glam::{Affine3A, Vec3};
 
 use super::files;
@@ -95,9 +97,9 @@ fn a_character_and_its_motions_open_as_one_model() {
     let session = dropped();
     let open = session.open_model().expect("it opened");
     assert_eq!(open.file.path, "walker.fbx");
-    assert_eq!(names(&open.model.clips), ["walking", "waving"]);
+    assert_eq!(names(&open.model.clips), ["Scene", "walking", "waving"]);
     // Each bone is where the motion has it, though the character was exported in another pose.
-    for (clip, file) in open.model.clips.iter().zip(["walking.fbx", "waving.fbx"]) {
+    for (clip, file) in open.model.clips.iter().zip(["walker.fbx", "walking.fbx", "waving.fbx"]) {
         let motion = import(&fixture(file).bytes).expect("it is sound").model;
         let compiled = [CompiledClip::new(clip), CompiledClip::new(&motion.clips[0])];
         for part in 0..=10 {
@@ -141,8 +143,8 @@ fn a_motion_joins_bones_of_other_prefixes_and_tells_what_does_not_fit() {
     };
     session.apply(FileCommand::AddClips(vec![renamed("mixamorig:", "mixamorig7")]));
     let open = session.open_model().expect("it is open");
-    assert_eq!(names(&open.model.clips), ["walking", "waving", "other"]);
-    assert_eq!(open.model.clips[2].tracks, open.model.clips[0].tracks);
+    assert_eq!(names(&open.model.clips), ["Scene", "walking", "waving", "other"]);
+    assert_eq!(open.model.clips[3].tracks, open.model.clips[1].tracks);
     session.apply(FileCommand::AddClips(vec![renamed(
         "mixamorig:Spine",
         "mixamorig:Spire",
@@ -161,7 +163,7 @@ fn a_motion_joins_bones_of_other_prefixes_and_tells_what_does_not_fit() {
     session.apply(FileCommand::AddClips(vec![renamed("mixamorig:", "otherrig:_")]));
     let error = session.error().expect("it is refused");
     assert_eq!(error.diagnostic.code, "clips-bones-differ");
-    assert_eq!(names(&session.open_model().expect("it stays").model.clips).len(), 3);
+    assert_eq!(names(&session.open_model().expect("it stays").model.clips).len(), 4);
 }
 
 #[test]
@@ -175,7 +177,7 @@ fn a_clip_in_place_keeps_its_height_and_its_turns() {
     let edited = apply(model.clone(), &JointNames::default(), &edits).expect("it can be made");
     let told: Vec<&str> = edited.changes.iter().map(|change| change.code).collect();
     assert_eq!(told, ["in-place"], "what waves goes nowhere");
-    let compiled = [model, &edited.model].map(|model| CompiledClip::new(&model.clips[0]));
+    let compiled = [model, &edited.model].map(|model| CompiledClip::new(&model.clips[1]));
     let hips = |model: &Model, clip: &CompiledClip, secs: f32| {
         let joints = posed(model, clip, secs);
         joints
@@ -200,4 +202,83 @@ fn a_clip_in_place_keeps_its_height_and_its_turns() {
         ..Edits::default()
     };
     assert!(apply(model.clone(), &JointNames::default(), &wrong).is_err());
+}
+
+#[test]
+fn what_is_written_for_the_book_has_the_palette_of_the_source() {
+    let session = dropped();
+    let model = &session.open_model().expect("it opened").model;
+    let edits = Edits {
+        for_book: true,
+        ..Edits::default().in_space_of_the_books(model)
+    };
+    let edited = apply(model.clone(), &JointNames::default(), &edits)
+        .expect("it can be made")
+        .model;
+    let bytes = m3d(&edited, &JointNames::default(), Dialect::D3d12)
+        .expect("it can be written")
+        .bytes;
+    let written = import(&bytes).expect("what was written is read").model;
+    assert_eq!(written.clips.len(), 3);
+    let mut worst = 0f32;
+    for (clip, source) in written.clips.iter().zip(&model.clips) {
+        let [ours, theirs] = [clip, source].map(CompiledClip::new);
+        let mut poses = [&written, model].map(|model| PoseBuffers::for_skeleton(&model.skeleton));
+        for part in 0..12 {
+            let secs = source.start_secs + (source.end_secs - source.start_secs) * part as f32 / 11.0;
+            // The book's clips begin at 0.
+            poses[0].evaluate(&written.skeleton, &ours, secs - source.start_secs + clip.start_secs);
+            poses[1].evaluate(&model.skeleton, &theirs, secs);
+            let [mut placed, mut wanted] = [&written, model].map(|model| model.mesh.positions.clone());
+            skin_positions(&written.mesh, &poses[0].palette, &mut placed);
+            skin_positions(&model.mesh, &poses[1].palette, &mut wanted);
+            // The book's space is left-handed, turned round, and of the demo's size.
+            let lengths = |places: &[Vec3]| places.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f32>();
+            let scale = lengths(&placed) / lengths(&wanted);
+            let middle = |places: &[Vec3]| places.iter().sum::<Vec3>() / places.len() as f32;
+            let (middle_placed, middle_wanted) = (middle(&placed), middle(&wanted));
+            for (place, want) in placed.iter().zip(&wanted) {
+                let [place, want] = [(place - middle_placed) / scale, want - middle_wanted];
+                worst = worst.max((place.abs() - want.abs()).abs().max_element());
+            }
+        }
+    }
+    assert!(worst < 1e-4, "{worst} m of a figure of 1.8 m");
+}
+
+#[test]
+fn a_clip_that_is_kept_in_place_is_one_step_goes_into_links_and_exports() {
+    let mut session = dropped();
+    let hips = |session: &Session| {
+        let open = session.open_model().expect("it is open");
+        let compiled = &open.compiled[1];
+        let joints = posed(&open.model, compiled, open.model.clips[1].end_secs);
+        joints
+            .iter()
+            .find(|(name, _)| common_name(name) == "Hips")
+            .expect("hips")
+            .1
+            .translation
+    };
+    let away = hips(&session);
+    session.apply(PlayCommand::SelectClip(1));
+    session.apply(PlayCommand::SetInPlace { clip: 0, on: true });
+    assert!(session.history().undo_label().is_none(), "what breathes goes nowhere");
+    session.apply(PlayCommand::SetInPlace { clip: 1, on: true });
+    let kept = hips(&session);
+    assert!((away - kept).with_y(0.0).length() > 1.0, "{away} {kept}");
+    assert_eq!(session.view_state().playback.in_place, ["walking"]);
+    let state = session.view_state();
+    let written = session.export_job(&ExportOptions::default()).expect("it is open").run();
+    let changes = written.expect("it can be written").plan.changes;
+    assert!(changes.iter().any(|change| change.code == "in-place"), "{changes:?}");
+    session.apply(HistoryCommand::Undo);
+    assert_eq!(hips(&session), away);
+    session.apply(HistoryCommand::Redo);
+    assert_eq!(hips(&session), kept);
+    session.apply(PlayCommand::SetInPlace { clip: 1, on: false });
+    assert_eq!(hips(&session), away);
+    let mut other = dropped();
+    other.apply(Command::Restore(Box::new(state)));
+    assert_eq!(hips(&other), kept);
 }

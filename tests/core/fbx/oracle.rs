@@ -13,6 +13,11 @@ use super::files;
 /// Of the model's size.
 const TOLERANCE: f64 = 1e-4;
 
+/// Parts of a clip at which it is compared: the quarters, and others that no key of whole frames is at.
+const PARTS: [f64; 12] = [
+    0.0, 0.25, 0.5, 0.75, 1.0, 0.0713, 0.1871, 0.3347, 0.4129, 0.5839, 0.6917, 0.9431,
+];
+
 /// Files that are not compared, each with its reason.
 const OUT_OF_SCOPE: &[(&str, &str)] = &[
     (
@@ -191,12 +196,21 @@ fn compare(bytes: &[u8], imported: &Imported) -> Result<Vec<(String, f64)>, Stri
         return Ok(off);
     }
     for stack in scene.anim_stacks.iter() {
+        let within = |[start, end]: [f64; 2]| PARTS.map(|part| (start + (end - start) * part) as f32);
         let Some(clip) = model.clips.iter().find(|clip| *clip.name == *stack.element.name) else {
+            // What moves nothing is no clip.
+            let moves = |secs: f32| {
+                let posed = at(&scene, &stack.anim, f64::from(secs));
+                posed.iter().zip(&theirs).any(|(posed, rest)| posed.distance(*rest) > TOLERANCE * size)
+            };
+            if within([stack.time_begin, stack.time_end]).into_iter().any(moves) {
+                return Err(format!("clip {} is missing", &*stack.element.name));
+            }
             continue;
         };
         let compiled = CompiledClip::new(clip);
         let mut worst = 0f64;
-        let times = [0.0, 0.25, 0.5, 0.75, 1.0].map(|part| clip.start_secs + (clip.end_secs - clip.start_secs) * part);
+        let times = within([clip.start_secs, clip.end_secs].map(f64::from));
         let posed = times.map(|secs| at(&scene, &stack.anim, f64::from(secs)));
         // What moves far is as large as its way.
         let size = self::size(&posed.concat()).max(size);
@@ -400,8 +414,8 @@ fn joints_are_where_ufbx_has_them() {
             let compiled = CompiledClip::new(clip);
             let mut pose = PoseBuffers::for_skeleton(skeleton);
             let (mut worst, mut reach) = (0f64, 1e-9f64);
-            for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
-                let secs = clip.start_secs + (clip.end_secs - clip.start_secs) * part;
+            for part in PARTS {
+                let secs = clip.start_secs + (clip.end_secs - clip.start_secs) * part as f32;
                 pose.evaluate(skeleton, &compiled, secs);
                 let evaluated = ufbx::evaluate_scene(&scene, &stack.anim, f64::from(secs), EvaluateOpts::default())
                     .expect("it is evaluated");

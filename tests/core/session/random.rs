@@ -164,6 +164,7 @@ fn timeline() -> impl Strategy<Value = PlayCommand> {
         number().prop_map(PlayCommand::SetCrossfade),
         (0usize..5, number()).prop_map(|(clip, weight)| PlayCommand::SetBlend { clip, weight }),
         Just(PlayCommand::ClearBlend),
+        (0usize..5, any::<bool>()).prop_map(|(clip, on)| PlayCommand::SetInPlace { clip, on }),
     ]
 }
 

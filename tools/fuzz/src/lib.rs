@@ -44,10 +44,7 @@ pub const TARGETS: [Target; 6] = [
         name: "whole",
         run: whole,
     },
-    Target {
-        name: "fbx",
-        run: fbx,
-    },
+    Target { name: "fbx", run: fbx },
 ];
 
 /// A model of any format, with nothing beside it, is read and looked over.

@@ -23,8 +23,8 @@ pub(super) struct Source<'a> {
 
 /// Keys with times in seconds.
 pub(super) enum Fitted {
-    /// It does not move; `None` where nothing says how it is.
-    Rest(Option<DVec4>),
+    /// It does not move, since a time; `None` where nothing says how it is.
+    Rest(Option<(f32, DVec4)>),
     Straight(Vec<(f32, DVec4)>),
     Held(Vec<(f32, DVec4)>),
     Spline(Vec<Knot>),
@@ -76,7 +76,7 @@ impl Source<'_> {
             return if moves {
                 Fitted::Held(values().collect())
             } else {
-                Fitted::Rest(Some(start))
+                Fitted::Rest(Some((first as f32, start)))
             };
         }
         let is_straight = |&way: &[f64; 2]| {
@@ -230,7 +230,7 @@ impl Fitted {
         };
         match self {
             Self::Rest(None) => Ok(Channel::at_rest(rest)),
-            Self::Rest(Some(still)) => Ok(Channel::at_rest(value(still))),
+            Self::Rest(Some((secs, still))) => Ok(Channel::at_rest(value(still)).resting_at(rest, secs)),
             Self::Straight(found) => Channel::straight(keys(found)),
             Self::Held(found) => Channel::held(keys(found)),
             Self::Spline(mut knots) => {

@@ -220,9 +220,17 @@ impl Layer {
             let below = property.of(parts);
             let is_over = !is_lowest && self.blend == Blend::Additive;
             // Where it says nothing of an axis, it adds nothing.
-            let nothing = if property == Property::Scale { DVec3::ONE } else { DVec3::ZERO };
+            let nothing = if property == Property::Scale {
+                DVec3::ONE
+            } else {
+                DVec3::ZERO
+            };
             let mut value = if is_over { nothing } else { *below };
-            let unit = if property == Property::Translation { self.unit_metres } else { 1.0 };
+            let unit = if property == Property::Translation {
+                self.unit_metres
+            } else {
+                1.0
+            };
             for axis in 0..3 {
                 let curve = axes.curves[axis].as_ref().and_then(|curve| curve.at(secs, is_before));
                 if let Some(number) = curve.or(axes.without[axis]) {

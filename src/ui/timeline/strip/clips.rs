@@ -4,6 +4,7 @@ use egui::{Align2, FontId, Popup, Rangef, Rect, Response, Role, Sense, Ui, Widge
 
 use super::controls::tell_choice;
 use crate::actions::{self, Control};
+use crate::edit;
 use crate::session::{ClipSummary, Command, DEFAULT_CROSSFADE_SECS, OpenModel, PlayCommand};
 use crate::ui::cx::Cx;
 use crate::ui::kit::icons::Icon;
@@ -11,7 +12,7 @@ use crate::ui::kit::theme::Tokens;
 use crate::ui::kit::wording::{counted, trimmed};
 use crate::ui::kit::{
     Slider, TextButton, choices, control_size, focus_ring, is_touch, named, paint_elided, paint_list_ground,
-    paint_name, row_icon, section_name, section_with_action, tell_push,
+    paint_name, row_icon, section_name, section_with_action, switch_row, tell_push,
 };
 use crate::ui::state::{Request, UiState};
 use crate::ui::window::panel::{popover_above, popover_gap, scrolled};
@@ -39,6 +40,7 @@ pub(in crate::ui::timeline) fn button(ui: &mut Ui, cx: &mut Cx<'_, UiState>, wid
         if named(add, Control::new("add-clips")).clicked() {
             cx.state.requests.push(Request::PickClips);
         }
+        in_place(ui, cx, open);
         if open.model.clips.len() > 1 {
             popover_gap(ui);
             mixing(ui, cx, open);
@@ -119,6 +121,21 @@ fn blend_icon(ui: &Ui, cx: &mut Cx<'_, UiState>, index: usize, name: &str, place
                 weight: 0.5,
             })
         });
+    }
+}
+
+/// Whether the open clip stays over where it starts; nothing for one that goes nowhere.
+fn in_place(ui: &mut Ui, cx: &mut Cx<'_, UiState>, open: &OpenModel) {
+    let Some(index) = cx.session.clip_index() else { return };
+    let Some(on) = open.clip_list().nth(index).map(|clip| clip.in_place) else {
+        return;
+    };
+    if !on && !edit::leads_away(&open.model, &open.model.clips[index]) {
+        return;
+    }
+    let row = switch_row(ui, "In place", "", on).on_hover_text("What walks away walks on the spot");
+    if named(row, Control::new("in-place")).clicked() {
+        cx.push(PlayCommand::SetInPlace { clip: index, on: !on });
     }
 }
 
