@@ -35,7 +35,10 @@ pub(super) fn unbent(track: &Track) -> Cow<'_, Track> {
 /// `splits_steps`: a value that is held gets a second key.
 fn of_pieces(track: &Track, splits_steps: bool) -> Track {
     let vectors = |channel: &Channel<Vec3>| {
-        let range = range(channel.values());
+        let range = match range(channel.values()) {
+            0.0 => range(&inner_points(channel)),
+            range => range,
+        };
         let part = |distance: f32| if range > 0.0 { distance / range } else { 0.0 };
         in_pieces(channel, splits_steps, |a, b| part(a.distance(b)))
     };
@@ -57,6 +60,21 @@ fn range(values: &[Vec3]) -> f32 {
     (greatest - least)
         .length()
         .max(least.abs().max(greatest.abs()).max_element() * 1e-2)
+}
+
+/// The inner points of the Bézier curves of a spline: it may swing out between keys whose values are all 0.
+fn inner_points(channel: &Channel<Vec3>) -> Vec<Vec3> {
+    let Way::Spline(slopes) = channel.way() else {
+        return Vec::new();
+    };
+    let keys = slopes.array_windows().zip(channel.values().array_windows());
+    let lengths = channel.times_secs().array_windows().map(|[from, to]| to - from);
+    let inner = keys
+        .zip(lengths)
+        .flat_map(|(([[_, left], [reached, _]], [from, to]), secs)| {
+            [from + left * (secs / 3.0), to - reached * (secs / 3.0)]
+        });
+    inner.collect()
 }
 
 /// `apart` measures how far apart two values are.

@@ -17,6 +17,8 @@ pub(super) struct File<'f, 'a> {
     pub(super) settings: Settings,
     /// How often joints may still be asked for where they are: curves can be made that no keys follow.
     pub(super) evaluations_left: Cell<u64>,
+    /// How many corners may still be looked at to cut polygons into triangles: outlines can be made in which each ear meets all others.
+    pub(super) ear_tests_left: Cell<u64>,
     /// Of each bone: bone -> world in the file's axes, as the bind pose has it.
     pub(super) bind_pose: HashMap<ObjectIndex, DAffine3>,
     /// Bones that a skin bound elsewhere.

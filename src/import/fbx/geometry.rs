@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use glam::Vec3;
 
+use super::ears::triangulate;
 use super::file::File;
 use crate::diagnostic::collect::counted;
 use crate::diagnostic::{Fault, codes};
@@ -189,7 +190,6 @@ pub(super) async fn read(
     let mut parts: HashMap<usize, usize> = HashMap::new();
     let mut of_polygon: Vec<u32> = Vec::new();
     let mut without_values = 0;
-    let mut tests_left = MOST_TESTS + TESTS_PER_CORNER * corners.len();
     for (polygon, range) in polygons(&corners).enumerate() {
         slices.pause_before(polygon).await;
         of_polygon.clear();
@@ -238,7 +238,7 @@ pub(super) async fn read(
             &of_polygon,
             positions,
             &mut geometry.parts[part].triangles,
-            &mut tests_left,
+            &file.ear_tests_left,
         );
     }
     geometry.parts.sort_by_key(|part| part.material);
@@ -323,68 +323,4 @@ fn material_layer(record: &Record<'_>, budget: &Budget) -> Result<Option<Materia
         mapping,
         indices: indices.integers(budget)?,
     }))
-}
-
-/// Cuts a polygon into triangles whose corners run as its own do.
-fn triangulate(polygon: &[u32], positions: &[[f32; 3]], triangles: &mut Vec<[u32; 3]>, tests_left: &mut usize) {
-    if let &[a, b, c] = polygon {
-        triangles.push([a, b, c]);
-        return;
-    }
-    let outline: Vec<glam::DVec3> = polygon
-        .iter()
-        .map(|&vertex| glam::Vec3::from_array(positions[vertex as usize]).as_dvec3())
-        .collect();
-    let mut left: Vec<usize> = (0..polygon.len()).collect();
-    // Newell's normal: the sum of the areas seen along each axis.
-    let normal: glam::DVec3 = (0..outline.len())
-        .map(|at| outline[at].cross(outline[(at + 1) % outline.len()]))
-        .sum();
-    let mut at = 0;
-    let mut tried = 0;
-    // What is left when the tests are used up is cut like a fan.
-    while left.len() > 3 && *tests_left > 0 {
-        let count = left.len();
-        let [before, ear, after] = [(at + count - 1) % count, at % count, (at + 1) % count].map(|place| left[place]);
-        // An outline that crosses itself has no ear at the end.
-        let is_cut = tried >= count || is_ear(&outline, &left, [before, ear, after], normal, tests_left);
-        if is_cut {
-            triangles.push([before, ear, after].map(|place| polygon[place]));
-            left.remove(at % count);
-            tried = 0;
-            at = if at == 0 { 0 } else { at - 1 };
-        } else {
-            tried += 1;
-            at = (at + 1) % count;
-        }
-    }
-    let fan = left[1..].array_windows();
-    triangles.extend(fan.map(|&[b, c]| [left[0], b, c].map(|place| polygon[place])));
-}
-
-/// Tests of a corner against a triangle in one geometry: enough for a polygon of a thousand corners, whatever its shape, and for all small ones.
-const MOST_TESTS: usize = 1_000_000;
-const TESTS_PER_CORNER: usize = 16;
-
-/// Whether a corner can be cut off: it bends outwards, and no other corner lies in it.
-fn is_ear(
-    outline: &[glam::DVec3],
-    left: &[usize],
-    [a, b, c]: [usize; 3],
-    normal: glam::DVec3,
-    tests_left: &mut usize,
-) -> bool {
-    *tests_left = tests_left.saturating_sub(1);
-    let side = |from: glam::DVec3, to: glam::DVec3, point: glam::DVec3| (to - from).cross(point - from).dot(normal);
-    let corners @ [pa, pb, pc] = [a, b, c].map(|place| outline[place]);
-    if side(pa, pb, pc) <= 0.0 {
-        return false;
-    }
-    *tests_left = tests_left.saturating_sub(left.len());
-    let is_inside =
-        |point: glam::DVec3| side(pa, pb, point) >= 0.0 && side(pb, pc, point) >= 0.0 && side(pc, pa, point) >= 0.0;
-    let others = left.iter().filter(|place| ![a, b, c].contains(place));
-    !others
-        .map(|&place| outline[place])
-        .any(|point| !corners.contains(&point) && is_inside(point))
 }

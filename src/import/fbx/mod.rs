@@ -6,6 +6,7 @@
 
 mod clips;
 mod curves;
+mod ears;
 mod file;
 mod geometry;
 mod images;
@@ -62,6 +63,7 @@ pub(super) async fn import(bytes: &[u8], find: FindFile<'_>, slices: &Slices) ->
         settings: Settings::of(&document),
         // A key takes a dozen bytes, and is asked for a dozen times.
         evaluations_left: Cell::new(4_000_000 + 8 * bytes.len() as u64),
+        ear_tests_left: Cell::new(8_000_000 + 16 * bytes.len() as u64),
         bind_pose: HashMap::new(),
         disagreeing: BTreeSet::new(),
         noted: Vec::new(),

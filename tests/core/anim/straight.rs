@@ -39,6 +39,16 @@ fn pieces_stay_beside_a_spline_that_eases_in_and_out() {
 }
 
 #[test]
+fn a_spline_swings_out_between_keys_that_are_the_same() {
+    let key = |time_secs, slope: f32| (time_secs, Vec3::ZERO, [Vec3::X * slope; 2]);
+    let swings = Channel::spline([key(0.0, 40.0), key(1.0, -40.0), key(2.0, 40.0)]);
+    let track = with_translation(&still(), swings);
+    assert!(track.at(0.5).translation.x > 9.0);
+    let error = greatest_error(&track);
+    assert!(error < 40.0 * STRAIGHT_ERROR, "{error}");
+}
+
+#[test]
 fn a_held_value_is_held_to_the_last_number_before_the_next_key() {
     let held = Channel::held([(0.0, Vec3::X), (1.0, Vec3::Y), (2.0, Vec3::Z)]);
     let track = with_translation(&still(), held);

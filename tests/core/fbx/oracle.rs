@@ -201,7 +201,10 @@ fn compare(bytes: &[u8], imported: &Imported) -> Result<Vec<(String, f64)>, Stri
             // What moves nothing is no clip.
             let moves = |secs: f32| {
                 let posed = at(&scene, &stack.anim, f64::from(secs));
-                posed.iter().zip(&theirs).any(|(posed, rest)| posed.distance(*rest) > TOLERANCE * size)
+                posed
+                    .iter()
+                    .zip(&theirs)
+                    .any(|(posed, rest)| posed.distance(*rest) > TOLERANCE * size)
             };
             if within([stack.time_begin, stack.time_end]).into_iter().any(moves) {
                 return Err(format!("clip {} is missing", &*stack.element.name));
