@@ -43,9 +43,9 @@ async function digestOf(bytes) {
 
 /**
  * Keeps the address and what is seen together. The page gives what it does otherwise: `viewer()`, or null while there is none; `changed(link)`
- * hears of another link, `followed()` of one that is shown, `ask(words)` asks for a file, `tell(words)` says what was opened in its place and `refuse(names)` what was left out.
+ * hears of another link, `follow(view)` shows one and names what is left out, `ask(words)` asks for a file, `tell(words)` says what was opened in its place and `refuse(names)` what was left out.
  */
-export function keepLink({ viewer, changed, followed, ask, tell, refuse }) {
+export function keepLink({ viewer, changed, follow, ask, tell, refuse }) {
   let own = null; // What the page opened by itself: its opening and path.
   let opensOwn = false; // Whether it does so now.
   let model = { opening: null, path: null, sha: "" }; // On screen.
@@ -98,10 +98,9 @@ export function keepLink({ viewer, changed, followed, ask, tell, refuse }) {
   const show = ({ view }, words) => {
     wanted = null;
     ask(null);
-    const leftOut = viewer().followLink(view);
+    const leftOut = follow(view);
     if (words) tell(words);
     if (leftOut.length) refuse(leftOut);
-    followed();
   };
 
   /** Shows the moment of the link that waits, if it is about the model on screen. */

@@ -7,7 +7,7 @@ import { createServer } from "node:http";
 import { BACKEND, PAGE, SAMPLE, atRest, call, keep, listen, running, state, test, until } from "./harness.js";
 import { OWN, QUERY, follow, hash, hears, notice, says, visit } from "./link.js";
 import { coloursOnScreen } from "./picture.js";
-import { click } from "./widgets.js";
+import { click, still } from "./widgets.js";
 
 /** The digits by which a link knows a file. */
 const digestOf = (bytes) => createHash("sha256").update(bytes).digest("hex").slice(0, 12);
@@ -102,7 +102,7 @@ test("a link is about a model of those that the address names, without one about
   const sample = await readFile(SAMPLE, "utf8");
   // The larger one opens.
   const texts = { "small.m3d": sample, "large.m3d": `${sample}\n\n` };
-  await page.route(/(small|large)\.m3d$/, (route) =>
+  await page.route(/\/(small|large)\.m3d$/, (route) =>
     route.fulfill({ body: texts[route.request().url().split("/").pop()] }),
   );
   const open = async (link) => {
@@ -151,9 +151,13 @@ test("the buttons copy a link and a frame, and tell what has no room", { ...OWN,
   const press = async (control) => {
     await page.evaluate(() => navigator.clipboard.writeText(""));
     await click(page, "picture");
+    await still(page, control);
     await click(page, control);
-    await page.waitForFunction(async () => (await navigator.clipboard.readText()) !== "", null, { polling: 50 });
-    return page.evaluate(() => navigator.clipboard.readText());
+    for (const deadline = Date.now() + 20_000; ; await page.waitForTimeout(50)) {
+      const text = await page.evaluate(() => navigator.clipboard.readText());
+      if (text) return text;
+      assert.ok(Date.now() < deadline, `${control} copies nothing: ${await notice(page)}`);
+    }
   };
   assert.equal(await press("copy-link"), `${PAGE}${QUERY}#${moment}`);
   await hears(page, "Link copied");

@@ -20,10 +20,6 @@ async function pageOf() {
       page.taken = taken;
       return { text: page.view, leftOut: [] };
     },
-    followLink(text) {
-      page.view = text;
-      return [];
-    },
     modelOnScreen: () => page.shown,
     modelBytes: () => BYTES,
     openModel(path) {
@@ -35,7 +31,10 @@ async function pageOf() {
   page.link = keepLink({
     viewer: () => page.viewer,
     changed: (text) => page.told.push(text),
-    followed() {},
+    follow(view) {
+      page.view = view;
+      return [];
+    },
     ask: (words) => page.asked.push(words),
     tell() {},
     refuse() {},
