@@ -569,6 +569,23 @@ fn on_another_page_there_is_the_timeline_or_nothing_and_no_button_without_use() 
 }
 
 #[test]
+fn a_link_to_the_tree_draws_no_bones_by_itself() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    for opens_another in [false, true] {
+        let Page { session, state, .. } = window.harness.state_mut();
+        if opens_another {
+            // The link is followed before the first pass with the model.
+            session.apply(FileCommand::Add(vec![moving("b.m3d")]));
+        }
+        assert_eq!(state.open_these_panels(session, &["skeleton".to_owned()]), [""; 0]);
+        window.pass_on();
+        let Page { session, state, .. } = window.harness.state();
+        assert_eq!(state.open_panels(), ["skeleton"]);
+        assert!(!session.look().bones_visible, "{opens_another}");
+    }
+}
+
+#[test]
 fn panels_that_are_open_are_opened_again_by_their_names() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     for names in [
