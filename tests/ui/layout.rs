@@ -569,7 +569,7 @@ fn on_another_page_there_is_the_timeline_or_nothing_and_no_button_without_use() 
 }
 
 #[test]
-fn a_link_to_the_tree_draws_no_bones_by_itself() {
+fn a_link_to_panels_opens_them_and_draws_no_bones() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     for opens_another in [false, true] {
         let Page { session, state, .. } = window.harness.state_mut();
@@ -577,10 +577,11 @@ fn a_link_to_the_tree_draws_no_bones_by_itself() {
             // The link is followed before the first pass with the model.
             session.apply(FileCommand::Add(vec![moving("b.m3d")]));
         }
-        assert_eq!(state.open_these_panels(session, &["skeleton".to_owned()]), [""; 0]);
+        let names = ["skeleton", "findings"].map(str::to_owned);
+        assert_eq!(state.open_these_panels(session, &names), [""; 0]);
         window.pass_on();
         let Page { session, state, .. } = window.harness.state();
-        assert_eq!(state.open_panels(), ["skeleton"]);
+        assert_eq!(state.open_panels(), names);
         assert!(!session.look().bones_visible, "{opens_another}");
     }
 }
