@@ -52,6 +52,7 @@ export function keepLink({ viewer, changed, follow, ask, tell, refuse }) {
   let wanted = null; // A link that waits for its model.
   let seen = null; // The link when it was looked at last.
   let last = null; // The one that was told last.
+  let heard = location.hash.slice(1); // What stands behind the `#`, as far as this page knows.
   let timer = 0;
   let writtenAt = -EVERY_MS;
 
@@ -88,8 +89,10 @@ export function keepLink({ viewer, changed, follow, ask, tell, refuse }) {
 
   const write = () => {
     if (!viewer() || model.path === null || (wanted && isOwn(model))) return;
+    // A link was clicked, and its event is to come.
+    if (location.hash.slice(1) !== heard) return;
     const { address, text } = read();
-    last = seen = text;
+    last = seen = heard = text;
     writtenAt = performance.now();
     if (text !== location.hash.slice(1)) history.replaceState(history.state, "", text ? `${address}#${text}` : address);
     changed(text);
@@ -134,7 +137,8 @@ export function keepLink({ viewer, changed, follow, ask, tell, refuse }) {
     },
     /** Follows the link in the address, an empty one only where it was clicked. Its model may not be here yet. */
     follow(isClicked = false) {
-      const link = parsed(location.hash.slice(1));
+      heard = location.hash.slice(1);
+      const link = parsed(heard);
       if (!isClicked && link.model === undefined && !link.view) return;
       wanted = link;
       const { model: name } = link;
@@ -162,7 +166,7 @@ export function keepLink({ viewer, changed, follow, ask, tell, refuse }) {
     moving: rests,
     /** Follows a link that was clicked, or one of before. */
     hashChanged() {
-      const text = location.hash.slice(1);
+      const text = (heard = location.hash.slice(1));
       if (!viewer() || text === last) return;
       last = text;
       if (text || model.path !== null) this.follow(true);

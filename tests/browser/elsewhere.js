@@ -51,11 +51,6 @@ async function serving(body) {
     const send = (status, bytes) => response.writeHead(status, { ...allows, "Content-Length": bytes.length }).end(bytes);
     if (url.endsWith(".gltf")) return send(200, SCENE);
     if (url.endsWith(".bin")) return send(200, TRIANGLE);
-    if (url.startsWith("/broken/")) {
-      response.writeHead(200, { ...allows, "Content-Length": model.length });
-      response.write(model.subarray(0, 1000), () => setTimeout(() => response.destroy(), 100));
-      return;
-    }
     if (url.endsWith(".zip")) return send(200, zipped("deep/packed.m3d", model));
     if (url.endsWith(".png")) return send(200, picture);
     // Nothing is promised.
@@ -85,7 +80,7 @@ async function serving(body) {
   });
   await new Promise((done) => server.listen(0, "127.0.0.1", done));
   try {
-    await body(`http://127.0.0.1:${server.address().port}`, asked, () => gone);
+    await body(`http://127.0.0.1:${server.address().port}`, asked, () => gone, () => server.closeAllConnections());
   } finally {
     server.closeAllConnections();
     server.close();
@@ -131,15 +126,18 @@ test("a model and its pictures may come from several addresses, or in an archive
 const FAILING = { bare: true, expectErrors: true };
 
 test("a wrong length ends in words, and one that nobody told in the model", FAILING, (page) =>
-  serving(async (server) => {
+  serving(async (server, _, __, breakOff) => {
     await visit(page, `${server}/untold/figure.m3d`);
     assert.equal((await until(page, (now) => now.model)).model.name, "figure.m3d");
     // Of what comes after the promised length a browser gives nothing.
     await visit(page, `${server}/cut/figure.m3d`);
     const { error, model } = await until(page, (now) => now.model || now.error);
     assert.deepEqual([model, error?.file, error?.code], [null, "figure.m3d", "unexpected-end"]);
-    await visit(page, `${server}/broken/figure.m3d`);
-    await refused(page, "broke off after 1000 of ");
+    await visit(page, `${server}/slow/figure.m3d`);
+    await until(page, (now) => now.opening?.percent > 0);
+    breakOff();
+    await refused(page, " bytes of /slow/figure.m3d");
+    assert.match(await page.textContent("#notice-words"), /broke off after [1-9]\d* of \d+ bytes of /);
   }));
 
 test("what a server does not give is told by what happened", FAILING, (page) =>

@@ -10,11 +10,12 @@ const SHA = createHash("sha256").update(BYTES).digest("hex").slice(0, 12);
 
 const soon = () => new Promise((done) => setImmediate(done));
 
-/** A page that opened `own.m3d` by itself, with `other.m3d` in the same list; behind the `#` of its address stands `page.hash`. */
+/** A page that opened `own.m3d` by itself, with `other.m3d` in the same list; its address ends in `page.hash`. */
 async function pageOf() {
   const address = "https://host/";
   let now = 0;
-  const page = { hash: "", view: "", shown: { path: "own.m3d", opening: 1 }, writes: [], told: [], asked: [], taken: 0 };
+  const page = { hash: "", view: "", taken: 0, writes: [], told: [], asked: [] };
+  page.shown = { path: "own.m3d", opening: 1 };
   page.viewer = {
     link(taken) {
       page.taken = taken;
@@ -28,17 +29,6 @@ async function pageOf() {
       return true;
     },
   };
-  page.link = keepLink({
-    viewer: () => page.viewer,
-    changed: (text) => page.told.push(text),
-    follow(view) {
-      page.view = view;
-      return [];
-    },
-    ask: (words) => page.asked.push(words),
-    tell() {},
-    refuse() {},
-  });
   globalThis.location = {
     get href() {
       return address + this.hash;
@@ -54,6 +44,17 @@ async function pageOf() {
       page.writes.push([now, page.hash]);
     },
   };
+  page.link = keepLink({
+    viewer: () => page.viewer,
+    changed: (text) => page.told.push(text),
+    follow(view) {
+      page.view = view;
+      return [];
+    },
+    ask: (words) => page.asked.push(words),
+    tell() {},
+    refuse() {},
+  });
   mock.method(performance, "now", () => now);
   mock.timers.enable({ apis: ["setTimeout"] });
   page.opens = (shown) => {
@@ -134,6 +135,16 @@ testOf("nothing is written while it moves, and what was changed then is afterwar
   assert.equal(page.hash, "t=2");
 });
 
+testOf("a link that was clicked is not written over before the page hears of it", async () => {
+  const page = await pageOf();
+  page.after(0, "t=1");
+  page.hash = "t=9";
+  page.after(300);
+  assert.deepEqual([page.writes, page.hash], [[], "t=9"]);
+  await page.click("t=9");
+  assert.equal(page.view, "t=9");
+});
+
 testOf("a link without a model is about the page's own, one with a model of its list about that", async () => {
   const page = await pageOf();
   await page.click("model=other.m3d&t=1");
@@ -161,6 +172,7 @@ for (const [characters, isNamed] of [[2_000, true], [2_001, false]]) {
     const { address, leftOut } = page.link.whole();
     assert.equal(address.length, isNamed ? characters : "https://host/".length);
     assert.deepEqual(leftOut, isNamed ? [] : ["model"]);
-    assert.equal(page.taken, isNamed ? characters + 1 : "https://host/".length + 2, "the rest of the room is the viewer's");
+    const taken = isNamed ? characters + 1 : "https://host/".length + 2;
+    assert.equal(page.taken, taken, "the rest of the room is the viewer's");
   });
 }
