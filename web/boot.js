@@ -61,9 +61,11 @@ const link = keepLink({
   viewer: () => (hasFailed() ? null : viewer),
   changed: (text) => emit("linkchange", { link: text }),
   // A link's values are not the person's choices.
-  followed() {
+  follow(view) {
     keepVisit();
+    const leftOut = viewer.followLink(view);
     choices = choicesNow();
+    return leftOut;
   },
   ask(words) {
     if (isFramed) return words ? tellOf(words) : clearNotice();

@@ -1,7 +1,10 @@
 // The address as a link to what is seen: written when that rests, followed when the page opens and when another link is clicked. Behind `#`
 // stands what the viewer says of itself, and before that which model it is about, where the page does not open that one by itself.
 
-/** A link is written when nothing changed for so long. */
+/** The most characters of an address, as the viewer has it for what it writes. */
+const MOST_CHARACTERS = 2_000;
+
+/** A link is written so long after the last change. */
 const RESTS_AFTER_MS = 250;
 
 /** And no more often than this. */
@@ -40,15 +43,16 @@ async function digestOf(bytes) {
 
 /**
  * Keeps the address and what is seen together. The page gives what it does otherwise: `viewer()`, or null while there is none; `changed(link)`
- * hears of another link, `followed()` of one that is shown, `ask(words)` asks for a file, `tell(words)` says what was opened in its place and `refuse(names)` what was left out.
+ * hears of another link, `follow(view)` shows one and names what is left out, `ask(words)` asks for a file, `tell(words)` says what was opened in its place and `refuse(names)` what was left out.
  */
-export function keepLink({ viewer, changed, followed, ask, tell, refuse }) {
+export function keepLink({ viewer, changed, follow, ask, tell, refuse }) {
   let own = null; // What the page opened by itself: its opening and path.
   let opensOwn = false; // Whether it does so now.
   let model = { opening: null, path: null, sha: "" }; // On screen.
   let wanted = null; // A link that waits for its model.
   let seen = null; // The link when it was looked at last.
   let last = null; // The one that was told last.
+  let heard = location.hash.slice(1); // What stands behind the `#`, as far as this page knows.
   let timer = 0;
   let writtenAt = -EVERY_MS;
 
@@ -58,33 +62,37 @@ export function keepLink({ viewer, changed, followed, ask, tell, refuse }) {
   const read = () => {
     const { opening, path } = model;
     const named = path && !isOwn({ opening, path }) ? [`model=${encodeURIComponent(path)}`, model.sha && `sha=${model.sha}`] : [];
-    const start = named.filter(Boolean).join("&");
     const address = location.href.split("#")[0];
+    const whole = named.filter(Boolean).join("&");
+    const start = address.length + whole.length < MOST_CHARACTERS ? whole : "";
     const { text, leftOut } = viewer()?.link(address.length + start.length + 2) ?? { text: "", leftOut: [] };
+    if (start !== whole) leftOut.unshift("model");
     return { address, text: [start, text].filter(Boolean).join("&"), leftOut };
   };
 
-  /** Nothing is looked at any more. */
+  /** Nothing is written any more. */
   const rests = () => {
     clearTimeout(timer);
-    timer = 0;
+    seen = last;
   };
 
-  /** Looks at what is seen in a moment. */
-  const look = () => (timer ||= setTimeout(write, Math.max(RESTS_AFTER_MS, writtenAt + EVERY_MS - performance.now())));
-
-  const write = () => {
-    timer = 0;
+  /** What is seen now is written once it rests. */
+  const look = () => {
     // The address stays that of the link until the model is here that it is about.
     if (!viewer() || model.path === null || (wanted && isOwn(model))) return;
+    const { text } = read();
+    if (text === seen) return;
+    seen = text;
+    clearTimeout(timer);
+    if (text !== last) timer = setTimeout(write, Math.max(RESTS_AFTER_MS, writtenAt + EVERY_MS - performance.now()));
+  };
+
+  const write = () => {
+    if (!viewer() || model.path === null || (wanted && isOwn(model))) return;
+    // A link was clicked, and its event is to come.
+    if (location.hash.slice(1) !== heard) return;
     const { address, text } = read();
-    if (text === last) return;
-    if (text !== seen) {
-      // It may go on changing.
-      seen = text;
-      return void look();
-    }
-    last = text;
+    last = seen = heard = text;
     writtenAt = performance.now();
     if (text !== location.hash.slice(1)) history.replaceState(history.state, "", text ? `${address}#${text}` : address);
     changed(text);
@@ -93,10 +101,9 @@ export function keepLink({ viewer, changed, followed, ask, tell, refuse }) {
   const show = ({ view }, words) => {
     wanted = null;
     ask(null);
-    const leftOut = viewer().followLink(view);
+    const leftOut = follow(view);
     if (words) tell(words);
     if (leftOut.length) refuse(leftOut);
-    followed();
   };
 
   /** Shows the moment of the link that waits, if it is about the model on screen. */
@@ -118,7 +125,8 @@ export function keepLink({ viewer, changed, followed, ask, tell, refuse }) {
     /** The whole address, and the names of what it has no room for. */
     whole() {
       const { address, text, leftOut } = read();
-      return { address: text ? `${address}#${text}` : address, leftOut, asksFor: isOwn(model) ? null : model.path };
+      const asksFor = model.opening === own?.opening ? null : model.path;
+      return { address: text ? `${address}#${text}` : address, leftOut, asksFor };
     },
     /** What comes until `work` is settled, the page opens by itself. Returns that. */
     opens(work) {
@@ -127,10 +135,11 @@ export function keepLink({ viewer, changed, followed, ask, tell, refuse }) {
       work.then(end, end);
       return work;
     },
-    /** Follows the link in the address. Its model may not be here yet. */
-    follow() {
-      const link = parsed(location.hash.slice(1));
-      if (link.model === undefined && !link.view) return;
+    /** Follows the link in the address, an empty one only where it was clicked. Its model may not be here yet. */
+    follow(isClicked = false) {
+      heard = location.hash.slice(1);
+      const link = parsed(heard);
+      if (!isClicked && link.model === undefined && !link.view) return;
       wanted = link;
       const { model: name } = link;
       // Without a name it is about what the page opens by itself, which may be in the list.
@@ -157,11 +166,10 @@ export function keepLink({ viewer, changed, followed, ask, tell, refuse }) {
     moving: rests,
     /** Follows a link that was clicked, or one of before. */
     hashChanged() {
-      const text = location.hash.slice(1);
+      const text = (heard = location.hash.slice(1));
       if (!viewer() || text === last) return;
       last = text;
-      if (text) this.follow();
-      else if (model.path !== null && (isOwn(model) || !own || !viewer().openModel(own.path))) show({ view: "" });
+      if (text || model.path !== null) this.follow(true);
     },
   };
 }

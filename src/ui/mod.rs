@@ -63,12 +63,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, state: &mut UiState) -> Vec<Comm
     kit::size_for_touch(ui.ctx(), touch);
     state.focus.begin(ui.ctx());
     tell(session.take_news(), &mut state.messages);
-    if state.shown_model != session.model_revision() {
-        state.shown_model = session.model_revision();
-        state.show_findings_of(session);
-        state.maps_open = false;
-    }
-
+    state.follow_model(session);
     state.skeleton.read(ui, session, window);
     let cx = &mut Cx {
         session,

@@ -222,6 +222,8 @@ impl UiState {
 
     /// Opens the panels of these names, and no others. Returns the names that are none.
     pub fn open_these_panels(&mut self, session: &Session, names: &[String]) -> Vec<String> {
+        // It may come before the first pass with its model.
+        self.follow_model(session);
         let has = |name: &str| names.iter().any(|open| open == name);
         let page = if has(SKELETON) {
             SidePage::Skeleton
@@ -254,6 +256,15 @@ impl UiState {
             } else {
                 DrawerPage::Model
             });
+        }
+    }
+
+    /// What is open of another model is closed.
+    pub(super) fn follow_model(&mut self, session: &Session) {
+        if self.shown_model != session.model_revision() {
+            self.shown_model = session.model_revision();
+            self.show_findings_of(session);
+            self.maps_open = false;
         }
     }
 

@@ -137,21 +137,20 @@ impl Shared {
     }
 
     /// Goes on after a frame: with what is opened, and with what the page hears. `is_held`: a pointer holds something.
-    pub(super) fn follow_frame(self: &Rc<Self>, drawn: Drawn, is_held: bool) {
-        self.tell_settling(drawn, is_held);
+    pub(super) fn follow_frame(self: &Rc<Self>, is_held: bool) {
+        self.tell_settling(is_held);
         self.go_on_opening();
         self.emit_events();
     }
 
-    /// Tells the page after each frame that may have changed what is seen, and once when that goes on by itself or something is held: a
-    /// link to it waits until it rests.
-    fn tell_settling(&self, drawn: Drawn, is_held: bool) {
+    /// Tells the page after each frame, and once when what is seen changes by itself or something is held: a link to it
+    /// waits until that rests.
+    fn tell_settling(&self, is_held: bool) {
         let is_busy = is_held || self.session.borrow().is_moving();
         let was_busy = self.is_busy.replace(is_busy);
-        // Frames that make the picture of a view at rest finer change nothing.
-        if !is_busy && drawn.samples <= 1 {
+        if !is_busy {
             self.emit("settling", &JsValue::UNDEFINED);
-        } else if is_busy && !was_busy {
+        } else if !was_busy {
             self.emit("moving", &JsValue::UNDEFINED);
         }
     }

@@ -19,6 +19,7 @@ import "./slices.js";
 import "./lasting.js";
 import "./visits.js";
 import "./link.js";
+import "./address.js";
 import "./elsewhere.js";
 import "./element.js";
 import "./types.js";

@@ -141,8 +141,27 @@ test("a newer build says so, is taken by a click and leaves the pages of the old
   await other.close();
   await host.stop();
   await visit(page, host);
-  await page.waitForFunction(async () => (await caches.keys()).length === 1);
+  for (const deadline = Date.now() + 30_000; Object.keys(await kept(page)).length > 1; await page.waitForTimeout(50)) {
+    assert.ok(Date.now() < deadline, "the older build is kept on");
+  }
   assert.equal(await buildOf(page), two);
+});
+
+test("a newer build that came during a visit is taken by the next one, whole", {}, async (page, host) => {
+  await visit(page, host);
+  const one = await buildOf(page);
+  await keptWhole(page, one);
+  host.build = "two";
+  await page.evaluate(async () => (await navigator.serviceWorker.ready).update());
+  await page.waitForFunction(() => !document.getElementById("newer").hidden, null, { polling: 50, timeout: 60_000 });
+  assert.equal(await buildOf(page), one);
+  await page.goto("about:blank");
+  await visit(page, host);
+  const two = await buildOf(page);
+  assert.notEqual(two, one);
+  const names = await used(page);
+  const whole = (await keptWhole(page, two))[`bindpose-${two}`];
+  assert.ok(names.length > 10 && names.every((name) => whole.includes(name)), `of build two alone: ${names}`);
 });
 
 /** Looks at the card in both themes, and on a narrow window. */
@@ -222,7 +241,9 @@ test("the manifest is sound, and what it names is there", {}, async (page, host)
   const devtools = await page.context().newCDPSession(page);
   const { url, data, errors } = await devtools.send("Page.getAppManifest");
   assert.deepEqual(errors, []);
-  const { icons, screenshots, shortcuts } = JSON.parse(data);
+  const { icons, screenshots, shortcuts, file_handlers: handlers } = JSON.parse(data);
+  const endings = handlers.flatMap(({ accept }) => Object.values(accept).flat());
+  for (const ending of [".m3d", ".glb", ".gltf", ".zip"]) assert.ok(endings.includes(ending), ending);
   const pictures = [icons, screenshots, ...shortcuts.map((shortcut) => shortcut.icons)].flat();
   const sizes = await page.evaluate(
     (addresses) =>

@@ -569,6 +569,24 @@ fn on_another_page_there_is_the_timeline_or_nothing_and_no_button_without_use() 
 }
 
 #[test]
+fn a_link_to_panels_opens_them_and_draws_no_bones() {
+    let mut window = window(WIDE, vec![moving("a.m3d")]);
+    for opens_another in [false, true] {
+        let Page { session, state, .. } = window.harness.state_mut();
+        if opens_another {
+            // The link is followed before the first pass with the model.
+            session.apply(FileCommand::Add(vec![moving("b.m3d")]));
+        }
+        let names = ["skeleton", "findings"].map(str::to_owned);
+        assert_eq!(state.open_these_panels(session, &names), [""; 0]);
+        window.pass_on();
+        let Page { session, state, .. } = window.harness.state();
+        assert_eq!(state.open_panels(), names);
+        assert!(!session.look().bones_visible, "{opens_another}");
+    }
+}
+
+#[test]
 fn panels_that_are_open_are_opened_again_by_their_names() {
     let mut window = window(WIDE, vec![moving("a.m3d")]);
     for names in [

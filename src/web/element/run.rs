@@ -75,6 +75,6 @@ async fn draw_frames(
             next = frames.draw(|| app.frame(shared.face.take_had_input()));
             shared.note_drawn(&drawn, Drawn::by(app));
         }
-        shared.follow_frame(drawn.get(), shared.face.is_held());
+        shared.follow_frame(shared.face.is_held());
     }
 }

@@ -233,7 +233,7 @@ impl eframe::App for Shell {
             }
         }
         let is_held = ui.input(|input| input.pointer.any_down());
-        self.shared.follow_frame(self.drawn.get(), is_held);
+        self.shared.follow_frame(is_held);
         self.go_on_exporting(ui.ctx());
         let changed_elsewhere = self.shared.face.names_changed.take();
         if self

@@ -2,4 +2,5 @@
 import "./element.js";
 import "./files.js";
 import "./life.js";
+import "./link.js";
 import "./mirror.js";

@@ -1,10 +1,10 @@
 //! Links: a view as text in an address, and back.
 
-use bindpose::model::{Handedness, UpAxis};
+use bindpose::model::{Handedness, JointIndex, UpAxis};
 use bindpose::scene::{Background, Light, Overlay, ViewMode};
 use bindpose::session::{
-    CameraCommand, Command, CrowdCommand, JointCommand, LookCommand, MAX_LINK_LEN, PlayCommand, QualityCommand,
-    QualityMode, Session, SubmeshCommand,
+    CameraCommand, Command, CrowdCommand, JointCommand, LookCommand, MAX_LINK_LEN, MaterialCommand, NameCommand,
+    PlayCommand, QualityCommand, QualityMode, Session, SubmeshCommand,
 };
 use proptest::prelude::*;
 
@@ -219,6 +219,20 @@ fn each_field_with_rubbish_is_left_out_or_brought_into_range() {
             assert_eq!(text(&session), link, "{name}={value}");
         }
     }
+}
+
+#[test]
+fn edits_of_the_file_are_not_in_a_link() {
+    let mut session = opened(jointed("a.m3d"));
+    let mut material = Box::new(session.materials()[0].clone());
+    material.diffuse = [0.1, 0.2, 0.3];
+    session.apply(MaterialCommand::Edit { index: 0, material });
+    session.apply(NameCommand::Rename {
+        joint: JointIndex(0),
+        name: "Hips".to_owned(),
+    });
+    assert!(session.is_edited(0) && session.undo_label().is_some());
+    assert_eq!(text(&session), "");
 }
 
 #[test]

@@ -46,12 +46,7 @@ pub(in crate::ui) struct SkeletonState {
 impl SkeletonState {
     /// Reads what the panels show in this pass.
     pub(in crate::ui) fn read(&mut self, ui: &Ui, session: &mut Session, window: Rect) {
-        if self.model != session.model_revision() {
-            self.model = session.model_revision();
-            self.naming = Naming::default();
-            self.tree = TreeState::default();
-            self.bones = TreeBones::default();
-        }
+        self.follow_model(session);
         if !has_joints(session) {
             self.page = SidePage::Model;
         }
@@ -64,6 +59,16 @@ impl SkeletonState {
             .filter(|&at| window.contains(at) && !held && over_view(at))
             .map(|at| in_picture(window, at));
         self.reading.take(session, window.height());
+    }
+
+    /// Of another model nothing is kept.
+    fn follow_model(&mut self, session: &Session) {
+        if self.model != session.model_revision() {
+            self.model = session.model_revision();
+            self.naming = Naming::default();
+            self.tree = TreeState::default();
+            self.bones = TreeBones::default();
+        }
     }
 
     /// Highlights the joint under the pointer. `elsewhere`: the joint hovered in another panel.
@@ -114,6 +119,8 @@ impl SkeletonState {
 
     /// Shows a page as a link says, which also says whether bones are drawn.
     pub(in crate::ui) fn show_linked_page(&mut self, session: &Session, page: SidePage) {
+        // It may come before the first pass with its model.
+        self.follow_model(session);
         self.show_page(session, page);
         self.bones = TreeBones {
             tree: self.page == SidePage::Skeleton,
