@@ -22,6 +22,8 @@ mod names {
         "DiffuseColor",
         "Diffuse",
     ];
+    /// How much of it there is.
+    pub(super) const BASE_FACTOR: &[&str] = &["Maya|base", "3dsMax|Parameters|base_weight", "DiffuseFactor"];
     pub(super) const METALLIC: &[&str] = &[
         "Maya|metallic",
         "Maya|metalness",
@@ -165,7 +167,7 @@ fn material(
     };
     let [diffuse_map, emissive_map, opacity_map] = [names::COLOR_MAP, names::EMISSIVE_MAP, names::OPACITY_MAP].map(map);
     let one = |_: &MaterialMap| [1.0; 3];
-    let factor = |name: &str| number(object, &[name]).unwrap_or(1.0).max(0.0);
+    let factor = |names: &[&str]| number(object, names).unwrap_or(1.0).max(0.0);
     let diffuse = diffuse_map
         .as_ref()
         .map(one)
@@ -197,7 +199,7 @@ fn material(
     Material {
         diffuse: diffuse
             .unwrap_or([0.8; 3])
-            .map(|number| (number * factor("DiffuseFactor")).clamp(0.0, 1.0)),
+            .map(|number| (number * factor(names::BASE_FACTOR)).clamp(0.0, 1.0)),
         opacity,
         reflectance: Reflectance::MetallicRoughness {
             metallic: number(object, names::METALLIC).unwrap_or(0.0).clamp(0.0, 1.0),
@@ -207,7 +209,7 @@ fn material(
             true => AlphaMode::Blend,
             false => AlphaMode::Opaque,
         },
-        emissive: emissive.map(|number| number.max(0.0) * factor("EmissiveFactor")),
+        emissive: emissive.map(|number| number.max(0.0) * factor(&["EmissiveFactor"])),
         normal_map: map(names::NORMAL_MAP),
         occlusion_map: map(names::OCCLUSION_MAP),
         diffuse_map,

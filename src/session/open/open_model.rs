@@ -271,6 +271,11 @@ impl OpenModel {
             })
     }
 
+    /// Whether a clip leads away from where it starts.
+    pub fn leads_away(&self, clip: usize) -> bool {
+        edit::leads_away(&self.model, &self.model.clips[clip])
+    }
+
     /// Keeps a clip over where it starts, or lets it go as its file has it.
     pub(in crate::session) fn keep_in_place(&mut self, index: usize, is_kept: bool) {
         let clip = &self.model.clips[index];

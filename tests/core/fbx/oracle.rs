@@ -215,8 +215,12 @@ fn compare(bytes: &[u8], imported: &Imported) -> Result<Vec<(String, f64)>, Stri
         let mut worst = 0f64;
         let times = within([clip.start_secs, clip.end_secs].map(f64::from));
         let posed = times.map(|secs| at(&scene, &stack.anim, f64::from(secs)));
-        // What moves far is as large as its way.
-        let size = self::size(&posed.concat()).max(size);
+        // What moves far is as large as its way, also between those times.
+        let way = (0..=64).flat_map(|step| {
+            let secs = clip.start_secs + (clip.end_secs - clip.start_secs) * step as f32 / 64.0;
+            ours(model, Some((&compiled, secs)))
+        });
+        let size = self::size(&way.collect::<Vec<_>>()).max(size);
         for (secs, theirs) in times.into_iter().zip(posed) {
             for (point, candidates) in ours(model, Some((&compiled, secs))).iter().zip(&candidates) {
                 let nearest = candidates

@@ -143,10 +143,8 @@ fn materials_have_the_numbers_that_ufbx_finds() {
                 compare("roughness", roughness, pbr.roughness.value_vec4.x);
                 count += 1;
             }
-            let [color, factor] = match is_physical {
-                true => [&pbr.base_color, &pbr.base_factor],
-                false => [&theirs.fbx.diffuse_color, &theirs.fbx.diffuse_factor],
-            };
+            // Of Lambert's and Phong's it is the diffuse colour.
+            let [color, factor] = [&pbr.base_color, &pbr.base_factor];
             if material.diffuse_map.is_none() && color.has_value {
                 let factor = if factor.has_value { factor.value_vec4.x } else { 1.0 };
                 let color = color.value_vec4;

@@ -231,7 +231,7 @@ fn edits_of_the_file_are_not_in_a_link() {
         joint: JointIndex(0),
         name: "Hips".to_owned(),
     });
-    assert!(session.is_edited(0) && session.undo_label().is_some());
+    assert!(session.is_edited(0) && session.history().undo_label().is_some());
     assert_eq!(text(&session), "");
 }
 

@@ -4,7 +4,6 @@ use egui::{Align2, FontId, Popup, Rangef, Rect, Response, Role, Sense, Ui, Widge
 
 use super::controls::tell_choice;
 use crate::actions::{self, Control};
-use crate::edit;
 use crate::session::{ClipSummary, Command, DEFAULT_CROSSFADE_SECS, OpenModel, PlayCommand};
 use crate::ui::cx::Cx;
 use crate::ui::kit::icons::Icon;
@@ -130,7 +129,7 @@ fn in_place(ui: &mut Ui, cx: &mut Cx<'_, UiState>, open: &OpenModel) {
     let Some(on) = open.clip_list().nth(index).map(|clip| clip.in_place) else {
         return;
     };
-    if !on && !edit::leads_away(&open.model, &open.model.clips[index]) {
+    if !on && !open.leads_away(index) {
         return;
     }
     let row = switch_row(ui, "In place", "", on).on_hover_text("What walks away walks on the spot");
