@@ -60,7 +60,7 @@ async fn draw_frames(
     let mut next = NextPass::AtOnce;
     loop {
         frames.wait_for(next).await;
-        if shared.face.is_out_of_sight() && !frames.have_ended() {
+        if shared.face.is_out_of_sight.get() && !frames.have_ended() {
             next = NextPass::WhenAsked;
             continue;
         }
