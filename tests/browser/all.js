@@ -21,6 +21,8 @@ import "./visits.js";
 import "./link.js";
 import "./elsewhere.js";
 import "./element.js";
+import "./guest.js";
+import "./examples.js";
 import "./types.js";
 import "./programs.js";
 import "./offline.js";

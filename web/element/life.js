@@ -28,9 +28,17 @@ function programOf(name, progress) {
 
 /** Viewers that live; a panic ends them all, since they share a memory. */
 const living = new Set();
-globalThis.addEventListener?.("error", ({ error }) => {
-  if (error?.name === "Panic" || error instanceof WebAssembly.RuntimeError) for (const life of living) life.fail(error);
-});
+const endAll = (error) => living.forEach((life) => life.fail(error));
+const hearError = ({ error }) => {
+  if (error?.name === "Panic") return endAll(error);
+  if (!(error instanceof WebAssembly.RuntimeError)) return;
+  // The page may have programs of its own: one of ours that has trapped answers no more.
+  try {
+    for (const { viewer } of living) viewer?.state();
+  } catch {
+    endAll(error);
+  }
+};
 
 /** The fields of a link, in order. */
 export const fieldsOf = (text) => new Map(text.split("&").filter(Boolean).map((field) => [field.split("=")[0], field.slice(field.indexOf("=") + 1)]));
@@ -49,6 +57,7 @@ export class Life {
     this.fetching = new AbortController();
     this.listening = new AbortController();
     living.add(this);
+    addEventListener("error", hearError);
   }
 
   /** Starts the viewer and shows what is to be shown. */
@@ -79,7 +88,6 @@ export class Life {
     if (this.over) throw new Error("the element left its page");
     this.viewer = new module.Viewer({ ui: "full", theme: this.teller.theme() }, (type, detail) => this.hear(type, detail));
     const canvas = document.createElement("canvas");
-    canvas.tabIndex = this.host.interaction === "none" ? -1 : 0;
     const box = this.isFull ? document.createElement("div") : this.view;
     this.view.replaceChildren(...(this.isFull ? [box] : []));
     box.append(canvas);
@@ -249,7 +257,7 @@ export class Life {
 
   /** Nothing is drawn while nobody sees it. */
   setInSight(isInSight) {
-    if (!this.over) this.viewer?.setVisible?.(isInSight);
+    if (!this.over) this.viewer?.setVisible(isInSight);
   }
 
   fail(error) {
@@ -268,6 +276,7 @@ export class Life {
     this.listening.abort();
     this.sizes?.disconnect();
     living.delete(this);
+    if (!living.size) removeEventListener("error", hearError);
     this.mirror?.remove();
     if (isSound) this.viewer?.free();
     this.view.replaceChildren();
