@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { BACKEND, FIXTURES, SAMPLE, keep, test } from "./harness.js";
+import { BACKEND, FIXTURES, keep, test } from "./harness.js";
 import { FIGURE } from "./notes.js";
 
 /** The page of the README, with the sample in place of its model. */

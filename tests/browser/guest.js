@@ -1,7 +1,7 @@
 // <bindpose-viewer> is a guest on other people's pages: it takes no more than it needs, and gives it back.
 
 import assert from "node:assert/strict";
-import { statSync } from "node:fs";
+import { readFileSync, statSync } from "node:fs";
 import { SAMPLE, keep, settled, test, withViewer } from "./harness.js";
 import { held } from "./held.js";
 import { FIGURE, POLICY, SMALL, hears, pageOf, seen } from "./notes.js";
@@ -12,7 +12,8 @@ const ROUNDS = process.env.BINDPOSE_CASES > 1 ? 50 : 6;
 
 /** What a viewer that left its page must leave behind none of. */
 const COUNTED = [
-  "HTMLCanvasElement", "HTMLInputElement", "WebGL2RenderingContext", "WebGLTexture", "GPUDevice", "GPUTexture", "jsEventListeners",
+  "HTMLCanvasElement", "HTMLInputElement", "WebGL2RenderingContext", "WebGLTexture", "GPUDevice", "GPUTexture",
+  "jsEventListeners",
 ];
 
 test("a page scrolls over a viewer until somebody turns to it; its controls are plain ones", pageOf(`<bindpose-viewer id="a" ${FIGURE} loop></bindpose-viewer><p style="height: 2000px">More</p>`), async (page) => {
@@ -233,10 +234,22 @@ test("with the page's interface too, a viewer leaves the page its focus, its whe
   const kept = await page.evaluate(() => Object.keys(localStorage));
   assert.deepEqual(kept.filter((key) => key.startsWith("bindpose.names")), []);
 
+  // Clips that came to the model come back with it.
+  const strolls = readFileSync(SAMPLE, "utf8").replace("AnimationClip Walk", "AnimationClip Stroll");
+  const clips = page.locator("#a input[type=file]").nth(1);
+  await clips.setInputFiles({ name: "stroll.m3d", mimeType: "text/plain", buffer: Buffer.from(strolls) });
+  await page.waitForFunction(() => viewer.clips.includes("Stroll"), null, { polling: 50 });
+  await page.evaluate(() => viewer.remove());
+  await settled(page);
+  await page.evaluate(() => document.getElementById("low").before(viewer));
+  await hears(page, "a", "load", 3);
+  assert.ok(await page.evaluate(() => viewer.clips.includes("Stroll")));
+
   // It draws in sight only.
   await page.evaluate(() => viewer.play());
   const drawn = () => page.evaluate(() => viewer.state().framesRendered);
-  const goesOn = (from) => page.waitForFunction((from) => viewer.state().framesRendered > from + 1, from, { polling: 50 });
+  const goesOn = (from) =>
+    page.waitForFunction((from) => viewer.state().framesRendered > from + 1, from, { polling: 50 });
   await goesOn(await drawn());
   await page.evaluate(() => scrollTo(0, 1500));
   await comesToRest(page, "a");

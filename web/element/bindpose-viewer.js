@@ -16,7 +16,9 @@ const FIELDS = {
 const FIRST = { bone: "", bones: 0, light: "studio", bg: "backdrop", view: "lit", speed: 1 };
 const OTHERS = ["src", "link", "ui", "alt", "poster", "interaction", "loading"];
 /** Attributes with few values: the first is what it is without one of them. */
-const VALUES = { ui: ["transport", "none", "full"], backend: ["auto", "webgpu", "webgl2"], loading: ["auto", "lazy"], interaction: ["orbit", "none"] };
+const VALUES = {
+  ui: ["transport", "none", "full"], backend: ["auto", "webgpu", "webgl2"], loading: ["auto", "lazy"], interaction: ["orbit", "none"],
+};
 
 /** What shows is in sight when it is this near to the window. */
 const NEAR = "200px";

@@ -116,9 +116,10 @@ export class Life {
 
   /** What the panels ask for. */
   forPanels() {
-    const open = (files, how) => this.api.give(files, how).catch((error) => error.name !== "AbortError" && this.teller.error(error));
+    const refused = (error) => this.over || error.name === "AbortError" || this.teller.error(error);
+    const give = (files, addsClips) => (addsClips ? this.addClips(files) : this.openGiven(files, null));
     return {
-      receive: (files, addsClips) => void (addsClips ? open(files, "addClips") : this.openGiven(files, null).catch(() => {})),
+      receive: (files, addsClips) => void give(Array.from(files), addsClips).catch(refused),
       refuse: (words) => this.teller.error(new Error(words)),
       again: () => void this.show(),
       openModel: () => this.viewer.state().model?.name ?? "",
@@ -181,11 +182,11 @@ export class Life {
     this.fetching.abort();
     const { signal } = (this.fetching = new AbortController());
     try {
-      const files = this.kept?.files ?? (await this.fetch(signal));
-      const moment = this.kept?.moment ?? this.teller.moment();
+      const fresh = async () => ({ files: await this.fetch(signal), clips: [], moment: this.teller.moment() });
+      const { files, clips, moment } = this.kept ?? (await fresh());
       this.kept = null;
       if (signal.aborted || !files.length) return;
-      await this.open(files, moment);
+      await this.open(files, moment, clips);
     } catch (error) {
       if (!signal.aborted && error.name !== "AbortError") this.teller.error(error);
     }
@@ -213,19 +214,26 @@ export class Life {
   }
 
   /** Opens files and goes to a moment in them, if one is named. Resolves with the state, which has an `error` where they could not be opened. */
-  async open(files, moment) {
+  async open(files, moment, clips = []) {
     this.isShown = false;
     const state = await this.api.give(files, "open");
     if (state.error) {
       this.teller.error(new Error(state.error.message));
       return state;
     }
-    // Pictures that join a model are kept beside it, for when the element comes back.
-    this.files = this.files && onlyJoins(files) ? [...this.files, ...files] : files;
+    // Pictures and clips that join a model are kept beside it, for when the element comes back.
+    if (this.files && onlyJoins(files)) this.files = [...this.files, ...files];
+    else Object.assign(this, { files, clips: [] });
+    if (clips.length) await this.addClips(clips);
     if (moment !== null) this.follow(moment);
     this.isShown = true;
     this.teller.load();
     return this.api.bindpose.state();
+  }
+
+  async addClips(files) {
+    const { error } = await this.api.give(files, "addClips");
+    if (!error) this.clips.push(...files);
   }
 
   /** Shows the moment of a link, or a change of what is seen, as far as the model and the viewer know it. */
@@ -281,7 +289,7 @@ export class Life {
     if (isSound) this.viewer?.free();
     this.view.replaceChildren();
     this.view.classList.remove("drawn");
-    return moment === null ? null : { files: this.files, moment };
+    return moment === null ? null : { files: this.files, clips: this.clips, moment };
   }
 
   /** The link to what is seen, with whether it plays. */
