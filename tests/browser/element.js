@@ -280,11 +280,17 @@ test("each attribute means the same before the element is defined and after it h
   assert.deepEqual([loop, takesPointers, tabIndex], ["once", "auto", 0]);
 });
 
+const plays = pageOf('<bindpose-viewer id="a" src="web/whole.m3d" clip="Walk"></bindpose-viewer>', {
+  first: `<style>bindpose-viewer { --bindpose-accent: rgb(1 2 3); --bindpose-radius: 12px }
+    bindpose-viewer::part(transport) { background: rgb(4 5 6) }</style>`,
+});
 test("a viewer plays as media elements do: it tells of what arrives and of the end, at each speed", {
-  ...pageOf(`<bindpose-viewer id="a" ${FIGURE} clip="Walk"></bindpose-viewer>`, {
-    first: `<style>bindpose-viewer { --bindpose-accent: rgb(1 2 3); --bindpose-radius: 12px }
-      bindpose-viewer::part(transport) { background: rgb(4 5 6) }</style>`,
-  }),
+  ...plays,
+  prepare: async (page) => {
+    // Not compressed, so that its length is told.
+    await page.route("**/whole.m3d", (route) => route.fulfill({ path: SAMPLE }));
+    await plays.prepare(page);
+  },
 }, async (page) => {
   await hears(page, "a", "load");
   const parts = await page.evaluate(() => details.progress.map(({ totalProgress }) => totalProgress));
