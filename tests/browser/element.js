@@ -280,6 +280,25 @@ test("each attribute means the same before the element is defined and after it h
   assert.deepEqual([loop, takesPointers, tabIndex], ["once", "auto", 0]);
 });
 
+/** For `prepare`: this file comes in four pieces, and its length is told, as servers do that do not compress. */
+const inPieces = (address) => async (page) => {
+  await page.route(`**/${address}`, (route) => route.fulfill({ path: SAMPLE }));
+  await page.addInitScript((address) => {
+    const { fetch } = globalThis;
+    globalThis.fetch = async (wanted, ...rest) => {
+      const response = await fetch(wanted, ...rest);
+      if (!String(wanted).endsWith(address)) return response;
+      const bytes = new Uint8Array(await response.arrayBuffer());
+      const quarter = Math.ceil(bytes.length / 4);
+      const start = (stream) => {
+        for (let at = 0; at < bytes.length; at += quarter) stream.enqueue(bytes.slice(at, at + quarter));
+        stream.close();
+      };
+      return new Response(new ReadableStream({ start }), { headers: { "Content-Length": bytes.length } });
+    };
+  }, address);
+};
+
 const plays = pageOf('<bindpose-viewer id="a" src="web/whole.m3d" clip="Walk"></bindpose-viewer>', {
   first: `<style>bindpose-viewer { --bindpose-accent: rgb(1 2 3); --bindpose-radius: 12px }
     bindpose-viewer::part(transport) { background: rgb(4 5 6) }</style>`,
@@ -287,15 +306,14 @@ const plays = pageOf('<bindpose-viewer id="a" src="web/whole.m3d" clip="Walk"></
 test("a viewer plays as media elements do: it tells of what arrives and of the end, at each speed", {
   ...plays,
   prepare: async (page) => {
-    // Not compressed, so that its length is told.
-    await page.route("**/whole.m3d", (route) => route.fulfill({ path: SAMPLE }));
+    await inPieces("whole.m3d")(page);
     await plays.prepare(page);
   },
 }, async (page) => {
   await hears(page, "a", "load");
   const parts = await page.evaluate(() => details.progress.map(({ totalProgress }) => totalProgress));
-  assert.deepEqual(parts, parts.toSorted((one, other) => one - other), "it never goes back");
-  assert.ok(parts.some((part) => part > 0 && part < 1) && parts.at(-1) === 1, `${parts}`);
+  // The program came before, without a length.
+  assert.deepEqual(parts.map((part) => Math.round(8 * part)), [5, 6, 7, 8, 8]);
   await page.evaluate(() => (document.getElementById("a").playbackRate = 2));
   assert.equal((await seen(page, "a")).playbackRate, 2);
   const speed = page.getByRole("combobox", { name: "Speed" });
@@ -386,22 +404,6 @@ for (const ui of ["transport", "none", "full"]) {
     await assertSound(page, `${ui}, after a panic`);
   });
 }
-
-test("a panic in one viewer is told by all, in what the page has for it", {
-  expectErrors: true,
-  ...pageOf(`<bindpose-viewer id="a" ${FIGURE}><p slot="error" id="mine">It stopped.</p></bindpose-viewer><bindpose-viewer id="b" ${FIGURE}></bindpose-viewer>`),
-}, async (page) => {
-  await hears(page, "a", "load");
-  await hears(page, "b", "load");
-  await page.evaluate(() => reportError(Object.assign(new Error("index out of bounds"), { name: "Panic" })));
-  for (const id of ["a", "b"]) await hears(page, id, "error");
-  assert.ok(await page.isVisible("#mine"));
-  const told = (id) => page.evaluate((id) => [document.getElementById(id).error.message, document.getElementById(id).state().error.code, document.getElementById(id).shadowRoot.querySelectorAll("canvas").length], id);
-  for (const id of ["a", "b"]) assert.deepEqual(await told(id), ["index out of bounds", "viewer-stopped", 0]);
-  const card = page.locator("#b").getByRole("alert");
-  assert.ok(await card.isVisible());
-  assert.match(await card.textContent(), /index out of bounds/);
-});
 
 const loses = pageOf(`<bindpose-viewer id="a" ${FIGURE}></bindpose-viewer>`, { backend: "auto" });
 for (const ui of ["transport", "full"]) {

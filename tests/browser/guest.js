@@ -259,6 +259,22 @@ test("with the page's interface too, a viewer leaves the page its focus, its whe
   assert.deepEqual(await page.evaluate(() => violations), [], "the policy of the README is enough for it");
 });
 
+test("a panic in one viewer is told by all, in what the page has for it", {
+  expectErrors: true,
+  ...pageOf(`<bindpose-viewer id="a" ${FIGURE}><p slot="error" id="mine">It stopped.</p></bindpose-viewer><bindpose-viewer id="b" ${FIGURE}></bindpose-viewer>`),
+}, async (page) => {
+  await hears(page, "a", "load");
+  await hears(page, "b", "load");
+  await page.evaluate(() => reportError(Object.assign(new Error("index out of bounds"), { name: "Panic" })));
+  for (const id of ["a", "b"]) await hears(page, id, "error");
+  assert.ok(await page.isVisible("#mine"));
+  const told = (id) => page.evaluate((id) => [document.getElementById(id).error.message, document.getElementById(id).state().error.code, document.getElementById(id).shadowRoot.querySelectorAll("canvas").length], id);
+  for (const id of ["a", "b"]) assert.deepEqual(await told(id), ["index out of bounds", "viewer-stopped", 0]);
+  const card = page.locator("#b").getByRole("alert");
+  assert.ok(await card.isVisible());
+  assert.match(await card.textContent(), /index out of bounds/);
+});
+
 const other = pageOf(`<bindpose-viewer id="a" ${FIGURE}></bindpose-viewer>`);
 test("another program's end is none of a viewer's, and its own is", {
   ...other,

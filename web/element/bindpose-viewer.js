@@ -48,6 +48,7 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     error: (error) => this.#tellError(error),
     camera: (state) => this.#tellCamera(state),
     nameCanvas: () => this.#nameCanvas(),
+    update: () => this.#transport.update(),
     moment: () => this.#moment(),
     theme: () => this.#theme,
   };

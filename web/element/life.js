@@ -47,7 +47,7 @@ export const textOf = (fields) => [...fields].map(([name, value]) => `${name}=${
 /**
  * A viewer from when its element came into a page until it leaves it: `host` is the element, `view` what its canvas lies in, `kept` what an earlier life was
  * ended with. `teller` has what the element does for it: `event(type)`, `progress(part)`, `load()`, `error(error)`, `camera(state)`, `nameCanvas()`,
- * `moment()`, the link to what its attributes ask for, and `theme()`.
+ * `update()` of what shows how it plays, `moment()`, the link to what its attributes ask for, and `theme()`.
  */
 export class Life {
   constructor(host, teller, view, kept) {
@@ -260,6 +260,7 @@ export class Life {
     if (this.panels[type]) return void this.panels[type](detail);
     if (!this.isShown) return;
     if (["play", "pause", "timeupdate"].includes(type)) this.teller.event(type);
+    if (type === "playbackchange") this.teller.update();
     if (type === "settling") this.teller.camera(this.viewer.state().camera);
   }
 
