@@ -8,6 +8,7 @@ use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::{JsCast as _, JsValue};
 
 use super::picture::Drawn;
+use super::rim;
 use crate::scene::{Detail, FrameCost, Pass, Theme, TimedPass};
 use crate::session::summary::{self, Books, Finding};
 use crate::session::{
@@ -220,9 +221,7 @@ impl<'a> State<'a> {
             theme,
             link,
             notices: session.diagnostics().map(Finding::from).collect(),
-            book: session
-                .open_model()
-                .map(|_| Books::of(session.verdicts(), session.limits_once_converted())),
+            book: rim::books(session),
             error: session.error().map(FileError::from),
         }
     }

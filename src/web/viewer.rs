@@ -90,6 +90,13 @@ impl Viewer {
         self.shared.stop();
     }
 
+    /// Learns whether anybody can see the canvas. Nothing is drawn while nobody can.
+    #[wasm_bindgen(js_name = setVisible)]
+    pub fn set_visible(&self, visible: bool) {
+        self.shared.face.is_out_of_sight.set(!visible);
+        self.shared.request_repaint();
+    }
+
     /// The session and what runs it, as one plain object.
     pub fn state(&self) -> JsValue {
         self.shared.state()

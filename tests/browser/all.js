@@ -22,6 +22,8 @@ import "./link.js";
 import "./address.js";
 import "./elsewhere.js";
 import "./element.js";
+import "./guest.js";
+import "./examples.js";
 import "./types.js";
 import "./programs.js";
 import "./offline.js";

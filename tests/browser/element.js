@@ -1,56 +1,12 @@
-// <bindpose-viewer> on other people's pages: what it takes and tells, and that it is a guest there.
+// <bindpose-viewer> on other people's pages: what it takes, tells and shows.
 
 import assert from "node:assert/strict";
-import { statSync } from "node:fs";
 import { assertSound } from "./axe.js";
 import { BACKEND, FOLDER, SAMPLE, keep, settled, test } from "./harness.js";
-import { held } from "./held.js";
+import { SCENE, TRIANGLE } from "./elsewhere.js";
+import { FIGURE, POLICY, SMALL, hears, holding, pageOf, seen } from "./notes.js";
 import { coloursOnScreen } from "./picture.js";
 import { pretendGpu } from "./programs.js";
-
-/** So often a viewer leaves its page and comes back; the longer checks do it fifty times. */
-const ROUNDS = process.env.BINDPOSE_CASES > 1 ? 50 : 6;
-
-const FIGURE = 'src="web/sample/figure.m3d web/sample/figure_diff.png web/sample/figure_norm.png"';
-
-/** Where the program without the interface is. */
-const SMALL = FOLDER.replace("pkg/", "pkg/element/");
-
-/** A page with this body. Events of its viewers are in `heard`, as `[id, type]`. */
-const pageOf = (body, { first = "", policy = "", sheet = "", backend = BACKEND } = {}) => ({
-  query: "notes.html",
-  bare: true,
-  prepare: async (page) => {
-    const html = `<!doctype html><title>Notes</title>${policy && `<meta http-equiv="Content-Security-Policy" content="${policy}">`}${first}
-      <script type="module" src="/web/element/bindpose-viewer.js"></script>${body.replaceAll("<bindpose-viewer", `<bindpose-viewer backend="${backend}"`)}`;
-    await page.route("**/notes.html", (route) => route.fulfill({ contentType: "text/html", body: html }));
-    await page.route("**/notes.css", (route) => route.fulfill({ contentType: "text/css", body: sheet }));
-    await page.addInitScript(() => {
-      globalThis.heard = [];
-      for (const type of ["load", "progress", "error", "play", "pause", "timeupdate", "camera-change"]) document.addEventListener(type, ({ target }) => target.id && heard.push([target.id, type]), true);
-    });
-  },
-});
-
-/** For `prepare`: the file at this address comes once `letThrough` is set in the page. */
-const holding = (address) => (page) =>
-  page.route(`**/${address}`, async (route) => {
-    await page.waitForFunction(() => globalThis.letThrough).catch(() => {});
-    await route.fulfill({ path: SAMPLE }).catch(() => {});
-  });
-
-/** Waits until a viewer has told of this as often. */
-const hears = (page, id, type, times = 1) =>
-  page.waitForFunction(([id, type, times]) => heard.filter(([by, what]) => by === id && what === type).length >= times, [id, type, times], { polling: 50 });
-
-/** What a viewer says of itself. */
-const seen = (page, id) =>
-  page.evaluate((id) => {
-    const viewer = document.getElementById(id);
-    const { clip, clips, currentTime, duration, paused, playbackRate } = viewer;
-    const { look, skeleton, camera, backend, link } = viewer.state();
-    return { clip, clips: clips.length, currentTime, duration, paused, playbackRate, light: look?.light, bone: skeleton?.selected, bones: skeleton?.bonesVisible, yaw: camera?.yawRadians, backend, link };
-  }, id);
 
 test("viewers of a page of notes show what their attributes say, and the page's styles stay outside", {
   draws: true,
@@ -59,7 +15,7 @@ test("viewers of a page of notes show what their attributes say, and the page's 
     <bindpose-viewer id="c" src="web/nothing.m3d" style="height: 120px"></bindpose-viewer>`, {
     first: '<link rel="stylesheet" href="/notes.css">',
     sheet: "* { all: revert; color: red !important } body { margin: 8px }",
-    policy: "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self' blob:; img-src 'self' blob:",
+    policy: POLICY,
   }),
   expectErrors: true,
 }, async (page) => {
@@ -85,6 +41,13 @@ test("viewers of a page of notes show what their attributes say, and the page's 
   assert.deepEqual(styles.slice(0, 3), ["rgb(27, 32, 41)", "rgb(255, 0, 0)", 0]);
   assert.ok(styles[3] > 600 && styles[4] > 400, `${styles}: its size is its own where the page takes back all`);
   assert.ok((await page.evaluate(async () => (await document.getElementById("a").snapshot({ width: 64, height: 48 })).size)) > 500);
+  const cell = await page.locator("#b").evaluate((viewer) => {
+    const canvas = viewer.shadowRoot.querySelector("canvas");
+    return [viewer.offsetWidth, viewer.offsetHeight, canvas.clientWidth, canvas.clientHeight, viewer.parentElement.offsetHeight];
+  });
+  assert.deepEqual(cell.slice(0, 4), [240, 200, 240, 200], "in a cell of a table");
+  assert.ok(cell[4] < 230, `${cell[4]}: the cell is not higher than what is in it`);
+  assert.deepEqual(await page.evaluate(() => violations), [], "the page's policy is enough");
   // Attributes that change, one at a time: the rest stays.
   await page.evaluate(() => {
     const viewer = document.getElementById("a");
@@ -95,80 +58,6 @@ test("viewers of a page of notes show what their attributes say, and the page's 
   assert.deepEqual([changed.light, changed.bone, changed.clip, changed.currentTime], ["book", 5, "Walk", 0.5]);
   await page.evaluate(() => document.getElementById("a").removeAttribute("bone"));
   assert.equal((await seen(page, "a")).bone, null);
-});
-
-test("a page scrolls over a viewer until somebody turns to it; its controls are plain ones", pageOf(`<bindpose-viewer id="a" ${FIGURE} loop></bindpose-viewer><p style="height: 2000px">More</p>`), async (page) => {
-  await hears(page, "a", "load");
-  const [x, y] = [320, 200];
-  const camera = async () => JSON.stringify(await page.evaluate(() => document.getElementById("a").state().camera));
-  // It is framed in the first frame.
-  await page.waitForFunction(() => document.getElementById("a").state().framesRendered > 2);
-  const before = await camera();
-  await page.mouse.move(x, y);
-  await page.mouse.wheel(0, 60);
-  await page.waitForFunction(() => scrollY === 60);
-  await page.keyboard.press("ArrowRight");
-  await settled(page);
-  assert.equal((await seen(page, "a")).currentTime, 0, "its keys are its own only while it has the focus");
-  assert.equal(await camera(), before);
-  await page.evaluate(() => scrollTo(0, 0));
-  await page.mouse.click(x, y);
-  await page.mouse.wheel(0, -240);
-  await page.waitForFunction((before) => JSON.stringify(document.getElementById("a").state().camera) !== before, before);
-  assert.equal(await page.evaluate(() => scrollY), 0);
-  await hears(page, "a", "camera-change");
-  const control = (name) => page.getByRole("button", { name }).or(page.getByRole("slider", { name })).or(page.getByRole("combobox", { name }));
-  await control("Clip").selectOption("Run");
-  await control("Play").click();
-  await hears(page, "a", "play");
-  await hears(page, "a", "timeupdate", 3);
-  await control("Pause").click();
-  await hears(page, "a", "pause");
-  await control("Time").fill("0.25");
-  const { clip, currentTime, paused } = await seen(page, "a");
-  assert.deepEqual([clip, paused], ["Run", true]);
-  assert.ok(Math.abs(currentTime - 0.25) < 1e-3, `${currentTime}`);
-});
-
-test("a viewer that leaves the page gives all back, and comes again where it was; the last source wins", {
-  ...pageOf(`<bindpose-viewer id="a" ${FIGURE} clip="Walk" current-time="0.5"></bindpose-viewer>`),
-  draws: true,
-}, async (page) => {
-  await hears(page, "a", "load");
-  await page.evaluate(() => (globalThis.viewer = document.getElementById("a")).setAttribute("camera", "70 12"));
-  const { link } = await seen(page, "a");
-  let first, half;
-  for (let round = 1; round <= ROUNDS; round += 1) {
-    await page.evaluate(() => viewer.remove());
-    await settled(page);
-    assert.equal(await page.evaluate(() => viewer.shadowRoot.querySelectorAll("canvas").length), 0);
-    await page.evaluate(() => document.body.append(viewer));
-    await hears(page, "a", "load", 1 + round);
-    assert.equal((await seen(page, "a")).link, link);
-    if (round === ROUNDS / 2 + 15) half = await held(page, SMALL);
-    if (round === 3) first = await held(page, SMALL);
-  }
-  const last = await held(page, SMALL);
-  for (const kind of ["HTMLCanvasElement", "HTMLInputElement", "GPUDevice"]) assert.ok(last[kind] <= first[kind], `${kind}: ${JSON.stringify([first, last])}`);
-  // Memory grows in steps until it has found its high-water mark; who did not leave would keep the bytes of a file a round.
-  const grown = last.wasmMB - first.wasmMB;
-  assert.ok(grown < (0.9 * (ROUNDS - 3) * statSync(SAMPLE).size) / 1e6, `${first.wasmMB} MB, then ${last.wasmMB}`);
-  if (ROUNDS > 10) assert.ok(last.wasmMB <= 1.05 * half.wasmMB, `${half.wasmMB} MB, then ${last.wasmMB}`);
-  // Another interface is another start with the same moment.
-  await page.evaluate(() => (viewer.ui = "full"));
-  await hears(page, "a", "load", ROUNDS + 2);
-  assert.equal((await seen(page, "a")).link, link);
-  await page.getByRole("button", { name: "Play" }).first().waitFor({ state: "attached" });
-  await page.evaluate(() => (viewer.ui = "none"));
-  await hears(page, "a", "load", ROUNDS + 3);
-  await page.route("**/other.m3d", (route) => route.fulfill({ path: SAMPLE }));
-  await page.evaluate(() => {
-    viewer.src = "web/sample/figure.m3d";
-    viewer.src = "web/nothing.m3d";
-    viewer.src = "web/other.m3d";
-  });
-  await hears(page, "a", "load", ROUNDS + 4);
-  assert.deepEqual(await page.evaluate(() => [viewer.error, viewer.state().model.name]), [null, "other.m3d"]);
 });
 
 const slow = pageOf('<bindpose-viewer id="a" src="web/slow.m3d"></bindpose-viewer>');
@@ -341,45 +230,169 @@ test("what is asked early is done when the model is there; what is asked again i
   assert.deepEqual(await corner(), [90, 20, 10], "a style that changes");
 });
 
-test("in a flex box, in what is folded away, hidden and shown, a viewer has its size and draws only in sight", {
-  draws: true,
-  ...pageOf(`<style>body { margin: 0 }</style><div style="display: flex; width: 640px"><bindpose-viewer id="flex" ${FIGURE} style="flex: 1; min-width: 0" autoplay loop></bindpose-viewer><p style="width: 200px">Beside</p></div>
-    <details id="more"><summary>More</summary><bindpose-viewer id="folded" ${FIGURE} loading="lazy" poster="web/icon.svg"></bindpose-viewer></details>
-    <p style="height: 2000px">Far</p><bindpose-viewer id="far" ${FIGURE} loading="lazy"></bindpose-viewer>`),
-  motion: true,
+/** Every attribute that says how a model is seen, with a value that is not the first. */
+const ATTRIBUTES = {
+  clip: "Walk", "current-time": "0.5", speed: "0.5", loop: "pingpong", camera: "70 12", light: "book", background: "rebeccapurple",
+  "view-mode": "normal", bone: "5", skeleton: "", alt: "A step", interaction: "none", link: "skin=weight",
+};
+const written = Object.entries(ATTRIBUTES).map(([name, value]) => `${name}="${value}"`).join(" ");
+
+test("each attribute means the same before the element is defined and after it has loaded", {
+  ...pageOf(`<bindpose-viewer id="a" ${FIGURE} ${written}></bindpose-viewer><bindpose-viewer id="b" ${FIGURE}></bindpose-viewer>`),
+  viewport: { width: 960, height: 1000 },
 }, async (page) => {
-  await hears(page, "flex", "load");
-  const size = (id) => page.evaluate((id) => [document.getElementById(id).offsetWidth, document.getElementById(id).shadowRoot.querySelector("canvas")?.width ?? 0], id);
-  const drawn = (id) => page.evaluate((id) => document.getElementById(id).state().framesRendered, id);
-  const [width, pixels] = await size("flex");
-  assert.equal(width, 440);
-  assert.ok(Math.abs(pixels - width * (await page.evaluate(() => devicePixelRatio))) <= 1, `${pixels} pixels for ${width}`);
-  await page.evaluate(() => document.querySelector("div").style.setProperty("width", "400px"));
-  await page.waitForFunction(() => document.getElementById("flex").shadowRoot.querySelector("canvas").width < 120);
-  // Neither what is folded nor what is far was loaded.
-  assert.deepEqual(await page.evaluate(() => heard.filter(([id]) => id !== "flex")), []);
-  await page.evaluate(() => (document.getElementById("more").open = true));
-  await hears(page, "folded", "load");
-  assert.ok((await size("folded"))[1] > 0);
-  await keep(page, "element-layout");
-  const isStill = async (id) => {
-    const before = await drawn(id);
-    for (let round = 0; round < 6; round += 1) await settled(page);
-    return before === (await drawn(id));
-  };
-  assert.equal(await isStill("flex"), false);
-  await page.evaluate(() => (document.getElementById("flex").hidden = true));
-  await page.waitForFunction(async () => {
-    const frames = () => document.getElementById("flex").state().framesRendered;
-    const before = frames();
-    await new Promise((done) => setTimeout(done, 300));
-    return before === frames();
+  for (const id of ["a", "b"]) await hears(page, id, "load");
+  const told = (id) =>
+    page.evaluate((id) => {
+      const viewer = document.getElementById(id);
+      const { clip, timeSecs, speed, loop, camera, look, skeleton } = viewer.state();
+      const canvas = viewer.shadowRoot.querySelector("canvas");
+      const takesPointers = getComputedStyle(canvas).pointerEvents;
+      return {
+        clip, timeSecs, speed, loop, yaw: camera.yawRadians, pitch: camera.pitchRadians, light: look.light, background: look.background,
+        viewMode: look.viewMode, bone: skeleton.selected, bones: skeleton.bonesVisible, skin: skeleton.skinView, takesPointers,
+        alt: canvas.getAttribute("aria-label"), tabIndex: canvas.tabIndex,
+      };
+    }, id);
+  for (const [name, value] of Object.entries(ATTRIBUTES)) {
+    const before = await told("b");
+    await page.evaluate(([name, value]) => document.getElementById("b").setAttribute(name, value), [name, value]);
+    assert.notDeepEqual(await told("b"), before, name);
+  }
+  const { yaw, pitch, ...rest } = await told("a");
+  assert.deepEqual(rest, {
+    clip: "Walk", timeSecs: 0.5, speed: 0.5, loop: "pingpong", light: "book", background: "#663399", viewMode: "normal", bone: 5, bones: true,
+    skin: "weight", takesPointers: "none", alt: "A step", tabIndex: -1,
   });
-  assert.equal((await seen(page, "flex")).paused, false, "it goes on when it is seen again");
-  await page.evaluate(() => (document.getElementById("flex").hidden = false));
-  await page.waitForFunction((before) => document.getElementById("flex").state().framesRendered > before, await drawn("flex"));
-  await page.evaluate(() => scrollTo(0, 4000));
-  await hears(page, "far", "load");
+  assert.deepEqual([yaw, pitch].map((angle) => Math.round((angle * 180) / Math.PI)), [70, 12]);
+  assert.deepEqual(await told("b"), { yaw, pitch, ...rest });
+  // As properties: what has few values has one of them, what needs none is there or not.
+  const properties = () =>
+    page.evaluate(() => {
+      const { autoplay, loop, loading, interaction, ui, viewMode, alt } = document.getElementById("b");
+      return { autoplay, loop, loading, interaction, ui, viewMode, alt };
+    });
+  const rests = { loading: "auto", ui: "transport", viewMode: "normal", alt: "A step" };
+  assert.deepEqual(await properties(), { autoplay: false, loop: true, interaction: "none", ...rests });
+  await page.evaluate(() => Object.assign(document.getElementById("b"), { autoplay: true, loop: false, interaction: "orbit" }));
+  assert.deepEqual(await properties(), { autoplay: true, loop: false, interaction: "orbit", ...rests });
+  const { loop, takesPointers, tabIndex } = await told("b");
+  assert.deepEqual([loop, takesPointers, tabIndex], ["once", "auto", 0]);
+});
+
+/** For `prepare`: this file comes in four pieces, and its length is told, as servers do that do not compress. */
+const inPieces = (address) => async (page) => {
+  await page.route(`**/${address}`, (route) => route.fulfill({ path: SAMPLE }));
+  await page.addInitScript((address) => {
+    const { fetch } = globalThis;
+    globalThis.fetch = async (wanted, ...rest) => {
+      const response = await fetch(wanted, ...rest);
+      if (!String(wanted).endsWith(address)) return response;
+      const bytes = new Uint8Array(await response.arrayBuffer());
+      const quarter = Math.ceil(bytes.length / 4);
+      const start = (stream) => {
+        for (let at = 0; at < bytes.length; at += quarter) stream.enqueue(bytes.slice(at, at + quarter));
+        stream.close();
+      };
+      return new Response(new ReadableStream({ start }), { headers: { "Content-Length": bytes.length } });
+    };
+  }, address);
+};
+
+const plays = pageOf('<bindpose-viewer id="a" src="web/whole.m3d" clip="Walk"></bindpose-viewer>', {
+  first: `<style>bindpose-viewer { --bindpose-accent: rgb(1 2 3); --bindpose-radius: 12px }
+    bindpose-viewer::part(transport) { background: rgb(4 5 6) }</style>`,
+});
+test("a viewer plays as media elements do: it tells of what arrives and of the end, at each speed", {
+  ...plays,
+  prepare: async (page) => {
+    await inPieces("whole.m3d")(page);
+    await plays.prepare(page);
+  },
+}, async (page) => {
+  await hears(page, "a", "load");
+  const parts = await page.evaluate(() => details.progress.map(({ totalProgress }) => totalProgress));
+  // The program came before, without a length.
+  assert.deepEqual(parts.map((part) => Math.round(8 * part)), [5, 6, 7, 8, 8]);
+  await page.evaluate(() => (document.getElementById("a").playbackRate = 2));
+  assert.equal((await seen(page, "a")).playbackRate, 2);
+  const speed = page.getByRole("combobox", { name: "Speed" });
+  await page.waitForFunction(() => document.getElementById("a").shadowRoot.querySelector("[part=speed]").value === "2", null, { polling: 50 });
+  await speed.selectOption("0.5×");
+  assert.equal((await seen(page, "a")).playbackRate, 0.5);
+  // To the end, which is told after the pause.
+  await page.evaluate(() => {
+    const viewer = document.getElementById("a");
+    viewer.currentTime = viewer.startTime + viewer.duration - 0.05;
+    viewer.play();
+  });
+  await hears(page, "a", "ended");
+  const told = await page.evaluate(() => heard.map(([, type]) => type));
+  assert.deepEqual(told.filter((type) => ["play", "pause", "ended"].includes(type)), ["play", "pause", "ended"]);
+  const { ended, paused } = await page.evaluate(() => {
+    const { ended, paused } = document.getElementById("a");
+    return { ended, paused };
+  });
+  assert.deepEqual([ended, paused], [true, true]);
+  const looks = await page.evaluate(() => {
+    const root = document.getElementById("a").shadowRoot;
+    const styleOf = (selector) => getComputedStyle(root.querySelector(selector));
+    return [styleOf("[part=time]").accentColor, styleOf(".frame").borderRadius, styleOf("[part=transport]").backgroundColor];
+  });
+  assert.deepEqual(looks, ["rgb(1, 2, 3)", "12px", "rgb(4, 5, 6)"]);
+});
+
+const beside = pageOf('<bindpose-viewer id="a" src="notes/scene.gltf"></bindpose-viewer>');
+test("what a .gltf names beside itself comes with it", {
+  ...beside,
+  prepare: async (page) => {
+    await page.route("**/notes/scene.gltf", (route) => route.fulfill({ body: SCENE }));
+    await page.route("**/notes/data/a%20triangle.bin", (route) => route.fulfill({ body: TRIANGLE }));
+    await beside.prepare(page);
+  },
+}, async (page) => {
+  await hears(page, "a", "load");
+  const { model, error } = await page.evaluate(() => document.getElementById("a").state());
+  assert.deepEqual([error, model.name, model.counts.triangles], [null, "scene.gltf", 1]);
+});
+
+test("the small program takes keys and clicks, and has no edits, export or verdicts", pageOf(`<bindpose-viewer id="a" ${FIGURE} ui="none" skeleton></bindpose-viewer>`), async (page) => {
+  await hears(page, "a", "load");
+  const ask = () => page.evaluate(() => document.getElementById("a").state());
+  const { x, y, width, height } = await page.locator("#a").boundingBox();
+  await page.mouse.click(x + 10, y + 10);
+  assert.equal((await ask()).skeleton.selected, null, "beside all bones");
+  await page.keyboard.press("ArrowRight");
+  const stepped = await ask();
+  assert.ok(Math.abs(stepped.timeSecs - 1 / 30) < 1e-3, `${stepped.timeSecs}: one frame on`);
+  await page.keyboard.press("Space");
+  await page.waitForFunction(() => !document.getElementById("a").paused, null, { polling: 50 });
+  await page.keyboard.press("Space");
+  await page.waitForFunction(() => document.getElementById("a").paused, null, { polling: 50 });
+  // Somewhere on the middle line of a figure that is framed there is a bone.
+  for (let part = 0.3; part < 0.7 && (await ask()).skeleton.selected === null; part += 0.02) {
+    await page.mouse.click(x + width / 2, y + part * height);
+    await settled(page);
+  }
+  assert.notEqual((await ask()).skeleton.selected, null);
+  await page.keyboard.press("Escape");
+  assert.equal((await ask()).skeleton.selected, null);
+  // Two clicks frame the model again.
+  const far = () => page.evaluate(() => document.getElementById("a").state().camera.distance);
+  const framed = await far();
+  await page.mouse.wheel(0, 600);
+  await page.waitForFunction((framed) => document.getElementById("a").state().camera.distance > 1.2 * framed, framed, { polling: 50 });
+  await page.mouse.dblclick(x + 10, y + 10);
+  await page.waitForFunction((framed) => Math.abs(document.getElementById("a").state().camera.distance / framed - 1) < 0.02, framed, { polling: 50 });
+  const { book, timings } = await ask();
+  assert.deepEqual([book, timings.judging], [null, undefined]);
+  assert.ok(timings.reading > 0);
+  const lacks = await page.evaluate(async (folders) => {
+    const programs = await Promise.all(folders.map((folder) => import(`${folder}bindpose.js`)));
+    const names = ["undo", "redo", "exportModel", "contactSheet", "handOver", "act", "readNames"];
+    return programs.map(({ Viewer }) => names.filter((name) => !(name in Viewer.prototype)));
+  }, [FOLDER, SMALL]);
+  assert.deepEqual(lacks, [[], ["undo", "redo", "exportModel", "contactSheet", "handOver", "act", "readNames"]]);
 });
 
 for (const ui of ["transport", "none", "full"]) {
@@ -391,49 +404,6 @@ for (const ui of ["transport", "none", "full"]) {
     await assertSound(page, `${ui}, after a panic`);
   });
 }
-
-test("a panic in one viewer is told by all, in what the page has for it", {
-  expectErrors: true,
-  ...pageOf(`<bindpose-viewer id="a" ${FIGURE}><p slot="error" id="mine">It stopped.</p></bindpose-viewer><bindpose-viewer id="b" ${FIGURE}></bindpose-viewer>`),
-}, async (page) => {
-  await hears(page, "a", "load");
-  await hears(page, "b", "load");
-  await page.evaluate(() => reportError(Object.assign(new Error("index out of bounds"), { name: "Panic" })));
-  for (const id of ["a", "b"]) await hears(page, id, "error");
-  assert.ok(await page.isVisible("#mine"));
-  const told = (id) => page.evaluate((id) => [document.getElementById(id).error.message, document.getElementById(id).state().error.code, document.getElementById(id).shadowRoot.querySelectorAll("canvas").length], id);
-  for (const id of ["a", "b"]) assert.deepEqual(await told(id), ["index out of bounds", "viewer-stopped", 0]);
-  assert.match(await page.locator("#b").evaluate((viewer) => viewer.shadowRoot.querySelector("[role=alert]").textContent), /index out of bounds/);
-});
-
-test("a page scrolls under a finger, and turns the view once it was touched", {
-  phone: true,
-  ...pageOf(`<meta name="viewport" content="width=device-width"><bindpose-viewer id="a" ${FIGURE} ui="none" style="width: 360px; height: 360px"></bindpose-viewer><p style="height: 3000px">More</p>`),
-}, async (page) => {
-  await hears(page, "a", "load");
-  const devtools = await page.context().newCDPSession(page);
-  const swipe = async () => {
-    const touch = (type, y) => devtools.send("Input.dispatchTouchEvent", { type, touchPoints: y === null ? [] : [{ x: 180, y }] });
-    await touch("touchStart", 260);
-    for (let y = 250; y >= 110; y -= 20) {
-      await touch("touchMove", y);
-      await settled(page);
-    }
-    await touch("touchEnd", null);
-    await settled(page);
-    return page.evaluate(() => [scrollY, document.getElementById("a").state().camera.pitchRadians]);
-  };
-  const pitch = await page.evaluate(() => document.getElementById("a").state().camera.pitchRadians);
-  const [scrolled, still] = await swipe();
-  assert.ok(scrolled > 60, `${scrolled}`);
-  assert.equal(still, pitch);
-  await page.evaluate(() => scrollTo(0, 0));
-  await page.touchscreen.tap(180, 200);
-  await page.waitForFunction(() => document.getElementById("a").shadowRoot.activeElement?.localName === "canvas");
-  const [there, turned] = await swipe();
-  assert.equal(there, 0);
-  assert.notEqual(turned, pitch);
-});
 
 const loses = pageOf(`<bindpose-viewer id="a" ${FIGURE}></bindpose-viewer>`, { backend: "auto" });
 for (const ui of ["transport", "full"]) {
@@ -469,50 +439,3 @@ for (const ui of ["transport", "full"]) {
     assert.equal(await page.evaluate(() => viewer.shadowRoot.querySelectorAll("canvas").length), 1);
   });
 }
-
-/** A page of examples/. */
-const example = (name) => ({ query: `examples/${name}.html`, bare: true, draws: true, only: "webgl2", viewport: { width: 700, height: 900 } });
-const ready = (page, id) => page.waitForFunction((id) => document.getElementById(id).state?.().model, id, { polling: 50 });
-
-test("the example with three viewers: a sentence leads to a moment", example("three"), async (page) => {
-  await ready(page, "walk");
-  await page.getByRole("link", { name: "the weight changes feet" }).click();
-  await page.waitForFunction(() => document.getElementById("walk").currentTime === 0.5 && document.getElementById("walk").paused);
-  for (const viewer of await page.locator("bindpose-viewer").all()) await viewer.scrollIntoViewIfNeeded();
-  await page.waitForFunction(() => [...document.querySelectorAll("bindpose-viewer")].every((viewer) => viewer.state().model && viewer.shadowRoot.querySelector(".poster").hidden));
-  assert.equal(await page.evaluate(() => document.querySelectorAll("bindpose-viewer")[2].state().skeleton.skinView), "weight");
-  await keep(page, "example-three");
-});
-
-test("the example with a curve: a bone's height is drawn while the clip plays", { ...example("bone-height"), motion: true }, async (page) => {
-  await ready(page, "viewer");
-  const inked = () => page.evaluate(() => document.getElementById("curve").getContext("2d").getImageData(0, 0, 640, 160).data.filter((value, index) => index % 4 === 3 && value > 0).length);
-  await page.waitForFunction(() => document.getElementById("viewer").currentTime > 0.3);
-  assert.ok((await inked()) > 100);
-  await keep(page, "example-bone-height");
-  const told = await page.evaluate(() => Number.parseFloat(document.getElementById("height").textContent));
-  const tall = await page.evaluate(() => document.getElementById("viewer").state().model.bindBounds.max[1]);
-  assert.ok(told > 0.3 * tall && told < 0.7 * tall, `${told}: the hips of a figure of ${tall}`);
-});
-
-test("the example with two files: one transport moves both, and one camera the other", example("compare"), async (page) => {
-  for (const id of ["left", "right"]) await ready(page, id);
-  await page.getByRole("slider", { name: "Time" }).fill("0.5");
-  const at = () => page.evaluate(() => ["left", "right"].map((id) => document.getElementById(id)).map(({ currentTime, duration }) => Math.round((100 * currentTime) / duration)));
-  await page.waitForFunction(() => document.getElementById("right").currentTime > 0.3);
-  assert.deepEqual(await at(), [50, 50]);
-  const left = await page.locator("#left").boundingBox();
-  await page.mouse.move(left.x + 100, left.y + 100);
-  await page.mouse.down();
-  await page.mouse.move(left.x + 160, left.y + 100, { steps: 5 });
-  await page.mouse.up();
-  await page.waitForFunction(() => {
-    const [one, other] = ["left", "right"].map((id) => document.getElementById(id).state().camera.yawRadians);
-    return Math.abs(one) > 0.1 && Math.abs(one - other) < 1e-4;
-  });
-  await page.locator("input[data-for=right]").setInputFiles(SAMPLE);
-  await page.waitForFunction(() => document.getElementById("right").state().model.name === "figure.m3d" && document.getElementById("right").state().models.length === 1);
-  await page.getByRole("button", { name: "Play" }).click();
-  await page.waitForFunction(() => document.getElementById("left").currentTime > 0.7);
-  await keep(page, "example-compare");
-});

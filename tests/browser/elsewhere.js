@@ -7,7 +7,7 @@ import { crc32 } from "node:zlib";
 import { BACKEND, PAGE, SAMPLE, state, test, until } from "./harness.js";
 
 /** A triangle whose bytes lie in a file beside it, and one that a third server would have. */
-const SCENE = JSON.stringify({
+export const SCENE = JSON.stringify({
   asset: { version: "2.0" },
   buffers: [{ uri: "data/a%20triangle.bin", byteLength: 36 }],
   bufferViews: [{ buffer: 0, byteLength: 36 }],
@@ -17,7 +17,7 @@ const SCENE = JSON.stringify({
   nodes: [{ mesh: 0 }],
   scenes: [{ nodes: [0] }],
 });
-const TRIANGLE = Buffer.from(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]).buffer);
+export const TRIANGLE = Buffer.from(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]).buffer);
 
 /** An archive with one file, as it is. */
 function zipped(name, bytes) {

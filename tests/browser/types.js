@@ -6,9 +6,13 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import ts from "typescript";
-import { FIXTURES, dropAndWait, state, test } from "./harness.js";
+import { FIXTURES, FOLDER, dropAndWait, state, test } from "./harness.js";
+import { hears, pageOf } from "./notes.js";
 
-const TYPES = fileURLToPath(new URL("../../xtask/npm/bindpose-viewer.d.ts", import.meta.url));
+const pathOf = (name) => fileURLToPath(new URL(`../../xtask/npm/${name}.d.ts`, import.meta.url));
+const [TYPES, CLASS] = ["bindpose-viewer", "viewer"].map(pathOf);
+/** As a program names them. */
+const [types, ofClass] = [TYPES, CLASS].map((path) => JSON.stringify(path.replace(/\.d\.ts$/, "")));
 
 /** What the compiler says of a program. */
 function complaints(text) {
@@ -16,7 +20,7 @@ function complaints(text) {
   try {
     const path = join(folder, "told.ts");
     writeFileSync(path, text);
-    const program = ts.createProgram([path, TYPES], { strict: true, noEmit: true, types: [], lib: ["lib.es2022.d.ts", "lib.dom.d.ts", "lib.dom.iterable.d.ts"], target: ts.ScriptTarget.ES2022, moduleResolution: ts.ModuleResolutionKind.Bundler, module: ts.ModuleKind.ESNext, skipLibCheck: false });
+    const program = ts.createProgram([path, TYPES, CLASS], { strict: true, noEmit: true, types: [], lib: ["lib.es2022.d.ts", "lib.dom.d.ts", "lib.dom.iterable.d.ts"], target: ts.ScriptTarget.ES2022, moduleResolution: ts.ModuleResolutionKind.Bundler, module: ts.ModuleKind.ESNext, skipLibCheck: false });
     return ts.getPreEmitDiagnostics(program).map(({ messageText }) => ts.flattenDiagnosticMessageText(messageText, "\n"));
   } finally {
     rmSync(folder, { recursive: true });
@@ -34,7 +38,7 @@ test("the types have all that the viewer says of itself, and no more", { own: tr
     return Object.getOwnPropertyNames(BindposeViewerElement.prototype).filter((name) => !/^constructor$|Callback$/.test(name));
   });
   const program = (names, states) => `
-    import type { BindposeViewerElement, State } from ${JSON.stringify(TYPES.replace(/\.d\.ts$/, ""))};
+    import type { BindposeViewerElement, State } from ${types};
     type Own = Exclude<keyof BindposeViewerElement, keyof HTMLElement>;
     export const names: Record<Own, true> = ${JSON.stringify(Object.fromEntries(names.map((name) => [name, true])))};
     export const states: State[] = ${JSON.stringify(states)};
@@ -46,4 +50,76 @@ test("the types have all that the viewer says of itself, and no more", { own: tr
   assert.match(complaints(program([...names, "spin"], states)).join(), /spin/);
   assert.match(complaints(program(names.slice(1), states)).join(), new RegExp(names[0]));
   assert.match(complaints(program(names, [{ ...states[0], mood: "good" }])).join(), /mood/);
+});
+
+test("the types of the class have all its methods, with what each takes, and the details of what it tells", {
+  own: true,
+  only: "webgl2",
+}, async (page) => {
+  const methods = await page.evaluate(async (folder) => {
+    const { Viewer } = await import(`${folder}bindpose.js`);
+    const names = Object.getOwnPropertyNames(Viewer.prototype).filter((name) => !/^(__.*|constructor)$/.test(name));
+    return Object.fromEntries(names.map((name) => [name, Viewer.prototype[name].length]));
+  }, FOLDER);
+  const told = await page.evaluate(async () => {
+    const details = {};
+    for (const type of ["load", "error", "play", "pause", "timeupdate", "playbackchange"]) {
+      bindpose.addEventListener(type, ({ detail }) => (details[type] = detail));
+    }
+    const bytes = new Uint8Array(await (await fetch("web/sample/figure.m3d")).arrayBuffer());
+    await bindpose.open([{ name: "figure.m3d", bytes }]);
+    bindpose.play();
+    bindpose.setSpeed(2);
+    while (!details.timeupdate) await new Promise(requestAnimationFrame);
+    bindpose.pause();
+    await bindpose.open([{ name: "none.m3d", bytes: bytes.slice(0, 100) }]);
+    return details;
+  });
+  const program = (methods, told) => `
+    import type { Viewer, ViewerEventMap } from ${ofClass};
+    type Takes<K extends keyof Viewer> = Required<Parameters<Viewer[K]>>["length"];
+    export const methods: { [K in keyof Viewer]: Takes<K> } = ${JSON.stringify(methods)};
+    export const told: ViewerEventMap = ${JSON.stringify(told)};`;
+  assert.deepEqual(complaints(program(methods, told)), []);
+  // The check can fail.
+  assert.match(complaints(program({ ...methods, spin: 0 }, told)).join(), /spin/);
+  assert.match(complaints(program({ ...methods, seek: 2 }, told)).join(), /'2' is not assignable to type '1'/);
+  const { setWrap, ...fewer } = methods;
+  assert.equal(setWrap, 1);
+  assert.match(complaints(program(fewer, told)).join(), /setWrap/);
+  assert.match(complaints(program(methods, { ...told, load: {} })).join(), /name/);
+});
+
+test("the types of the element's events are those of what it tells", {
+  only: "webgl2",
+  expectErrors: true,
+  ...pageOf(`<bindpose-viewer id="a" src="web/sample/figure.m3d" clip="Walk"></bindpose-viewer>
+    <bindpose-viewer id="b" src="web/nothing.m3d"></bindpose-viewer>`),
+}, async (page) => {
+  await hears(page, "a", "load");
+  await hears(page, "b", "error");
+  await page.evaluate(() => {
+    const viewer = document.getElementById("a");
+    viewer.currentTime = viewer.startTime + viewer.duration - 0.2;
+    viewer.play();
+  });
+  await hears(page, "a", "ended");
+  await page.evaluate(() => document.getElementById("a").setAttribute("camera", "70 12"));
+  await hears(page, "a", "camera-change");
+  const told = await page.evaluate(() => {
+    const last = Object.entries(details).map(([type, all]) => [type, all.at(-1)]);
+    return Object.fromEntries(last);
+  });
+  const program = (told) => `
+    import type { BindposeViewerEventMap } from ${types};
+    type Own = "load" | "progress" | "error" | "play" | "pause" | "ended" | "timeupdate" | "camera-change";
+    type Detail<E> = E extends CustomEvent<infer D> ? D : never;
+    export const told: { [K in Own]: Detail<BindposeViewerEventMap[K]> } = ${JSON.stringify(told)};`;
+  assert.deepEqual(complaints(program(told)), []);
+  // The check can fail.
+  assert.match(complaints(program({ ...told, load: {} })).join(), /not assignable/);
+  assert.match(complaints(program({ ...told, progress: {} })).join(), /totalProgress/);
+  const { ended, ...fewer } = told;
+  assert.equal(ended, null);
+  assert.match(complaints(program(fewer)).join(), /ended/);
 });

@@ -15,6 +15,10 @@ const FIELDS = {
 /** What an attribute that is taken away leaves, where that is something. */
 const FIRST = { bone: "", bones: 0, light: "studio", bg: "backdrop", view: "lit", speed: 1 };
 const OTHERS = ["src", "link", "ui", "alt", "poster", "interaction", "loading"];
+/** Attributes with few values: the first is what it is without one of them. */
+const VALUES = {
+  ui: ["transport", "none", "full"], backend: ["auto", "webgpu", "webgl2"], loading: ["auto", "lazy"], interaction: ["orbit", "none"],
+};
 
 /** What shows is in sight when it is this near to the window. */
 const NEAR = "200px";
@@ -44,6 +48,7 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     error: (error) => this.#tellError(error),
     camera: (state) => this.#tellCamera(state),
     nameCanvas: () => this.#nameCanvas(),
+    update: () => this.#transport.update(),
     moment: () => this.#moment(),
     theme: () => this.#theme,
   };
@@ -123,7 +128,7 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     if (name in FIELDS || name === "link") return this.#follow(name);
     if (before === value) return;
     if (name === "poster") this.#showPoster(!this.#over.poster.hidden);
-    if (name === "alt") this.#nameCanvas();
+    if (["alt", "interaction"].includes(name)) this.#nameCanvas();
     if (name === "ui") this.#restart(before);
     if (name === "src" && this.#life) {
       this.#kept = null;
@@ -199,21 +204,6 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
   /** The names of all clips. */
   get clips() {
     return this.state().model?.clips.map(({ name }) => name) ?? [];
-  }
-
-  get ui() {
-    const named = this.getAttribute("ui");
-    return ["none", "full"].includes(named) ? named : "transport";
-  }
-
-  set ui(name) {
-    this.setAttribute("ui", name);
-  }
-
-  /** How it draws: `auto`, `webgpu` or `webgl2`. Read when it starts. */
-  get backend() {
-    const named = this.getAttribute("backend");
-    return ["webgpu", "webgl2"].includes(named) ? named : "auto";
   }
 
   get error() {
@@ -317,9 +307,11 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
   #nameCanvas() {
     const canvas = this.#view.querySelector("canvas");
     const name = this.state().model?.name;
-    canvas?.setAttribute("role", this.ui === "full" ? "application" : "img");
+    if (!canvas) return;
+    canvas.tabIndex = this.interaction === "none" ? -1 : 0;
+    canvas.setAttribute("role", this.ui === "full" ? "application" : "img");
     const words = this.getAttribute("alt") ?? (name ? `3D view of ${name}` : "3D view");
-    canvas?.setAttribute("aria-label", words);
+    canvas.setAttribute("aria-label", words);
     this.#transport.bar.setAttribute("aria-label", `Timeline: ${words}`);
   }
 
@@ -384,12 +376,15 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
 }
 
 // The other attributes are properties of their names; those that need no value are also set by `true` and `false`.
-for (const attribute of [...BindposeViewerElement.observedAttributes, "autoplay"]) {
+for (const attribute of [...BindposeViewerElement.observedAttributes, "autoplay", "backend"]) {
   const name = attribute.replace(/-(.)/g, (_, letter) => letter.toUpperCase());
   if (name in BindposeViewerElement.prototype) continue;
   Object.defineProperty(BindposeViewerElement.prototype, name, {
     get() {
-      return this.getAttribute(attribute) ?? "";
+      const value = this.getAttribute(attribute);
+      if (["autoplay", "loop"].includes(name)) return value !== null;
+      const values = VALUES[name];
+      return values ? values.find((known) => known === value) ?? values[0] : value ?? "";
     },
     set(value) {
       // Bones that a link shows are hidden too.

@@ -28,9 +28,17 @@ function programOf(name, progress) {
 
 /** Viewers that live; a panic ends them all, since they share a memory. */
 const living = new Set();
-globalThis.addEventListener?.("error", ({ error }) => {
-  if (error?.name === "Panic" || error instanceof WebAssembly.RuntimeError) for (const life of living) life.fail(error);
-});
+const endAll = (error) => living.forEach((life) => life.fail(error));
+const hearError = ({ error }) => {
+  if (error?.name === "Panic") return endAll(error);
+  if (!(error instanceof WebAssembly.RuntimeError)) return;
+  // The page may have programs of its own: one of ours that has trapped answers no more.
+  try {
+    for (const { viewer } of living) viewer?.state();
+  } catch {
+    endAll(error);
+  }
+};
 
 /** The fields of a link, in order. */
 export const fieldsOf = (text) => new Map(text.split("&").filter(Boolean).map((field) => [field.split("=")[0], field.slice(field.indexOf("=") + 1)]));
@@ -39,7 +47,7 @@ export const textOf = (fields) => [...fields].map(([name, value]) => `${name}=${
 /**
  * A viewer from when its element came into a page until it leaves it: `host` is the element, `view` what its canvas lies in, `kept` what an earlier life was
  * ended with. `teller` has what the element does for it: `event(type)`, `progress(part)`, `load()`, `error(error)`, `camera(state)`, `nameCanvas()`,
- * `moment()`, the link to what its attributes ask for, and `theme()`.
+ * `update()` of what shows how it plays, `moment()`, the link to what its attributes ask for, and `theme()`.
  */
 export class Life {
   constructor(host, teller, view, kept) {
@@ -49,6 +57,7 @@ export class Life {
     this.fetching = new AbortController();
     this.listening = new AbortController();
     living.add(this);
+    addEventListener("error", hearError);
   }
 
   /** Starts the viewer and shows what is to be shown. */
@@ -79,7 +88,6 @@ export class Life {
     if (this.over) throw new Error("the element left its page");
     this.viewer = new module.Viewer({ ui: "full", theme: this.teller.theme() }, (type, detail) => this.hear(type, detail));
     const canvas = document.createElement("canvas");
-    canvas.tabIndex = this.host.interaction === "none" ? -1 : 0;
     const box = this.isFull ? document.createElement("div") : this.view;
     this.view.replaceChildren(...(this.isFull ? [box] : []));
     box.append(canvas);
@@ -108,9 +116,10 @@ export class Life {
 
   /** What the panels ask for. */
   forPanels() {
-    const open = (files, how) => this.api.give(files, how).catch((error) => error.name !== "AbortError" && this.teller.error(error));
+    const refused = (error) => this.over || error.name === "AbortError" || this.teller.error(error);
+    const give = (files, addsClips) => (addsClips ? this.addClips(files) : this.openGiven(files, null));
     return {
-      receive: (files, addsClips) => void (addsClips ? open(files, "addClips") : this.openGiven(files, null).catch(() => {})),
+      receive: (files, addsClips) => void give(Array.from(files), addsClips).catch(refused),
       refuse: (words) => this.teller.error(new Error(words)),
       again: () => void this.show(),
       openModel: () => this.viewer.state().model?.name ?? "",
@@ -173,11 +182,11 @@ export class Life {
     this.fetching.abort();
     const { signal } = (this.fetching = new AbortController());
     try {
-      const files = this.kept?.files ?? (await this.fetch(signal));
-      const moment = this.kept?.moment ?? this.teller.moment();
+      const fresh = async () => ({ files: await this.fetch(signal), clips: [], moment: this.teller.moment() });
+      const { files, clips, moment } = this.kept ?? (await fresh());
       this.kept = null;
       if (signal.aborted || !files.length) return;
-      await this.open(files, moment);
+      await this.open(files, moment, clips);
     } catch (error) {
       if (!signal.aborted && error.name !== "AbortError") this.teller.error(error);
     }
@@ -205,19 +214,26 @@ export class Life {
   }
 
   /** Opens files and goes to a moment in them, if one is named. Resolves with the state, which has an `error` where they could not be opened. */
-  async open(files, moment) {
+  async open(files, moment, clips = []) {
     this.isShown = false;
     const state = await this.api.give(files, "open");
     if (state.error) {
       this.teller.error(new Error(state.error.message));
       return state;
     }
-    // Pictures that join a model are kept beside it, for when the element comes back.
-    this.files = this.files && onlyJoins(files) ? [...this.files, ...files] : files;
+    // Pictures and clips that join a model are kept beside it, for when the element comes back.
+    if (this.files && onlyJoins(files)) this.files = [...this.files, ...files];
+    else Object.assign(this, { files, clips: [] });
+    if (clips.length) await this.addClips(clips);
     if (moment !== null) this.follow(moment);
     this.isShown = true;
     this.teller.load();
     return this.api.bindpose.state();
+  }
+
+  async addClips(files) {
+    const { error } = await this.api.give(files, "addClips");
+    if (!error) this.clips.push(...files);
   }
 
   /** Shows the moment of a link, or a change of what is seen, as far as the model and the viewer know it. */
@@ -244,12 +260,13 @@ export class Life {
     if (this.panels[type]) return void this.panels[type](detail);
     if (!this.isShown) return;
     if (["play", "pause", "timeupdate"].includes(type)) this.teller.event(type);
+    if (type === "playbackchange") this.teller.update();
     if (type === "settling") this.teller.camera(this.viewer.state().camera);
   }
 
   /** Nothing is drawn while nobody sees it. */
   setInSight(isInSight) {
-    if (!this.over) this.viewer?.setVisible?.(isInSight);
+    if (!this.over) this.viewer?.setVisible(isInSight);
   }
 
   fail(error) {
@@ -268,11 +285,12 @@ export class Life {
     this.listening.abort();
     this.sizes?.disconnect();
     living.delete(this);
+    if (!living.size) removeEventListener("error", hearError);
     this.mirror?.remove();
     if (isSound) this.viewer?.free();
     this.view.replaceChildren();
     this.view.classList.remove("drawn");
-    return moment === null ? null : { files: this.files, moment };
+    return moment === null ? null : { files: this.files, clips: this.clips, moment };
   }
 
   /** The link to what is seen, with whether it plays. */

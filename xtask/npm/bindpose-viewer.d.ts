@@ -121,6 +121,7 @@ export interface State {
   /** What stands behind `#` in a link to what is seen. */
   link: string;
   notices: Finding[];
+  /** Of the program with the interface. */
   book: { d3d11: Verdict | null; d3d12: Verdict | null; converted: { fits: boolean; limits: { code: string; message: string }[] } | null } | null;
   error: (Finding & { file: string | null }) | null;
 }
@@ -165,10 +166,10 @@ export class BindposeViewerElement extends HTMLElement {
   /** Addresses of the model and its pictures, with spaces between. */
   src: string;
   ui: "transport" | "none" | "full";
-  loading: string;
+  loading: "auto" | "lazy";
   alt: string;
   poster: string;
-  interaction: string;
+  interaction: "orbit" | "none";
   link: string;
   camera: string;
   light: string;
@@ -178,12 +179,12 @@ export class BindposeViewerElement extends HTMLElement {
   speed: string;
   get skeleton(): string;
   set skeleton(shown: string | boolean);
-  get loop(): string;
-  set loop(how: string | boolean);
-  get autoplay(): string;
-  set autoplay(plays: string | boolean);
-  /** Read when it starts. */
-  readonly backend: "auto" | "webgpu" | "webgl2";
+  get loop(): boolean;
+  /** `pingpong` goes back and forth. */
+  set loop(how: boolean | "loop" | "pingpong");
+  autoplay: boolean;
+  /** How it draws. Read when it starts. */
+  backend: "auto" | "webgpu" | "webgl2";
   play(): void;
   pause(): void;
   readonly paused: boolean;

@@ -10,7 +10,7 @@ use crate::licenses;
 use crate::site::Site;
 
 /// What the package has beside the site's files, from `xtask/npm`.
-const BESIDE: [&str; 3] = ["package.json", "README.md", "bindpose-viewer.d.ts"];
+const BESIDE: [&str; 4] = ["package.json", "README.md", "bindpose-viewer.d.ts", "viewer.d.ts"];
 
 /// What the manifest has in place of the version and the licence of `Cargo.toml`.
 const PLACEHOLDERS: [(&str, &str); 2] = [

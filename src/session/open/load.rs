@@ -209,6 +209,7 @@ pub(in crate::session) async fn load_whole(
     file: &File,
     mut maps: Maps,
     before: Option<Loaded>,
+    judges: bool,
     slices: &Slices,
 ) -> Result<Box<Loaded>, Box<LoadError>> {
     let mut joined = before.as_ref().map_or(Vec::new(), |before| before.open.joined.clone());
@@ -223,7 +224,9 @@ pub(in crate::session) async fn load_whole(
     maps.add_in(&open.model.materials, pictures, slices).await;
     let of_same = same.filter(|before| missing_maps(&before.maps) == missing_maps(&maps));
     let verdicts = of_same.map_or_else(Verdicts::default, |before| before.verdicts.clone());
-    verdicts.of_in(&open, &maps, slices).await;
+    if judges {
+        verdicts.of_in(&open, &maps, slices).await;
+    }
     if let Some(open) = Arc::get_mut(&mut open) {
         open.source.forget();
     }

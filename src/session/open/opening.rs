@@ -83,6 +83,11 @@ impl Session {
         self.opening.slices = slices.clone();
     }
 
+    /// From now on opening works out no verdicts: nobody asks for [`Session::verdicts`].
+    pub fn leave_out_verdicts(&mut self) {
+        self.opening.without_verdicts = true;
+    }
+
     /// What is read or being opened; never anything for a session without slices.
     pub fn being_opened(&self) -> Option<BeingOpened<'_>> {
         let now = self.opening.now.as_ref().map(|now| BeingOpened {
@@ -228,8 +233,9 @@ impl Session {
             maps: content.maps.clone(),
             verdicts: content.verdicts.clone(),
         });
+        let judges = !self.opening.without_verdicts;
         let work = Sliced::new(&self.opening.slices, async move |slices| {
-            wish.fulfil(shown, &slices).await
+            wish.fulfil(shown, judges, &slices).await
         });
         self.opening.now = Some(Underway {
             work,

@@ -1,4 +1,4 @@
-//! Calls of scripts that stand in for what a window would bring: its size, whether it is seen, input.
+//! Calls of scripts that stand in for what a window would bring: its size, its theme, input.
 
 use glam::Vec2;
 use wasm_bindgen::prelude::*;
@@ -19,13 +19,6 @@ impl Viewer {
             running.canvas.set_height(height);
             running.frames.request();
         }
-    }
-
-    /// Learns whether anybody can see the canvas. Nothing is drawn while nobody can.
-    #[wasm_bindgen(js_name = setVisible)]
-    pub fn set_visible(&self, visible: bool) {
-        self.shared.face.set_out_of_sight(!visible);
-        self.shared.request_repaint();
     }
 
     /// Draws for a theme, `light` or `dark`, in place of that of the options.

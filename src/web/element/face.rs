@@ -7,6 +7,7 @@ use wasm_bindgen::JsValue;
 use super::pointers::Pointers;
 use crate::scene::Theme;
 use crate::session::Session;
+use crate::session::summary::Books;
 use crate::web::{field, matches_media};
 
 #[derive(Default)]
@@ -15,7 +16,7 @@ pub(in crate::web) struct Face {
     pub(super) pointers: RefCell<Pointers>,
     /// Since the last frame.
     had_input: Cell<bool>,
-    is_out_of_sight: Cell<bool>,
+    pub(in crate::web) is_out_of_sight: Cell<bool>,
 }
 
 impl Face {
@@ -69,12 +70,9 @@ impl Face {
     pub(super) fn is_held(&self) -> bool {
         self.pointers.borrow().hold()
     }
+}
 
-    pub(super) fn set_out_of_sight(&self, is_out_of_sight: bool) {
-        self.is_out_of_sight.set(is_out_of_sight);
-    }
-
-    pub(super) fn is_out_of_sight(&self) -> bool {
-        self.is_out_of_sight.get()
-    }
+/// Nothing: verdicts are the page's.
+pub(in crate::web) fn books(_session: &Session) -> Option<Books<'_>> {
+    None
 }

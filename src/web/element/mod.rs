@@ -10,6 +10,6 @@ mod run;
 mod surface;
 
 pub(super) use app::App;
-pub(super) use face::Face;
+pub(super) use face::{Face, books};
 pub(super) use frames::Frames;
 pub(super) use run::run;

@@ -8,6 +8,7 @@ use wasm_bindgen::JsValue;
 use super::mirror::MirrorLink;
 use crate::scene::Theme;
 use crate::session::Session;
+use crate::session::summary::Books;
 use crate::ui::{Chrome, UiState};
 use crate::web::field;
 
@@ -17,6 +18,7 @@ pub(in crate::web) struct Face {
     pub(super) mirror: MirrorLink,
     /// Other names were kept for a model elsewhere; the next frame reads them.
     pub(super) names_changed: Cell<bool>,
+    pub(in crate::web) is_out_of_sight: Cell<bool>,
 }
 
 impl Face {
@@ -48,4 +50,10 @@ impl Face {
     pub(in crate::web) fn open_these_panels(&self, session: &Session, names: &[String]) -> bool {
         self.ui.borrow_mut().open_these_panels(session, names).is_empty()
     }
+}
+
+/// What the books' programs make of the open file.
+pub(in crate::web) fn books(session: &Session) -> Option<Books<'_>> {
+    let open = session.open_model();
+    open.map(|_| Books::of(session.verdicts(), session.limits_once_converted()))
 }

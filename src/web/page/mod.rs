@@ -14,6 +14,6 @@ mod run;
 mod saving;
 
 pub(super) use crate::app::App;
-pub(super) use face::Face;
+pub(super) use face::{Face, books};
 pub(super) use frames::Frames;
 pub(super) use run::run;

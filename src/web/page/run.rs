@@ -37,6 +37,8 @@ pub(in crate::web) async fn run(
         should_prevent_default: Box::new(owns_event),
         ..Default::default()
     };
+    // In an element of somebody's page, not a part of the page.
+    let is_guest = !canvas.get_root_node().is_instance_of::<web_sys::Document>();
     let app = Rc::new(RefCell::new(None));
     let drawn = Rc::new(Cell::new(Drawn::NOTHING));
     let (tell_of_loss, loss) = mpsc::channel();
@@ -49,13 +51,18 @@ pub(in crate::web) async fn run(
         is_lost: false,
         exports: Rc::default(),
         drawn: Rc::clone(&drawn),
-        names: JointNames::default(),
+        names: (!is_guest).then(JointNames::default),
         saving: Saving::new(Rc::clone(&app), Rc::clone(shared)),
     };
     let made = Rc::new(RefCell::new(None));
     let made_out = Rc::clone(&made);
     let runner = eframe::WebRunner::new();
     let had_focus = focused_element();
+    // What is inert cannot take the focus, even for a moment.
+    let around = canvas.parent_element().filter(|_| is_guest);
+    if let Some(around) = &around {
+        let _ = around.set_attribute("inert", "");
+    }
     let started = runner
         .start(
             canvas.clone(),
@@ -77,7 +84,9 @@ pub(in crate::web) async fn run(
             }),
         )
         .await;
-    if let Some(element) = had_focus {
+    if let Some(around) = around {
+        let _ = around.remove_attribute("inert");
+    } else if let Some(element) = had_focus {
         leave_focus(&canvas, &element);
     }
     if let Err(error) = started {
@@ -153,7 +162,8 @@ struct Shell {
     /// Whether tasks go on with an export.
     exports: Rc<Cell<bool>>,
     drawn: Rc<Cell<Drawn>>,
-    names: JointNames,
+    /// A guest keeps none in the browser.
+    names: Option<JointNames>,
     saving: Saving,
 }
 
@@ -184,6 +194,11 @@ impl Shell {
 impl eframe::App for Shell {
     fn raw_input_hook(&mut self, ctx: &egui::Context, input: &mut egui::RawInput) {
         fit_canvas(&self.canvas, input);
+        // As in a hidden tab: no pass runs.
+        let root = input.viewports.entry(egui::ViewportId::ROOT).or_default();
+        root.occluded = root
+            .occluded
+            .map(|hidden| hidden || self.shared.face.is_out_of_sight.get());
         self.shared.face.mirror.begin_frame(ctx, input);
     }
 
@@ -236,10 +251,9 @@ impl eframe::App for Shell {
         self.shared.follow_frame(is_held);
         self.go_on_exporting(ui.ctx());
         let changed_elsewhere = self.shared.face.names_changed.take();
-        if self
-            .names
-            .follow(&mut self.shared.session.borrow_mut(), changed_elsewhere)
-        {
+        let session = &mut *self.shared.session.borrow_mut();
+        let names = self.names.as_mut();
+        if names.is_some_and(|names| names.follow(session, changed_elsewhere)) {
             ui.ctx().request_repaint();
         }
     }
