@@ -110,12 +110,12 @@ impl AtRest {
         mean.answer.is_some() || (count < quality.samples() && (count < least || !is_late))
     }
 
-    /// Adds some samples of the session's picture, in this size in pixels. The waker is woken when the GPU has answered.
+    /// Adds some samples of the session's picture, in this size in pixels, of a window so high in points. The waker is woken when the GPU has answered.
     pub(super) fn draw(
         &mut self,
         (device, renderer): (&wgpu::Device, &mut Renderer),
         session: &mut Session,
-        size: [u32; 2],
+        (size, points_high): ([u32; 2], Option<f32>),
         now_secs: f64,
         waker: &Waker,
     ) {
@@ -141,7 +141,8 @@ impl AtRest {
         }
         let samples = session.quality().samples();
         mean.least = samples.min(LEAST_SAMPLES);
-        let frame = session.frame();
+        let mut frame = session.frame();
+        frame.options.points_high = points_high;
         for _ in 0..SAMPLES_A_PASS.min(samples.saturating_sub(mean.accumulator.count())) {
             renderer.accumulate(&frame, &mut mean.target, &mut mean.accumulator);
         }
