@@ -237,8 +237,9 @@ impl SessionPainter {
         if !self.is_sampling(session) {
             return;
         }
-        let (gpu, now_secs) = ((&self.device, &mut self.renderer), (self.now_secs)());
-        self.at_rest.draw(gpu, session, (size, self.points_high), now_secs, &self.waker);
+        let (gpu, now_secs) = ((&self.device, &self.queue, &mut self.renderer), (self.now_secs)());
+        self.at_rest
+            .draw(gpu, session, (size, self.points_high), now_secs, &self.waker);
         let drawn = if session.quality().smooths_edges_now() {
             &self.target
         } else {
