@@ -4,14 +4,13 @@ struct MeshVertex {
     // As in `mesh_two_maps.wgsl`.
     @invariant @builtin(position) clip: vec4<f32>,
     @location(0) world_position: vec3<f32>,
-    // At an edge the pixel's middle may lie beside the triangle, where normals turn away from the viewer and maps show
-    // something else. The position is the middle's all the same: from its steps follows the flat normal.
+    // At an edge the pixel's middle may lie beside the triangle, where normals turn away from the viewer.
     @location(1) @interpolate(perspective, centroid) world_normal: vec3<f32>,
     @location(2) @interpolate(perspective, centroid) world_tangent: vec4<f32>,
-    @location(3) @interpolate(perspective, centroid) tex_coord: vec2<f32>,
+    @location(3) tex_coord: vec2<f32>,
     @location(4) @interpolate(flat) front_sign: f32,
-    @location(5) @interpolate(perspective, centroid) color: vec4<f32>,
-    @location(6) @interpolate(perspective, centroid) second_tex_coord: vec2<f32>,
+    @location(5) color: vec4<f32>,
+    @location(6) second_tex_coord: vec2<f32>,
 }
 
 fn mesh_vertex(world: Skinned, maps: MapVertex, front_sign: f32) -> MeshVertex {

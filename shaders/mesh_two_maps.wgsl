@@ -4,11 +4,10 @@ struct MeshVertex {
     // Every program computes the same bits, so that what is drawn over the model meets its depth.
     @invariant @builtin(position) clip: vec4<f32>,
     @location(0) world_position: vec3<f32>,
-    // At an edge the pixel's middle may lie beside the triangle, where normals turn away from the viewer and maps show
-    // something else. The position is the middle's all the same: from its steps follows the flat normal.
+    // At an edge the pixel's middle may lie beside the triangle, where normals turn away from the viewer.
     @location(1) @interpolate(perspective, centroid) world_normal: vec3<f32>,
     @location(2) @interpolate(perspective, centroid) world_tangent: vec4<f32>,
-    @location(3) @interpolate(perspective, centroid) tex_coord: vec2<f32>,
+    @location(3) tex_coord: vec2<f32>,
     @location(4) @interpolate(flat) front_sign: f32,
 }
 

@@ -5,12 +5,12 @@ use std::sync::Arc;
 use bindpose::image::{Image, MapKind};
 use bindpose::model::AlphaMode;
 use bindpose::scene::{Background, ViewMode};
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 
 use crate::gpu::{Gpu, Picture, difference, without_blocks};
 use crate::scenes::Scene;
 use crate::textures::{
-    HEIGHT, WHITE, WIDTH, card, card_once, dds, diffuse, linear, normal, pixels_of_card, plain, square, texels,
+    HEIGHT, WHITE, WIDTH, card, card_once, dds, diffuse, linear, normal, pixels_of_card, plain, square,
 };
 
 const ONE: [u8; 3] = [200, 40, 90];
@@ -54,35 +54,6 @@ fn random_bytes(seed: u64, count: usize) -> Vec<u8> {
 }
 
 on_both_backends! {
-    /// Beside the texels that a small card shows lie others of another colour. A pixel at its edge whose middle lies
-    /// beside the card shows what the card has there, and none of the others. With two maps and with all of them.
-    fn pixels_at_edges_show_what_is_on_the_triangle(gpu) {
-        let map = Arc::new(texels(64, |x, y| {
-            let is_shown = [x, y].iter().all(|place| (16..48).contains(place));
-            if is_shown { [250, 0, 0, 255] } else { [0, 250, 0, 255] }
-        }));
-        for normal_scale in [1.0, 0.5] {
-            let mut scene = card(WHITE, [Vec2::splat(0.26), Vec2::splat(0.74)]);
-            scene.model.materials[0].normal_scale = normal_scale;
-            scene.options.view_mode = ViewMode::BaseColor;
-            scene.options.background = Background::Color([0; 3]);
-            let pixels_wide = 6.3;
-            let wanted_height = 2.0 * HEIGHT as f32 / pixels_wide;
-            scene.camera.distance *= wanted_height / scene.camera.height_in_view();
-            let mut partly_covered = 0;
-            for step in 0..8 {
-                scene.camera.target += 2.0 / pixels_wide * 0.13 * Vec3::new(1.0, 0.6, 0.0);
-                let picture = draw_with(gpu, &scene, &map);
-                let shown = picture.rgba.chunks_exact(4).filter(|pixel| pixel[..3] != [0; 3]);
-                for pixel in shown {
-                    assert!(pixel[1] < 30, "step {step}: {pixel:?}");
-                    partly_covered += usize::from(pixel[0] < 230);
-                }
-            }
-            assert!(partly_covered > 80, "{partly_covered} pixels at edges");
-        }
-    }
-
     /// Each texel shows as a material of that colour would: right place, repeated outside 0 … 1, decoded from sRGB.
     fn a_checker_repeats_in_its_own_colours(gpu) {
         let tex_coords = [Vec2::new(-1.0, -0.5), Vec2::new(2.0, 1.0)];
