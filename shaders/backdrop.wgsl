@@ -11,8 +11,7 @@ const BACKDROP_ROW: f32 = 0.06;
 const TOUCH_STRENGTH: f32 = 0.9;
 const NEAR_STRENGTH: f32 = 0.35;
 
-// Width of the grid's lines as a part of the picture's height, and in pixels at least.
-const LINE_HEIGHTS: f32 = 1.0 / 900.0;
+// The grid's lines are a point of the screen wide, and in pixels at least so much.
 const LEAST_LINE_PIXELS: f32 = 1.0;
 
 fn backdrop_srgb(ndc: vec2<f32>) -> vec3<f32> {
@@ -89,7 +88,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
             let step_x = abs(point_x.xz) * ndc_per_pixel.x;
             let step_y = abs(point_y.xz) * ndc_per_pixel.y;
             let per_pixel = sqrt(step_x * step_x + step_y * step_y) / ground.grid_cell;
-            let width = max(camera.viewport_pixels.y * LINE_HEIGHTS, LEAST_LINE_PIXELS);
+            let width = max(camera.viewport_pixels.y / camera.points_high, LEAST_LINE_PIXELS);
             let fade = 1.0 - away / ground.grid_reach;
             let grazing = smoothstep(0.0, 0.12, abs(ray.y) / length(ray));
             let strength = line_coverage(point.xz / ground.grid_cell, per_pixel, width) * fade * fade * grazing;

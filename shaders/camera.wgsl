@@ -24,7 +24,9 @@ struct Camera {
     // Size of the maps of normals, depth and ambient occlusion in view, texels. Their textures may be larger.
     map_size: vec2<f32>,
     // Which of many pictures it is that a mean is made of, from 0.
-    @size(8) sample: f32,
+    sample: f32,
+    // Height of the picture in points of the screen.
+    points_high: f32,
 }
 
 @group(0) @binding(0) var<uniform> camera: Camera;

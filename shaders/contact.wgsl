@@ -28,7 +28,11 @@ fn vertex_skinned(
 // The heights at which half of it is gone, in units of the books' demo.
 const HALF_HEIGHTS: vec2<f32> = vec2<f32>(0.04, 0.25);
 
+fn nearness(height: f32) -> vec4<f32> {
+    return vec4<f32>(exp2(-max(height, 0.0) / (HALF_HEIGHTS * light.book_unit)), 0.0, 1.0);
+}
+
 @fragment
 fn fragment(vertex: ContactVertex) -> @location(0) vec4<f32> {
-    return vec4<f32>(exp2(-max(vertex.height, 0.0) / (HALF_HEIGHTS * light.book_unit)), 0.0, 1.0);
+    return nearness(vertex.height);
 }

@@ -106,6 +106,7 @@ impl App {
         state.announce(&session);
         let requests = state.take_requests();
         let size = window.size() * ui.pixels_per_point();
+        self.painter.set_pixels_per_point(ui.pixels_per_point());
         let seen_by_panels = (session.model_revision(), session.error().is_some());
         let had_input = ui.input(|input| !input.events.is_empty());
         let pass = {

@@ -92,6 +92,9 @@ pub struct SessionPainter {
     answers: Vec<GpuAnswer>,
     /// A resized target that the GPU has not confirmed yet.
     target_answer: Option<GpuAnswer>,
+    pixels_per_point: f32,
+    /// Height of the last window in points of the screen.
+    points_high: Option<f32>,
     /// Asks for another picture when an answer arrives.
     waker: Waker,
 }
@@ -128,7 +131,17 @@ impl SessionPainter {
             was_moving: false,
             answers: Vec::new(),
             target_answer: None,
+            pixels_per_point: 1.0,
+            points_high: None,
             waker,
+        }
+    }
+
+    /// How many pixels a point of the screen has from the next picture on: lines go with points.
+    pub fn set_pixels_per_point(&mut self, pixels: f32) {
+        if self.pixels_per_point != pixels && pixels > 0.0 {
+            self.pixels_per_point = pixels;
+            self.drawn = None;
         }
     }
 
@@ -150,6 +163,7 @@ impl SessionPainter {
     /// compositor then shows it.
     pub fn draw(&mut self, session: &mut Session, window: [f32; 2], compositor: &mut Compositor) -> Option<FrameCost> {
         let sizes = self.sizes(session.quality(), window);
+        self.points_high = Some((window[1] / self.pixels_per_point).max(1.0));
         self.update(session);
         let wanted = Drawn {
             scene: session.scene_revision(),
@@ -174,8 +188,9 @@ impl SessionPainter {
         };
         let start_secs = (self.now_secs)();
         let mut cost;
+        let mut frame = session.frame();
+        frame.options.points_high = self.points_high;
         if target.size() == sizes.now {
-            let frame = session.frame();
             cost = if scene_stays && target.can_draw_over(frame.has_overlays()) {
                 self.renderer.render_over(&frame, target)
             } else {
@@ -187,7 +202,7 @@ impl SessionPainter {
             let answer;
             ((stayed, cost), answer) = watched(&device, || {
                 let stayed = target.resize(&device, sizes.now, largest);
-                (stayed, self.renderer.render(&session.frame(), target))
+                (stayed, self.renderer.render(&frame, target))
             });
             // Maps of the light go with the picture's size, but they are small.
             if !stayed {
@@ -222,8 +237,9 @@ impl SessionPainter {
         if !self.is_sampling(session) {
             return;
         }
-        let (gpu, now_secs) = ((&self.device, &mut self.renderer), (self.now_secs)());
-        self.at_rest.draw(gpu, session, size, now_secs, &self.waker);
+        let (gpu, now_secs) = ((&self.device, &self.queue, &mut self.renderer), (self.now_secs)());
+        self.at_rest
+            .draw(gpu, session, (size, self.points_high), now_secs, &self.waker);
         let drawn = if session.quality().smooths_edges_now() {
             &self.target
         } else {
@@ -260,6 +276,7 @@ impl SessionPainter {
         let asked = samples.filter(|_| self.at_rest.draws_means);
         let mut samples = asked.unwrap_or_else(|| self.samples_of_pictures(session));
         let mut frame = session.frame_at_rest();
+        frame.options.points_high = self.points_high;
         adjust(&mut frame.options);
         if frame.options.aperture > 0.0 && self.at_rest.draws_means {
             samples = samples.max(LENS_SAMPLES);

@@ -154,7 +154,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     let is_slow = device::is_software(&gpu.info) || shots.len() > 1;
     let samples = arguments.samples.unwrap_or(SAMPLES[usize::from(is_slow)]);
     let samples = if gpu.draws_means { samples } else { 1 };
-    let target = PictureTarget::new(size).with_mean_of(samples);
+    let target = PictureTarget::new(size).with_mean_of(samples).waiting();
     let mut painter = Painter::new(&session, &gpu, target, arguments.aperture)?;
     let [width, height] = size.map(|side| side as f32);
     let mut series = Series::new(session, width / height, shots);

@@ -2,10 +2,11 @@
 
 use std::task::{Context, Poll, Waker};
 
-use crate::render::{Accumulator, GpuAnswer, Renderer, SampleCount, Target, watched};
+use crate::render::{Accumulator, GpuAnswer, Renderer, SampleCount, Target, prove, watched};
 use crate::session::Session;
 
-/// The mean is of as many samples as a second has room for, but of so many at least. From there on it is shown.
+/// The mean is of as many samples as a second has room for, by the GPU's time where it tells any, but of so many at
+/// least. From there on it is shown.
 const LEAST_SAMPLES: u32 = 8;
 const SAMPLING_SECS: f64 = 1.0;
 /// So many are drawn in a pass of the window.
@@ -36,27 +37,38 @@ struct Mean {
 }
 
 impl Mean {
-    fn new(device: &wgpu::Device, [width, height]: [u32; 2]) -> Self {
-        let ((accumulator, target), answer) = watched(device, || {
+    fn new(device: &wgpu::Device, queue: &wgpu::Queue, [width, height]: [u32; 2]) -> Self {
+        let ((accumulator, target, proof), answer) = watched(device, || {
             let target = Target::with_samples(device, width, height, SampleCount::One);
-            (Accumulator::new(device, &target), target)
+            let mut accumulator = Accumulator::new(device, &target);
+            let proof = prove(device, queue, &target, &mut accumulator);
+            (accumulator, target, proof)
         });
         Self {
             accumulator,
             target,
-            answer: Some(answer),
+            answer: Some(both(answer, proof)),
             since_secs: 0.0,
             least: LEAST_SAMPLES,
         }
     }
 
-    fn resize(&mut self, device: &wgpu::Device, size: [u32; 2]) {
-        let ((), answer) = watched(device, || {
-            self.target.resize(device, size, size);
+    fn resize(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, size: [u32; 2]) {
+        let (proof, answer) = watched(device, || {
+            let stayed = self.target.resize(device, size, size);
             self.accumulator.follow(device, &self.target);
+            (!stayed).then(|| prove(device, queue, &self.target, &mut self.accumulator))
         });
-        self.answer = Some(answer);
+        self.answer = proof.map(|proof| both(answer, proof));
     }
+}
+
+/// The device reported nothing, and what was drawn is there.
+fn both(answer: GpuAnswer, proof: GpuAnswer) -> GpuAnswer {
+    Box::pin(async {
+        answer.await?;
+        proof.await
+    })
 }
 
 impl AtRest {
@@ -105,23 +117,25 @@ impl AtRest {
         }
         let Some(mean) = &self.mean else { return true };
         let count = mean.accumulator.count();
-        let is_late = !quality.samples_are_chosen() && now_secs - mean.since_secs > SAMPLING_SECS;
+        let drawn_secs = mean.accumulator.gpu_secs().map(f64::from);
+        let is_late = !quality.samples_are_chosen() && drawn_secs.unwrap_or(now_secs - mean.since_secs) > SAMPLING_SECS;
         let least = quality.samples().min(LEAST_SAMPLES);
         mean.answer.is_some() || (count < quality.samples() && (count < least || !is_late))
     }
 
-    /// Adds some samples of the session's picture, in this size in pixels. The waker is woken when the GPU has answered.
+    /// Adds some samples of the session's picture, in this size in pixels, of a window so high in points. The waker
+    /// is woken when the GPU has answered.
     pub(super) fn draw(
         &mut self,
-        (device, renderer): (&wgpu::Device, &mut Renderer),
+        (device, queue, renderer): (&wgpu::Device, &wgpu::Queue, &mut Renderer),
         session: &mut Session,
-        size: [u32; 2],
+        (size, points_high): ([u32; 2], Option<f32>),
         now_secs: f64,
         waker: &Waker,
     ) {
-        let mean = self.mean.get_or_insert_with(|| Mean::new(device, size));
+        let mean = self.mean.get_or_insert_with(|| Mean::new(device, queue, size));
         if mean.target.size() != size {
-            mean.resize(device, size);
+            mean.resize(device, queue, size);
         }
         if let Some(mut answer) = mean.answer.take() {
             match answer.as_mut().poll(&mut Context::from_waker(waker)) {
@@ -141,7 +155,8 @@ impl AtRest {
         }
         let samples = session.quality().samples();
         mean.least = samples.min(LEAST_SAMPLES);
-        let frame = session.frame();
+        let mut frame = session.frame();
+        frame.options.points_high = points_high;
         for _ in 0..SAMPLES_A_PASS.min(samples.saturating_sub(mean.accumulator.count())) {
             renderer.accumulate(&frame, &mut mean.target, &mut mean.accumulator);
         }

@@ -5,7 +5,7 @@ use super::fullscreen::FullscreenPass;
 use super::pipelines::{filtered_texture, uniform};
 use super::samples::noise_turn;
 use super::target::{MEAN_FORMAT, PassTargets, Target, begin_pass, filled_part, flat_texture};
-use super::timing::FrameEncoder;
+use super::timing::{FrameEncoder, PassSecs};
 use crate::scene::TimedPass;
 use crate::shaders;
 
@@ -19,6 +19,8 @@ pub struct Accumulator {
     /// Of the pictures, pixels.
     size: [u32; 2],
     count: u32,
+    /// What the GPU took for them, as far as it tells.
+    gpu_secs: Option<f32>,
     dithers: bool,
 }
 
@@ -37,6 +39,7 @@ impl Accumulator {
             source: None,
             size: target.size(),
             count: 0,
+            gpu_secs: None,
             dithers: false,
         }
     }
@@ -62,7 +65,19 @@ impl Accumulator {
 
     /// Forgets them: another scene begins.
     pub fn restart(&mut self) {
-        self.count = 0;
+        (self.count, self.gpu_secs) = (0, None);
+    }
+
+    /// About how long the GPU took for all of them, seconds: none where it does not tell, or not yet.
+    pub fn gpu_secs(&self) -> Option<f32> {
+        self.gpu_secs
+    }
+
+    /// A picture was added; the last of which the times of passes came took these.
+    pub(super) fn note_secs(&mut self, passes: Option<PassSecs>) {
+        if let Some(passes) = passes {
+            self.gpu_secs = Some(self.gpu_secs.unwrap_or_default() + passes.iter().sum::<f32>());
+        }
     }
 
     /// The mean, as roots.

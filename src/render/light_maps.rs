@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::buffers::bind_group;
 use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
-use super::recipe::{Draw, ModelDraw, Purpose};
+use super::recipe::{Draw, Purpose};
 use super::target::{
     CONTACT_FORMAT, DEPTH_FORMAT, GEOMETRY_FORMAT, PassTargets, begin_pass, flat_texture, half, pixels,
 };
@@ -73,7 +73,7 @@ impl ShadowMap {
         if let Some((model, posed)) = model {
             pass.set_bind_group(0, frame_group, &[]);
             pass.set_bind_group(2, nothing, &[]);
-            model.draw_caster(&mut pass, posed);
+            model.draw_solid(&mut pass, posed, Purpose::Caster);
         }
     }
 }
@@ -343,6 +343,7 @@ impl ContactMap {
         encoder: &mut FrameEncoder,
         (frame_group, light, ground): (&wgpu::BindGroup, &shaders::Light, &shaders::Ground),
         (shape_revision, (model, posed)): (u64, (&GpuModel, Posed<'_>)),
+        nothing: &wgpu::BindGroup,
     ) {
         let source = ContactSource {
             shape_revision,
@@ -361,7 +362,8 @@ impl ContactMap {
         {
             let mut pass = begin_pass(encoder, TimedPass::Contact, over_black(&self.map));
             pass.set_bind_group(0, frame_group, &[]);
-            model.draw_shape(&mut pass, posed, ModelDraw::Contact);
+            pass.set_bind_group(2, nothing, &[]);
+            model.draw_solid(&mut pass, posed, Purpose::Contact);
         }
         let rows = (Draw::ContactBlurRows, &self.map_group, &self.half_blurred);
         let columns = (Draw::ContactBlurColumns, &self.half_blurred_group, &self.map);

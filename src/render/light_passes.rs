@@ -180,7 +180,7 @@ impl LightPasses {
                 let kept = self.contact.take().filter(|map| map.size() == size);
                 let fresh = || ContactMap::new(device, pipelines, size);
                 let map = self.contact.insert(kept.unwrap_or_else(fresh));
-                map.draw(encoder, (group, light, ground), (shape_revision, model));
+                map.draw(encoder, (group, light, ground), (shape_revision, model), nothing);
                 contact = map.view();
             }
         }

@@ -47,7 +47,6 @@ struct BoundMaps {
 struct BoundMaterial {
     group: wgpu::BindGroup,
     kind: Kind,
-    is_thin: bool,
 }
 
 /// Along u and v; whether texels have hard edges.
@@ -147,7 +146,6 @@ impl GpuMaterials {
             self.bound.push(BoundMaterial {
                 group: self.group(device, layouts, index, kind.maps),
                 kind,
-                is_thin: kind.alpha.is_blended() && maps_uniform.opacity < LEAST_SOLID_ALPHA,
             });
         }
         queue.write_buffer(&self.uniforms, 0, &bytes);
@@ -156,13 +154,6 @@ impl GpuMaterials {
     pub(super) fn kind(&self, material: u32) -> Kind {
         let bound = self.bound.get(material as usize);
         bound.map(|material| material.kind).unwrap_or_default()
-    }
-
-    /// Whether so much shows through all of it that nothing of it casts a shadow.
-    pub(super) fn is_thin(&self, material: u32) -> bool {
-        self.bound
-            .get(material as usize)
-            .is_some_and(|material| material.is_thin)
     }
 
     pub(super) fn read_all_maps(&self) -> bool {

@@ -43,7 +43,7 @@ pub use composite::Compositor;
 pub use device::{GpuAnswer, GpuError, ProbeError, probe, watched};
 pub use instances::BoneTexture;
 pub use maps::MaterialImages;
-pub use picture::{Picture, PictureError, PictureTarget};
+pub use picture::{Picture, PictureError, PictureTarget, prove};
 pub use read_back::{ReadBackError, read_back, read_back_blocking};
 pub use target::{SampleCount, Target};
 
@@ -100,6 +100,8 @@ pub struct Renderer {
     window_capacity: Option<[u32; 2]>,
     /// None where the device tells no times.
     timer: Option<FrameTimer>,
+    /// The same of samples at rest.
+    sample_timer: Option<FrameTimer>,
 }
 
 /// What of the model the maps show: all but its colours. Kept to see when it changes.
@@ -152,7 +154,7 @@ impl Renderer {
     /// Without a model.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, options: RendererOptions) -> Self {
         let pipelines = Pipelines::new(device, options.samples);
-        let timer = FrameTimer::new(device, queue);
+        let [timer, sample_timer] = [0; 2].map(|_| FrameTimer::new(device, queue));
         let queue = Queue::new(queue);
         let nothing = bind_group(device, "nothing", &pipelines.layouts.nothing, []);
         Self {
@@ -174,6 +176,7 @@ impl Renderer {
                 queue,
             },
             timer,
+            sample_timer,
             model: None,
             shape: Shape::default(),
             window_capacity: None,
@@ -328,18 +331,10 @@ impl Renderer {
     fn render_window(&mut self, frame: &RenderFrame<'_>, target: &mut Target, scene_stays: bool) -> FrameCost {
         self.window_capacity = Some(target.capacity());
         self.window.drop_textures(MOST_TIMES, target.capacity());
-        let mut encoder = FrameEncoder::new(&self.common.device, "frame");
-        if let Some(timer) = &mut self.timer {
-            timer.begin_frame(&mut encoder);
-        }
+        let mut encoder = FrameEncoder::timed(&self.common.device, "frame", &mut self.timer);
         let cost = self.draw(frame, target, &mut encoder, scene_stays);
-        let Some(timer) = &mut self.timer else {
-            self.common.queue.inner.submit([encoder.commands.finish()]);
-            return cost;
-        };
-        timer.submit(&self.common.queue.inner, encoder);
         FrameCost {
-            gpu_secs: timer.latest(),
+            gpu_secs: encoder.submit(&self.common.queue.inner, &mut self.timer),
             ..cost
         }
     }
@@ -351,11 +346,11 @@ impl Renderer {
             sample: Some(accumulator.count()),
             ..frame.without_overlays()
         };
-        let mut encoder = FrameEncoder::new(&self.common.device, "sample");
+        let mut encoder = FrameEncoder::timed(&self.common.device, "sample", &mut self.sample_timer);
         self.draw(&sample, target, &mut encoder, false);
         let dithers = frame.options.view_mode == ViewMode::Lit;
         accumulator.add(&self.common.device, &self.common.queue, &mut encoder, target, dithers);
-        self.common.queue.inner.submit([encoder.commands.finish()]);
+        accumulator.note_secs(encoder.submit(&self.common.queue.inner, &mut self.sample_timer));
     }
 
     /// Draws a frame into a target of its own. The picture's pixels come with what the device answered: it may have too little
@@ -377,7 +372,7 @@ impl Renderer {
         target: &mut PictureTarget,
     ) -> Result<Picture, PictureError> {
         let (device, queue) = (self.common.device.clone(), self.common.queue.inner.clone());
-        let samples = target.samples_of(frame);
+        let (samples, group) = (target.samples_of(frame), target.group());
         let per_pixel = if samples > 1 {
             SampleCount::One
         } else {
@@ -385,7 +380,7 @@ impl Renderer {
         };
         Picture::start(&device, &queue, (per_pixel, samples > 1), target, |target, mean| {
             if samples > 1 {
-                self.draw_mean(frame, target, mean, samples);
+                self.draw_mean(frame, target, mean, [samples, group]);
             } else {
                 self.draw_alone(frame, target, "picture");
             }
@@ -404,13 +399,13 @@ impl Renderer {
         self.common.queue.inner.submit([encoder.commands.finish()]);
     }
 
-    /// Draws the mean of so many pictures into a target, and what lies over the model once.
+    /// Draws the mean of so many pictures into a target, a group at a time, and what lies over the model once.
     fn draw_mean(
         &mut self,
         frame: &RenderFrame<'_>,
         target: &mut Target,
         mean: &mut Option<PictureMean>,
-        samples: u32,
+        [samples, group]: [u32; 2],
     ) {
         let (device, per_pixel) = (self.common.device.clone(), self.options.samples);
         let layer = |[width, height]: [u32; 2]| Target::with_samples(&device, width, height, per_pixel).with_layer();
@@ -420,8 +415,12 @@ impl Renderer {
             compositor: Compositor::into_picture(&device),
         });
         mean.accumulator.restart();
-        for _ in 0..samples {
+        for drawn in 1..=samples {
             self.accumulate(frame, target, &mut mean.accumulator);
+            if drawn % group == 0 {
+                // A device that is lost says so when the picture is read.
+                let _ = device.poll(wgpu::PollType::wait_indefinitely());
+            }
         }
         if !frame.has_overlays().contains(&true) {
             mean.over = layer([1; 2]);

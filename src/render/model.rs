@@ -17,7 +17,7 @@ use super::materials::GpuMaterials;
 use super::pipelines::{
     COLOR_SLOT, INFLUENCE_SLOT, INSTANCE_SLOT, Layouts, MORE_MAPS_SLOT, POSITION_SLOT, Pipelines, SURFACE_SLOT,
 };
-use super::recipe::{Alpha, Cut, Draw, Faces, Kind, Maps, ModelDraw, Purpose};
+use super::recipe::{Alpha, Draw, Faces, Kind, Maps, ModelDraw, Purpose};
 use super::triangles::{DrawRange, Drawn, Edges, draw_ranges, wound_one_way};
 use crate::model::{Handedness, Material, Mesh, Model};
 use crate::scene::{RenderFrame, VertexColors};
@@ -190,7 +190,8 @@ impl GpuModel {
                 .filter(|range| self.materials.kind(range.material) == kind)
                 .peekable();
             if ranges.peek().is_some() {
-                self.bind(pass, posed, purpose.draw(kind), kind.faces(self.front));
+                let draw = purpose.draw(kind);
+                self.bind(pass, posed, draw, self.faces(draw, kind));
             }
             for range in ranges {
                 // All cut triangles are drawn: one may be seen through the holes of another.
@@ -247,22 +248,13 @@ impl GpuModel {
         }
     }
 
-    /// Draws all visible triangles without their materials, in as few draws as possible; for contact without those that much shows
-    /// through. The caller sets group 0.
+    /// Draws all visible triangles without their materials, in as few draws as possible. The caller sets group 0.
     pub(super) fn draw_shape(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, draw: ModelDraw) {
-        let faces_of = |range: &DrawRange| match (draw, self.materials.kind(range.material).faces(self.front)) {
-            // It shows where the model is, not how it looks.
-            (ModelDraw::Highlight, _) => Faces::All,
-            // What faces down is seen from below; the map is drawn as from above.
-            (ModelDraw::Contact, faces) => faces.turned(),
-            (_, faces) => faces,
-        };
+        let faces_of = |range: &DrawRange| self.faces(draw, self.materials.kind(range.material));
         for faces in [Faces::All, Faces::Clockwise, Faces::Counterclockwise] {
             let mut shape = Drawn::default();
             for range in self.in_view(posed.hidden).filter(|range| faces_of(range) == faces) {
-                if draw != ModelDraw::Contact || !self.materials.is_thin(range.material) {
-                    shape.add(&range.indices);
-                }
+                shape.add(&range.indices);
             }
             for (index, range) in shape.ranges().enumerate() {
                 if index == 0 {
@@ -279,13 +271,22 @@ impl GpuModel {
         materials.map(|material| self.materials.kind(material)).collect()
     }
 
-    /// Draws what casts a shadow. The caller sets group 0.
-    pub(super) fn draw_caster(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>) {
+    /// Draws what casts a shadow or is near the ground, without what alpha cuts away. The caller sets groups 0 and 2.
+    pub(super) fn draw_solid(&self, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, purpose: Purpose) {
         let is_holed = |range: &DrawRange| self.materials.kind(range.material).alpha != Alpha::Whole;
         if self.ranges.iter().any(is_holed) {
-            self.draw(pass, posed, Purpose::Caster);
+            self.draw(pass, posed, purpose);
         } else {
-            self.draw_shape(pass, posed, ModelDraw::Caster(Cut::Whole, Maps::Two));
+            self.draw_shape(pass, posed, purpose.draw(Kind::default()));
+        }
+    }
+
+    fn faces(&self, draw: ModelDraw, kind: Kind) -> Faces {
+        match draw {
+            // It shows where the model is, not how it looks.
+            ModelDraw::Highlight => Faces::All,
+            ModelDraw::Contact(..) => kind.faces(self.front.turned()),
+            _ => kind.faces(self.front),
         }
     }
 

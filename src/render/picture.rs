@@ -1,10 +1,15 @@
 //! A picture by itself, of any size that the device can draw: complete, or an error.
 
+use std::future::poll_fn;
+use std::task::Poll;
+
 use super::accumulator::Accumulator;
+use super::buffers::Queue;
 use super::composite::Compositor;
 use super::device::{GpuAnswer, GpuError, answer_at_once, watched};
 use super::read_back::{Pending, ReadBackError};
 use super::target::{BYTES_PER_MEAN_PIXEL, SampleCount, Target, pixels};
+use super::timing::FrameEncoder;
 use crate::scene::RenderFrame;
 
 /// Why there is no picture.
@@ -51,6 +56,7 @@ const MOST_UNDER_LAYER: u64 = 4096 * 4096;
 pub struct PictureTarget {
     size: [u32; 2],
     samples: u32,
+    waits: bool,
     /// `None` until the first picture.
     target: Option<Target>,
     /// `None` until the first mean.
@@ -72,6 +78,7 @@ impl PictureTarget {
         Self {
             size,
             samples: 1,
+            waits: false,
             target: None,
             mean: None,
         }
@@ -85,13 +92,32 @@ impl PictureTarget {
         self
     }
 
-    /// How many pictures its next one is the mean of: of a large one fewer, so that the device answers in time.
-    pub(super) fn samples_of(&self, frame: &RenderFrame<'_>) -> u32 {
+    /// Draws as many of a large picture too, and waits for the device between groups of them: for where a thread may
+    /// wait, not on the web.
+    #[must_use]
+    pub fn waiting(mut self) -> Self {
+        self.waits = true;
+        self
+    }
+
+    /// How many pictures its next one is the mean of: of a large one fewer, so that the device answers in time,
+    /// unless it waits.
+    pub fn samples_of(&self, frame: &RenderFrame<'_>) -> u32 {
         let pixels = pixels(self.size);
         // A layer takes as much memory as the picture.
         let is_too_large = frame.has_overlays().contains(&true) && pixels > MOST_UNDER_LAYER;
         let most = (MOST_SAMPLED / pixels.max(1)).max(LEAST_SAMPLES) as u32;
-        if is_too_large { 1 } else { self.samples.min(most) }
+        match is_too_large {
+            true => 1,
+            false if self.waits => self.samples,
+            false => self.samples.min(most),
+        }
+    }
+
+    /// After how many of them the device is waited for: as many as are drawn at once of a large one.
+    pub(super) fn group(&self) -> u32 {
+        let group = MOST_SAMPLED / LEAST_SAMPLES / pixels(self.size).max(1);
+        if self.waits { group.max(1) as u32 } else { u32::MAX }
     }
 }
 
@@ -183,6 +209,31 @@ impl Picture {
             megabytes: (u64::from(width) * u64::from(height) * self.bytes_per_pixel).div_ceil(1_000_000),
         }
     }
+}
+
+/// Whether the device has memory for a mean and the target of its pictures. GL does not report when it has none, but
+/// what is drawn is then lost: white goes through all of them, and a pixel of it is read back. Who waits asks again
+/// and again.
+pub fn prove(device: &wgpu::Device, queue: &wgpu::Queue, target: &Target, mean: &mut Accumulator) -> GpuAnswer {
+    target.fill(device, queue, wgpu::Color::WHITE);
+    let submit = |draw: &mut dyn FnMut(&mut FrameEncoder)| {
+        let mut encoder = FrameEncoder::new(device, "proof");
+        draw(&mut encoder);
+        queue.submit([encoder.commands.finish()]);
+    };
+    for _ in 0..2 {
+        submit(&mut |encoder| mean.add(device, &Queue::new(queue), encoder, target, false));
+    }
+    let mut compositor = Compositor::into_picture(device);
+    compositor.prepare(device, queue, target, Some(mean));
+    submit(&mut |encoder| compositor.paint(&mut target.begin_picture(encoder)));
+    mean.restart();
+    let pixel = Pending::start(device, queue, target, [1; 2]);
+    Box::pin(poll_fn(move |_| match pixel.poll() {
+        None => Poll::Pending,
+        Some(Ok(pixel)) if pixel == [255; 4] => Poll::Ready(Ok(())),
+        Some(_) => Poll::Ready(Err(GpuError::OutOfMemory)),
+    }))
 }
 
 /// Colour and depth of each sample, the picture that they are resolved to, or all that a mean takes; and the bytes that are read.

@@ -110,12 +110,22 @@ impl Pending {
     /// See [`read_back`].
     pub(super) async fn wait(&self, pause: &impl AsyncFn()) -> Result<Vec<u8>, ReadBackError> {
         loop {
-            self.device.poll(wgpu::PollType::Poll).map_err(gpu_error)?;
-            match self.outcome.try_recv() {
-                Ok(outcome) => return self.finish(outcome),
-                Err(TryRecvError::Empty) => pause().await,
-                Err(TryRecvError::Disconnected) => return Err(gpu_error(NO_ANSWER)),
+            match self.poll() {
+                Some(pixels) => return pixels,
+                None => pause().await,
             }
+        }
+    }
+
+    /// The pixels, if they have come.
+    pub(super) fn poll(&self) -> Option<Result<Vec<u8>, ReadBackError>> {
+        if let Err(error) = self.device.poll(wgpu::PollType::Poll) {
+            return Some(Err(gpu_error(error)));
+        }
+        match self.outcome.try_recv() {
+            Ok(outcome) => Some(self.finish(outcome)),
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => Some(Err(gpu_error(NO_ANSWER))),
         }
     }
 

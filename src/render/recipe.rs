@@ -99,6 +99,7 @@ pub(super) enum Purpose {
     SkinView,
     Caster,
     Geometry,
+    Contact,
 }
 
 impl Purpose {
@@ -113,13 +114,16 @@ impl Purpose {
             ) => Cut::OpaquePart,
             // A property that is seen through another could not be read off: blended surfaces show theirs alone.
             (_, Self::Picture(_) | Self::Sample(_)) => Cut::Smooth,
-            (_, Self::SkinView | Self::Caster | Self::Geometry) => Cut::Hard,
+            _ => Cut::Hard,
         };
+        // Where nothing is cut, these read none.
+        let maps_of_cut = if cut == Cut::Whole { Maps::Two } else { kind.maps };
         match self {
             Self::Picture(shading) | Self::Sample(shading) => ModelDraw::Mesh(shading, cut, kind.maps),
             Self::SkinView => ModelDraw::SkinView(cut, kind.maps),
-            Self::Caster => ModelDraw::Caster(cut, kind.maps),
             Self::Geometry => ModelDraw::Geometry(cut, kind.maps),
+            Self::Caster => ModelDraw::Caster(cut, maps_of_cut),
+            Self::Contact => ModelDraw::Contact(cut, maps_of_cut),
         }
     }
 }
@@ -132,7 +136,8 @@ pub(super) enum ModelDraw {
     SkinView(Cut, Maps),
     Caster(Cut, Maps),
     Geometry(Cut, Maps),
-    Contact,
+    /// As from above, and what faces down is seen.
+    Contact(Cut, Maps),
     Edges,
     Normals,
     Tangents,
@@ -142,7 +147,10 @@ pub(super) enum ModelDraw {
 impl ModelDraw {
     /// Whether it reads normals, tangents or texture coordinates of vertices, not positions alone.
     pub(super) fn reads_surface(self) -> bool {
-        !matches!(self, Self::Caster(Cut::Whole, _) | Self::Contact | Self::Edges)
+        !matches!(
+            self,
+            Self::Caster(Cut::Whole, _) | Self::Contact(Cut::Whole, _) | Self::Edges
+        )
     }
 
     /// Whether it reads colours of vertices that were made from the skin.
@@ -153,11 +161,13 @@ impl ModelDraw {
     /// Which maps it reads; none where it reads no material.
     pub(super) fn maps(self) -> Option<Maps> {
         match self {
-            Self::Caster(Cut::Whole, _) => None,
-            Self::Mesh(_, _, maps) | Self::SkinView(_, maps) | Self::Caster(_, maps) | Self::Geometry(_, maps) => {
-                Some(maps)
-            }
-            Self::Contact | Self::Edges | Self::Normals | Self::Tangents | Self::Highlight => None,
+            Self::Caster(Cut::Whole, _) | Self::Contact(Cut::Whole, _) => None,
+            Self::Mesh(_, _, maps)
+            | Self::SkinView(_, maps)
+            | Self::Caster(_, maps)
+            | Self::Contact(_, maps)
+            | Self::Geometry(_, maps) => Some(maps),
+            Self::Edges | Self::Normals | Self::Tangents | Self::Highlight => None,
         }
     }
 }
@@ -189,7 +199,7 @@ impl Draw {
         match self {
             Self::Model { draw, .. } => !matches!(
                 draw,
-                ModelDraw::Caster(..) | ModelDraw::Geometry(..) | ModelDraw::Contact
+                ModelDraw::Caster(..) | ModelDraw::Geometry(..) | ModelDraw::Contact(..)
             ),
             Self::Backdrop | Self::World { .. } => true,
             Self::Occlusion(_)
@@ -223,9 +233,8 @@ impl Draw {
             }
             draws.push(Self::Occlusion(light));
         }
-        // It is seen from below, and drawn as from above.
-        let below = kinds.iter().map(|kind| kind.faces(front).turned());
-        draws.extend(below.map(|faces| of_faces(ModelDraw::Contact, faces)));
+        let below = |&kind: &Kind| of_faces(Purpose::Contact.draw(kind), kind.faces(front).turned());
+        draws.extend(kinds.iter().map(below));
         draws.extend([Self::ContactBlurRows, Self::ContactBlurColumns]);
         draws.extend(for_purpose(Purpose::Picture(Shading::Inspect)));
         draws.push(of_model(ModelDraw::Edges));
@@ -413,14 +422,20 @@ impl Recipe {
                     picture.count(),
                 )
             }
-            ModelDraw::Contact => {
+            ModelDraw::Contact(cut, maps) => {
+                let program = match (cut, maps) {
+                    (Cut::Whole, _) => shaders::CONTACT,
+                    (_, Maps::Two) => shaders::CONTACT_CUT,
+                    (_, Maps::All) => shaders::CONTACT_CUT_ALL,
+                };
                 let color = wgpu::ColorTargetState {
                     blend: Some(MAX_BLEND),
                     ..CONTACT_FORMAT.into()
                 };
                 Recipe {
+                    vertex: entry(if cut == Cut::Whole { "vertex" } else { "cut" }),
                     depth: None,
-                    ..solid(shaders::CONTACT, Some("fragment"), Some(color), 1)
+                    ..solid(program, Some(hard_fragment(cut)), Some(color), 1)
                 }
             }
             ModelDraw::Edges => Recipe {

@@ -25,6 +25,25 @@ pub(super) struct FrameEncoder {
 }
 
 impl FrameEncoder {
+    /// With the times of a timer, where there is one.
+    pub(super) fn timed(device: &wgpu::Device, label: &str, timer: &mut Option<FrameTimer>) -> Self {
+        let mut encoder = Self::new(device, label);
+        if let Some(timer) = timer {
+            timer.begin_frame(&mut encoder);
+        }
+        encoder
+    }
+
+    /// Submits it, and tells the latest times of its timer.
+    pub(super) fn submit(self, queue: &wgpu::Queue, timer: &mut Option<FrameTimer>) -> Option<PassSecs> {
+        let Some(timer) = timer else {
+            queue.submit([self.commands.finish()]);
+            return None;
+        };
+        timer.submit(queue, self);
+        timer.latest
+    }
+
     /// Without times.
     pub(super) fn new(device: &wgpu::Device, label: &str) -> Self {
         Self {
@@ -62,6 +81,7 @@ pub(super) struct FrameTimer {
     resolved: wgpu::Buffer,
     secs_per_tick: f64,
     answers: [Answer; FRAMES],
+    /// The times of the last frame that was answered; none before.
     latest: Option<PassSecs>,
 }
 
@@ -113,13 +133,8 @@ impl FrameTimer {
         })
     }
 
-    /// The times of the last frame that was answered; none before.
-    pub(super) fn latest(&self) -> Option<PassSecs> {
-        self.latest
-    }
-
     /// Takes up the answers that have come, and has the frame timed if there is room for its own.
-    pub(super) fn begin_frame(&mut self, encoder: &mut FrameEncoder) {
+    fn begin_frame(&mut self, encoder: &mut FrameEncoder) {
         for answer in &mut self.answers {
             if let Some(secs) = answer.take(self.secs_per_tick) {
                 self.latest = Some(secs);
@@ -131,7 +146,7 @@ impl FrameTimer {
     }
 
     /// Submits the frame, and asks for its times.
-    pub(super) fn submit(&mut self, queue: &wgpu::Queue, encoder: FrameEncoder) {
+    fn submit(&mut self, queue: &wgpu::Queue, encoder: FrameEncoder) {
         let FrameEncoder {
             mut commands, passes, ..
         } = encoder;

@@ -64,6 +64,9 @@ const GRID_REACH: f32 = 3.5;
 /// So many radii from it, a third of the floor is left.
 const FLOOR_REACH: f32 = 2.2;
 
+/// Height of a picture that no screen shows, points.
+const POINTS_HIGH: f32 = 900.0;
+
 /// Height of the figure in the books' demo. The demo's lengths go with it.
 const BOOK_HEIGHT: f32 = 3.6;
 /// A flat model counts as tall as this fraction of its diagonal.
@@ -107,6 +110,7 @@ pub(super) fn camera_uniform(frame: &RenderFrame<'_>, size: [u32; 2]) -> shaders
         viewport_pixels: [width, height],
         jitter,
         sample: frame.sample.unwrap_or_default() as f32,
+        points_high: frame.options.points_high.unwrap_or(POINTS_HIGH),
         map_size: if frame.sample.is_some() { size } else { half(size) }.map(|side| side as f32),
         ..Default::default()
     }

@@ -44,6 +44,8 @@ pub struct FrameOptions {
     pub aperture: f32,
     /// What is in focus, world space: where nothing is, the camera's target.
     pub focus: Option<Vec3>,
+    /// Height of the window in points of the screen, where one shows the picture.
+    pub points_high: Option<f32>,
 }
 
 impl FrameOptions {

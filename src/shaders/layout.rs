@@ -24,7 +24,7 @@ pub struct Camera {
     pub jitter: [f32; 2],
     pub map_size: [f32; 2],
     pub sample: f32,
-    pub unused_2: f32,
+    pub points_high: f32,
 }
 
 /// Twin of `Light` in `light.wgsl`, which says what each member means. Matrices are column by column, as in glam.

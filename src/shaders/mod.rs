@@ -148,6 +148,14 @@ programs! {
     /// How near the model is above the ground.
     CONTACT "contact" ["light" "ground" "skinning" "instance" "contact"]
 
+    /// The same of materials that alpha cuts.
+    CONTACT_CUT "contact-cut" ["light" "ground" "skinning" "instance" "contact" "material" "two_maps" "contact_cut"]
+
+    /// The same with all maps.
+    CONTACT_CUT_ALL "contact-cut-all" [
+        "light" "ground" "skinning" "instance" "contact" "material" "all_maps" "contact_cut"
+    ]
+
     /// Blurs the contact map.
     CONTACT_BLUR "contact-blur" ["fullscreen" "contact_blur"]
 

@@ -115,6 +115,8 @@ fn every_option_changes_the_picture() {
         ("light.png", &["--theme", "light"], 0.5),
         ("no-grid.png", &["--no-grid"], 0.002),
         ("transparent.png", &["--transparent"], 0.5),
+        ("aperture.png", &["--aperture", "0.3"], 0.01),
+        ("one-sample.png", &["--samples", "1"], 0.002),
     ] {
         let (other, _) = draw(name, FIGURE, &[&plain[..], more].concat());
         let differs = share_that_differs(&picture, &other, 2);
@@ -126,6 +128,33 @@ fn every_option_changes_the_picture() {
         &[&plain[..], &["--view", "three-quarter", "--theme", "dark"]].concat(),
     );
     assert_eq!(picture, explicit, "the defaults are what they say");
+}
+
+/// The mean of 16 where the CPU draws and for each of many pictures, else of 64; of as many as are asked for.
+#[test]
+fn a_picture_is_the_mean_of_as_many_samples_as_are_said() {
+    let plain = words("--size 96x72 --clip Walk");
+    let with = |name: &str, more: &str| draw(name, FIGURE, &[&plain[..], &words(more)].concat());
+    let (unsaid, printed) = with("samples-unsaid.png", "");
+    let [few, many] = [16, 64].map(|count| with(&format!("samples-{count}.png"), &format!("--samples {count}")).0);
+    assert_ne!(few, many);
+    let is_software = printed.contains("llvmpipe");
+    assert!(unsaid == if is_software { few } else { many }, "{printed}");
+
+    let folder = |more: &str| {
+        let folder = scratch_folder(&format!("samples{more}"));
+        let path = folder.to_str().expect("UTF-8");
+        let arguments = words("--size 96x72 --clip Walk --frames 2");
+        run(["render", FIGURE, "-o", path]
+            .iter()
+            .chain(&arguments)
+            .chain(&words(more)))
+        .fine();
+        let first = folder.join("frame-0000.png");
+        image::open(first).expect("is a picture").into_rgba8()
+    };
+    let [unsaid, few, many] = ["", "--samples 16", "--samples 64"].map(folder);
+    assert!(unsaid == few && unsaid != many);
 }
 
 /// Also models without clips, without bones, with their z up.

@@ -69,6 +69,8 @@ fn every_entry_point_is_valid_and_translates_to_glsl_es_300() {
         "occlusion-studio: vertex fragment",
         "occlusion-blur: vertex fragment_rows fragment_columns",
         "contact: vertex_static vertex_skinned fragment",
+        "contact-cut: vertex_static vertex_skinned fragment cut_static cut_skinned fragment_cut",
+        "contact-cut-all: vertex_static vertex_skinned fragment cut_static cut_skinned fragment_cut",
         "contact-blur: vertex fragment_rows fragment_columns",
         "backdrop: vertex fragment",
         "lines: edge_static edge_skinned normal_static normal_skinned tangent_static tangent_skinned world_vertex \
@@ -123,6 +125,7 @@ fn twins() -> BTreeMap<String, Layout> {
             jitter,
             map_size,
             sample,
+            points_high,
         }),
         twin!(Light {
             shadow_clip_from_world,

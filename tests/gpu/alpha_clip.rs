@@ -1,16 +1,17 @@
 //! What alpha cuts away, and what it must not.
 
+use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use bindpose::image::{Image, decode};
 use bindpose::model::AlphaMode;
 use bindpose::render::{Renderer, SampleCount, Target};
-use bindpose::scene::{Background, Passes, Theme};
-use glam::Vec2;
+use bindpose::scene::{Background, Pass, Passes, Theme};
+use glam::{Affine3A, Vec2, Vec3};
 
 use crate::gpu::{Gpu, Picture, difference};
 use crate::scenes::Scene;
-use crate::textures::{HEIGHT, WHITE, WIDTH, card, card_once, dds, diffuse, pixels_of_card, plain, square};
+use crate::textures::{HEIGHT, WHITE, WIDTH, card, card_once, dds, diffuse, pixels_of_card, plain, square, texels};
 
 const GREEN: [u8; 3] = [40, 160, 60];
 
@@ -125,6 +126,35 @@ on_both_backends! {
         let half = square(16, |x, _| green(if (8..15).contains(&x) { 255 } else { 0 }));
         let (whole, cut) = (dark(&draw(gpu, &scene(), &half)), dark(&draw(gpu, &clipped(scene()), &half)));
         assert!(whole > 60 && cut > 15 && cut < whole * 3 / 4, "{cut} of {whole} pixels of shadow");
+    }
+
+    /// A card that lies just above the ground, of which alpha leaves the middle, is as near to it as one that is no
+    /// wider: through the holes the ground is seen. By two maps and by all of them, cut and blended.
+    fn what_is_cut_away_touches_nothing(gpu) {
+        let lying = Affine3A::from_translation(Vec3::Y * 0.01) * Affine3A::from_rotation_x(FRAC_PI_2);
+        let scene = |alpha, width| {
+            let mut scene = card_once().in_world(lying).three_quarter(Theme::Light);
+            scene.model.mesh.positions.iter_mut().for_each(|position| position.x *= width);
+            scene.world_bounds.min.y = 0.0;
+            scene.world_bounds.max.y = 1.0;
+            (scene.camera.pitch_radians, scene.camera.yaw_radians) = (1.3, 0.0);
+            scene.options.passes = Passes::none().with(Pass::ContactShadow, true);
+            scene.model.materials[0].double_sided = true;
+            scene.model.materials[0].alpha = alpha;
+            scene
+        };
+        let narrow = draw(gpu, &scene(AlphaMode::Opaque, 0.5), &plain(green(255)));
+        let middle = Arc::new(texels(64, |x, _| green(if (16..48).contains(&x) { 255 } else { 0 })));
+        for alpha in [AlphaMode::clipped(true), AlphaMode::Mask { cutoff: 0.5 }, AlphaMode::Blend] {
+            let mut scene = scene(alpha, 1.0);
+            let found = draw(gpu, &scene, &middle);
+            // At the edges of the card itself. What it leaves open is a tenth of the picture.
+            let differs = found.share_that_differs(&narrow, 6);
+            assert!(differs < 0.02, "{alpha:?}: {differs} of the pixels differ");
+            scene.options.passes = Passes::none();
+            let dark = draw(gpu, &scene, &middle).share_that_differs(&found, 6);
+            assert!(dark > 0.01, "{alpha:?}: {dark} of the pixels are darker near the card");
+        }
     }
 
     /// A slanted line through an alpha ramp: with four samples a pixel the edge takes colours between, and stays opaque.

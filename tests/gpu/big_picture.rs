@@ -1,6 +1,6 @@
 //! Pictures by themselves: all of it, or an error in words.
 
-use bindpose::render::Renderer;
+use bindpose::render::{PictureTarget, Renderer};
 use bindpose::scene::{Background, Theme};
 
 use crate::gpu::Gpu;
@@ -55,6 +55,23 @@ on_both_backends! {
         let mut renderer = gpu.renderer();
         let picture = renderer.picture(&scene.frame(), [20, 10]).expect("a small picture");
         assert_eq!(picture.pixels_blocking(), Ok(vec![0; 20 * 10 * 4]));
+    }
+
+    /// Of a large one too where a thread may wait for the device; else of fewer, so that it answers in time.
+    fn a_picture_is_of_as_many_samples_as_are_asked_for(gpu) {
+        let scene = bent_tube(0.5);
+        let frame = scene.frame();
+        let of = |size| PictureTarget::new(size).with_mean_of(64);
+        for size in [[640, 480], [3840, 2160]] {
+            assert_eq!(of(size).samples_of(&frame), 64, "{size:?}");
+        }
+        assert_eq!(of([8192, 8192]).samples_of(&frame), 8);
+        assert_eq!(of([8192, 8192]).waiting().samples_of(&frame), 64);
+        let mut renderer = gpu.renderer();
+        renderer.set_model(&scene.model).expect("small");
+        let mut drawn = |mut target| renderer.picture_into(&frame, &mut target).expect("small").pixels_blocking();
+        let of = |size| PictureTarget::new(size).with_mean_of(5);
+        assert!(drawn(of([90, 60])) == drawn(of([90, 60]).waiting()), "it shows the same");
     }
 
     fn a_picture_that_the_device_does_not_take_is_refused_at_once(gpu) {

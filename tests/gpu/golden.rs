@@ -87,6 +87,19 @@ fn difference(a: &Picture, b: &Picture) -> Picture {
     }
 }
 
+/// The sample, with its maps.
+fn figure() -> Session {
+    let mut session = Session::new(true);
+    let files = [
+        ("figure.m3d", &include_bytes!("../../web/sample/figure.m3d")[..]),
+        ("figure_diff.png", include_bytes!("../../web/sample/figure_diff.png")),
+        ("figure_norm.png", include_bytes!("../../web/sample/figure_norm.png")),
+    ];
+    let files = files.map(|(name, bytes)| File::new(name, bytes.to_vec()));
+    session.apply(FileCommand::Add(files.into()));
+    session
+}
+
 on_both_backends! {
     fn card_on_dark_ground(gpu) {
         compare(gpu, "card-dark", &Scene::of(card(FRONT)).three_quarter(Theme::Dark));
@@ -146,11 +159,28 @@ on_both_backends! {
         scene.camera.yaw_radians += std::f32::consts::PI;
         compare_picture(gpu, "gltf-still-life-behind", &easel.draw(&scene));
     }
+    /// As the page shows it first, with its maps, when all is refined.
+    fn figure_in_both_lights_and_themes(gpu) {
+        let mut session = figure();
+        session.apply(CameraCommand::SetViewport { aspect: 640.0 / 480.0, insets: Insets::default() });
+        session.apply(CameraCommand::LookFrom(ViewPreset::ThreeQuarter));
+        let mut renderer = gpu.renderer();
+        renderer.set_model(&session.open_model().expect("the sample is sound").model).expect("small");
+        renderer.set_maps(&session.maps().images().collect::<Vec<_>>());
+        let mut target = gpu.target(640, 480);
+        for (theme, word) in [(Theme::Dark, "dark"), (Theme::Light, "light")] {
+            for light in Light::ALL {
+                let mut frame = session.frame();
+                (frame.options.theme, frame.options.light) = (theme, light);
+                renderer.refine_for(&frame);
+                renderer.render(&frame, &mut target);
+                compare_picture(gpu, &format!("figure-{}-{word}", light.name()), &gpu.read(&target));
+            }
+        }
+    }
     /// The sample, in the middle of a step, both lights.
     fn figure_in_the_middle_of_a_step(gpu) {
-        let mut session = Session::new(true);
-        let figure = include_bytes!("../../web/sample/figure.m3d").to_vec();
-        session.apply(FileCommand::Add(vec![File::new("figure.m3d", figure)]));
+        let mut session = figure();
         let clips = &session.open_model().expect("the sample is sound").model.clips;
         let walk = clips.iter().position(|clip| clip.name == "Walk").expect("it walks");
         session.apply(PlayCommand::SelectClip(walk));

@@ -1,14 +1,16 @@
 //! The studio's lamp: its highlight and its shadow tell of the same direction, and shadows are as soft as it is large.
 
+use bindpose::image::{Image, half};
 use bindpose::light::LAMP_RADIUS_RADIANS;
 use bindpose::model::{Material, Reflectance};
 use bindpose::render::for_tests::StudioLights;
 use bindpose::scene::{Projection, Theme, ViewMode};
-use glam::Vec3;
+use glam::{Quat, Vec3};
 
 use crate::gpu::{Gpu, Picture};
 use crate::scenes::{Scene, material};
 use crate::sets::{Plate, floor, plates};
+use crate::sky::float_cube;
 use crate::still_life::add_ball;
 
 const SIZE: [u32; 2] = [480, 480];
@@ -82,6 +84,38 @@ fn centroid(picture: &Picture, weight: impl Fn([f32; 2], [u8; 4]) -> f32) -> [f3
     sum.map(|sum| sum / weights)
 }
 
+/// Where the shadow of the ball tells that the lamp stands, in a picture of shadows.
+fn cast(scene: &Scene, shadow: &Picture) -> Vec3 {
+    let dark = centroid(shadow, |at, pixel| {
+        let is_floor = on_ball(scene, at).is_none() && on_floor(scene, at).abs().max_element() < 3.9;
+        if is_floor {
+            1.0 - f32::from(pixel[0]) / 255.0
+        } else {
+            0.0
+        }
+    });
+    (CENTER - on_floor(scene, dark)).normalize()
+}
+
+/// A black sky with a sun of 2° in this direction.
+fn sun(towards: Vec3) -> Image {
+    const SIDE: u32 = 128;
+    float_cube(SIDE, |face, x, y| {
+        let [across, down] = [x, y].map(|place| (2 * place + 1) as f32 / SIDE as f32 - 1.0);
+        let along = match face {
+            0 => Vec3::new(1.0, -down, -across),
+            1 => Vec3::new(-1.0, -down, across),
+            2 => Vec3::new(across, 1.0, down),
+            3 => Vec3::new(across, -1.0, -down),
+            4 => Vec3::new(across, -down, 1.0),
+            _ => Vec3::new(-across, -down, -1.0),
+        };
+        let is_sun = along.angle_between(towards) < f32::to_radians(2.0);
+        let light = half::from_f32(if is_sun { 1500.0 } else { 0.0 });
+        [light, light, light, half::from_f32(1.0)]
+    })
+}
+
 fn draw(gpu: &Gpu, scene: &Scene) -> Picture {
     gpu.draw(scene, SIZE[0], SIZE[1])
 }
@@ -101,16 +135,53 @@ on_both_backends! {
             let mirrored = scene.camera.forward().reflect(normal);
 
             scene.options.view_mode = ViewMode::Shadow;
-            let shadow = draw(gpu, &scene);
-            let dark = centroid(&shadow, |at, pixel| {
-                let is_floor = on_ball(&scene, at).is_none() && on_floor(&scene, at).abs().max_element() < 3.9;
-                if is_floor { 1.0 - f32::from(pixel[0]) / 255.0 } else { 0.0 }
-            });
-            let cast = (CENTER - on_floor(&scene, dark)).normalize();
+            let cast = cast(&scene, &draw(gpu, &scene));
             let degrees = mirrored.angle_between(cast).to_degrees();
             assert!(degrees < 1.0, "yaw {yaw_radians}: {mirrored} and {cast}, {degrees}° apart");
             let to_key = StudioLights::beside(&scene.camera, 0.0).to_key;
             assert!(cast.angle_between(to_key).to_degrees() < 1.0, "{cast} for {to_key}");
+        }
+    }
+
+    /// Shadows lie opposite to it from wherever one looks, and what it does not reach is dark: the lamps beside the
+    /// viewer are gone. It turns with the sky.
+    fn the_sun_of_a_sky_is_the_only_lamp_and_stands_in_the_world(gpu) {
+        let towards = Vec3::new(0.5, 0.8, 0.4).normalize();
+        let sky = sun(towards);
+        for (yaw_radians, turn_radians) in [(0.3, 0.0), (2.0, 0.0), (-1.3, 0.0), (0.3, 1.1)] {
+            let mut scene = ball_over_floor(yaw_radians);
+            let paper = scene.model.materials.len() - 1;
+            scene.model.materials[paper] = material("paper", [0.8; 3]);
+            scene.options.environment_turn_radians = turn_radians;
+            let mut easel = gpu.easel(&scene, &[], SIZE);
+            assert!(easel.renderer.set_sky(Some(&sky)));
+            let towards = Quat::from_rotation_y(turn_radians) * towards;
+            let lit = easel.draw(&scene);
+            let words = format!("yaw {yaw_radians}, turned by {turn_radians}");
+            let [mut bright, mut dark] = [0, 0];
+            for (x, y) in (0..SIZE[0] * SIZE[1]).map(|index| (index % SIZE[0], index / SIZE[0])) {
+                let Some(point) = on_ball(&scene, [x as f32, y as f32]) else { continue };
+                let normal = (point - CENTER) / RADIUS;
+                // Its flat triangles lie within the ball.
+                let is_rim = normal.dot(scene.camera.forward()) > -0.45;
+                let [red, ..] = lit.pixel(x, y);
+                match normal.dot(towards) {
+                    _ if is_rim => {}
+                    facing if facing > 0.7 => {
+                        assert!(red > 100, "{words}: {red} at {normal}");
+                        bright += 1;
+                    }
+                    facing if facing < -0.25 => {
+                        assert!(red < 12, "{words}: {red} at {normal}");
+                        dark += 1;
+                    }
+                    _ => {}
+                }
+            }
+            assert!(bright + dark > 200, "{words}: {bright} and {dark} pixels");
+            scene.options.view_mode = ViewMode::Shadow;
+            let cast = cast(&scene, &easel.draw(&scene));
+            assert!(cast.angle_between(towards).to_degrees() < 1.0, "{words}: {cast} for {towards}");
         }
     }
 

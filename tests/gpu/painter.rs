@@ -1,5 +1,6 @@
 //! A session on a surface without a window and without an interface, as a page has it that brings its own controls.
 
+use std::cell::Cell;
 use std::ops::RangeInclusive;
 use std::task::Waker;
 
@@ -22,15 +23,30 @@ struct Easel {
     cost: FrameCost,
 }
 
+/// Clocks that go on each time that somebody looks at them, each test's its own.
+fn looked_at_secs(step: f64) -> f64 {
+    thread_local! {
+        static SECS: Cell<f64> = const { Cell::new(0.0) };
+    }
+    SECS.with(|secs| {
+        secs.set(secs.get() + step);
+        secs.get()
+    })
+}
+
 impl Easel {
     /// On a device of its own.
     fn new(gpu: &Gpu) -> Self {
+        Self::with_clock(gpu, true, || 0.0)
+    }
+
+    fn with_clock(gpu: &Gpu, draws_means: bool, now_secs: fn() -> f64) -> Self {
         let gpu = without_blocks(gpu.backend);
         let options = PainterOptions {
             samples: gpu.open.samples,
             coarse_pointer: false,
-            draws_means: true,
-            now_secs: || 0.0,
+            draws_means,
+            now_secs,
         };
         Self {
             painter: SessionPainter::new(&gpu.open.device, &gpu.open.queue, options, Waker::noop().clone()),
@@ -189,6 +205,89 @@ on_both_backends! {
         let mut saved = || easel.painter.draw_snapshot(&mut session, size, None, |_| ()).expect("small").pixels_blocking().expect("small");
         let (saved, again) = (saved(), saved());
         assert!(saved == again, "the same bytes every time");
+    }
+
+    /// Of a clock that goes on by a millisecond whenever it is looked at, no slice takes 8.
+    fn what_lights_the_model_is_refined_in_slices_of_idle_time(gpu) {
+        let mut easel = Easel::with_clock(gpu, true, || looked_at_secs(1e-3));
+        let mut session = Session::new(true);
+        easel.show(&mut session, [96, 64]);
+        let mut slices = 0;
+        while !easel.painter.is_refined() {
+            let before = looked_at_secs(0.0);
+            assert!(easel.painter.prepares(&session, false) && looked_at_secs(0.0) == before, "not beside other work");
+            easel.painter.prepares(&session, true);
+            let took_secs = looked_at_secs(0.0) - before;
+            assert!(took_secs < 8e-3, "slice {slices} took {took_secs} s");
+            slices += 1;
+        }
+        assert!(slices > 20, "{slices} slices");
+        assert!(easel.show(&mut session, [96, 64]).1, "the finer light is shown");
+        assert!(!easel.painter.prepares(&session, true), "and then nothing is left to do");
+    }
+
+    fn sampling_ends_after_a_second_but_not_before_8(gpu) {
+        for (step_secs, counts) in [(0.4, 8..=8), (0.02, 12..=63), (0.0, 64..=64)] {
+            let clock = [|| looked_at_secs(0.4), || looked_at_secs(0.02), || 0.0];
+            let clock = if step_secs > 0.1 { clock[0] } else if step_secs > 0.0 { clock[1] } else { clock[2] };
+            let mut easel = Easel::with_clock(gpu, true, clock);
+            let mut session = opened();
+            let mut passes = 0;
+            easel.show(&mut session, [32, 24]);
+            while easel.painter.is_sampling(&session) {
+                easel.show(&mut session, [32, 24]);
+                passes += 1;
+                assert!(passes < 40);
+            }
+            let count = easel.painter.samples();
+            assert!(counts.contains(&count), "{step_secs} s each time: {count} samples");
+        }
+    }
+
+    fn where_means_cannot_be_drawn_the_picture_stays_as_it_was_drawn(gpu) {
+        let mut easel = Easel::with_clock(gpu, false, || 0.0);
+        let mut session = opened();
+        session.apply(QualityCommand::SetSamples(Some(20)));
+        let size = [96, 64];
+        let (first, _) = easel.show(&mut session, size);
+        assert!(!easel.painter.is_sampling(&session));
+        let (same, drawn) = easel.show(&mut session, size);
+        assert!(!drawn && same.rgba == first.rgba && easel.painter.samples() == 1);
+        let mut saved = |samples| {
+            let picture = easel.painter.draw_snapshot(&mut session, size, samples, |_| ()).expect("small");
+            picture.pixels_blocking().expect("small")
+        };
+        let one = saved(Some(1));
+        assert!(saved(None) == one && saved(Some(20)) == one, "saved pictures are of one sample too");
+    }
+
+    /// Lines of the grid are a point wide: of a screen with twice the pixels a point they have twice the pixels.
+    fn the_grid_goes_with_the_points_of_the_screen(gpu) {
+        let mut session = opened();
+        let large = [640, 480];
+        let drawn_with = |pixels_per_point: f32, session: &mut Session| {
+            let mut easel = Easel::new(gpu);
+            easel.painter.set_pixels_per_point(pixels_per_point);
+            easel.show(session, large).0
+        };
+        let grid = |is_on| LookCommand::SetOverlay(Overlay::Grid, is_on);
+        session.apply(grid(false));
+        let bare = drawn_with(1.0, &mut session);
+        session.apply(grid(true));
+        // How much the grid changes the picture, all in all.
+        let ink = |picture: &Picture| {
+            let off = picture.rgba.iter().zip(&bare.rgba).map(|(&a, &b)| u64::from(a.abs_diff(b)));
+            off.filter(|&off| off > 1).sum::<u64>() as f64
+        };
+        let [one, two, four] = [1.0, 2.0, 4.0].map(|pixels| ink(&drawn_with(pixels, &mut session)));
+        assert!((1.6..2.4).contains(&(two / one)) && (1.6..2.4).contains(&(four / two)), "{one} {two} {four}");
+        // What is saved has the window's lines, be it as large or half as large.
+        let mut easel = Easel::new(gpu);
+        easel.painter.set_pixels_per_point(4.0);
+        easel.show(&mut session, large);
+        let picture = easel.painter.draw_snapshot(&mut session, large, Some(1), |_| ()).expect("small");
+        let rgba = picture.pixels_blocking().expect("small");
+        assert!((0.97..1.03).contains(&(ink(&Picture { rgba, ..bare }) / four)));
     }
 
     fn a_slow_device_does_not_refine_unless_it_is_asked_to(gpu) {

@@ -27,7 +27,7 @@ const FACES: [[u8; 3]; 6] = [
 ];
 
 /// A cube map of half floats, with a texel for each face, column and row.
-fn float_cube(side: u32, texel: impl Fn(u32, u32, u32) -> [u16; 4]) -> Image {
+pub(crate) fn float_cube(side: u32, texel: impl Fn(u32, u32, u32) -> [u16; 4]) -> Image {
     let mut words = [0; 31];
     words[..4].copy_from_slice(&[124, 0x1007, side, side]);
     words[18..21].copy_from_slice(&[32, 4, u32::from_le_bytes(*b"DX10")]);

@@ -36,7 +36,7 @@ pub(crate) fn plain(texel: [u8; 4]) -> Arc<Image> {
     Arc::new(texels(4, |_, _| texel))
 }
 
-fn texels(side: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Image {
+pub(crate) fn texels(side: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> Image {
     let texels = (0..side * side).flat_map(|index| texel(index % side, index / side));
     Image::from_rgba8(side, side, texels.collect(), "test").expect("a small picture")
 }

@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use bindpose::render::MaterialImages;
 use bindpose::render::device::Backend;
+use bindpose::render::{Accumulator, MaterialImages, SampleCount, Target};
 use bindpose::scene::{FrameCost, Light, Pass, Passes, Theme, TimedPass};
 
 use crate::gpu::{Gpu, gl, vulkan, without_blocks};
@@ -74,6 +74,36 @@ fn the_first_frames_wait_for_no_answer() {
         easel.renderer.render(&scene.frame(), &mut target);
     }
     gpu.read(&target);
+}
+
+/// The samples of a picture at rest, by which their second is counted.
+#[test]
+fn the_samples_of_a_mean_take_time_where_the_device_tells_it() {
+    let scene = scene();
+    for gpu in [vulkan(), gl()] {
+        let mut renderer = gpu.renderer();
+        renderer.set_model(&scene.model).expect("small");
+        let mut target = Target::with_samples(&gpu.open.device, SIZE[0], SIZE[1], SampleCount::One);
+        let mut mean = Accumulator::new(&gpu.open.device, &target);
+        let start = Instant::now();
+        let mut before = 0.0;
+        for sample in 0..FRAMES {
+            renderer.accumulate(&scene.frame(), &mut target, &mut mean);
+            let done = gpu.open.device.poll(wgpu::PollType::wait_indefinitely());
+            done.expect("the device is there");
+            let secs = mean.gpu_secs();
+            match gpu.backend {
+                Backend::Vulkan if sample > 1 => assert!(secs.is_some_and(|secs| secs > before), "{sample}: {secs:?}"),
+                Backend::Vulkan => {}
+                Backend::Gl => assert_eq!(secs, None),
+            }
+            before = secs.unwrap_or(0.0);
+        }
+        // The times of the one before stand for the last.
+        assert!(f64::from(before) <= 2.0 * start.elapsed().as_secs_f64(), "{before} s");
+        mean.restart();
+        assert_eq!(mean.gpu_secs(), None);
+    }
 }
 
 #[test]

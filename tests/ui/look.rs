@@ -3,8 +3,9 @@
 use bindpose::image::{Image, encode_png};
 use bindpose::scene::{Background, FrameCost, Light, Overlay, Pass, ViewMode};
 use bindpose::session::{FileCommand, LookCommand, PassChoice, PassState, PlayCommand, QualityMode};
-use egui::accesskit::Toggled;
+use egui::accesskit::{Role, Toggled};
 use egui::{Key, Modifiers, pos2};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::models::moving;
 use crate::page::{WIDE, Window, window};
@@ -86,6 +87,34 @@ fn sliders_follow_the_pointer_and_the_arrows_and_go_back_with_a_double_click() {
     }
     window.pass_on();
     assert_eq!(window.session().look().exposure_stops, 0.0);
+}
+
+/// The panel tells where the ground lies, and its slider moves it by heights of the model.
+#[test]
+fn the_ground_is_told_and_moved() {
+    let mut window = open();
+    window.click("Lighting");
+    let before = window.session().ground().height;
+    let told = |window: &Window| {
+        let slider = window.harness.get_by_role_and_label(Role::Slider, "Ground");
+        slider.accesskit_node().data().value().map(str::to_owned)
+    };
+    assert_eq!(told(&window).as_deref(), Some("y 0"), "the model stands on it");
+    press_slider(&mut window, "Ground", 0.75);
+    let moved = window.session().look().ground_offset;
+    let height = window.session().ground().height;
+    assert!(moved > 0.0 && height > before, "{moved}: {height}");
+    assert_ne!(told(&window).as_deref(), Some("y 0"));
+    press_slider(&mut window, "Ground", 0.25);
+    assert!(window.session().ground().height < before);
+    let at = window.rect("Ground").center();
+    for _ in 0..2 {
+        window.harness.hover_at(at);
+        window.harness.drag_at(at);
+        window.harness.drop_at(at);
+    }
+    window.pass_on();
+    assert_eq!(window.session().look().ground_offset, 0.0);
 }
 
 #[test]

@@ -137,9 +137,13 @@ impl Pacer {
     pub const COARSEST: Step = STEPS[STEPS.len() - 1];
     pub const FINEST: Step = FULL;
 
-    /// What to draw while the picture moves.
+    /// What to draw while the picture moves. A device that draws with its CPU has few taps of shadows at every step.
     pub fn step(&self) -> Step {
-        STEPS[self.step]
+        let mut step = STEPS[self.step];
+        if self.is_slow_device() {
+            step.shadow = Detail::Low;
+        }
+        step
     }
 
     /// How long three of four of the frames took that were judged last, seconds; 0 before.

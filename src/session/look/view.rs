@@ -108,6 +108,7 @@ impl View {
             normal_green_flipped: look.normal_green_flipped,
             aperture: 0.0,
             focus: None,
+            points_high: None,
         }
     }
 

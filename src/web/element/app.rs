@@ -50,6 +50,8 @@ impl App {
         self.is_presented &= !self.surface.follow_canvas();
         let size = self.surface.size();
         let [width, height] = size.map(|side| side as f32);
+        let pixels_per_point = web_sys::window().map_or(1.0, |window| window.device_pixel_ratio());
+        self.painter.set_pixels_per_point(pixels_per_point as f32);
         let framed = Some((size, session.model_revision()));
         if std::mem::replace(&mut self.framed, framed) != framed {
             session.apply(CameraCommand::SetViewport {

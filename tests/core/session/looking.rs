@@ -37,6 +37,35 @@ fn reached_in_picture(session: &mut Session, aspect: f32) -> Vec<Vec3> {
     reached
 }
 
+/// In the studio as a portrait is taken, under the books' light as the books' demos have it. What is looked at keeps
+/// its size.
+#[test]
+fn the_first_view_is_30_degrees_high_and_that_of_the_books_45() {
+    let mut session = opened(moving("a.m3d"));
+    let wide = |session: &Session| match session.camera().projection {
+        Projection::Perspective { fov_y_radians } => fov_y_radians.to_degrees(),
+        Projection::Orthographic => panic!("it is a perspective view"),
+    };
+    let camera = *session.camera();
+    assert_eq!(
+        (camera.yaw_radians, camera.pitch_radians),
+        ViewPreset::ThreeQuarter.yaw_pitch_radians()
+    );
+    assert!(
+        camera.yaw_radians.abs() > 0.4 && camera.pitch_radians > 0.1,
+        "{camera:?}"
+    );
+    assert!((wide(&session) - 30.0).abs() < 1e-3);
+    session.apply(LookCommand::ToggleLight);
+    assert!((wide(&session) - 45.0).abs() < 1e-3);
+    let size = camera.height_in_view();
+    assert!((session.camera().height_in_view() / size - 1.0).abs() < 1e-4);
+    session.apply(CameraCommand::Reset);
+    assert!((wide(&session) - 45.0).abs() < 1e-3, "a reset keeps the light");
+    session.apply(LookCommand::ToggleLight);
+    assert!((wide(&session) - 30.0).abs() < 1e-3);
+}
+
 /// The points by which a clip is framed are taken at a dozen times: between them it may reach a little further, into the
 /// margin that framing leaves, but not out of the free part.
 #[test]

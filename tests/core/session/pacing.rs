@@ -150,6 +150,7 @@ fn a_slow_device_begins_with_few_pixels_and_returns_there_with_another_model() {
     pacer.set_slow_device(true);
     let first = Step {
         scale: 0.5,
+        shadow: Detail::Low,
         smooths_edges: false,
         ..FULL
     };
@@ -164,7 +165,15 @@ fn a_slow_device_begins_with_few_pixels_and_returns_there_with_another_model() {
         ..device
     };
     easy.play(&mut pacer, STEPS * (FIRST_WAIT_SECS + 1.0));
-    assert_eq!(pacer.step(), FULL, "edges too");
+    let all_but_taps = Step {
+        shadow: Detail::Low,
+        ..FULL
+    };
+    assert_eq!(
+        pacer.step(),
+        all_but_taps,
+        "edges too, and few taps of shadows all the while"
+    );
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use bindpose::scene::{FrameCost, Pass, Passes, TimedPass};
+use bindpose::scene::{Detail, FrameCost, Pass, Passes, TimedPass};
 use bindpose::session::{CameraCommand, Command, LookCommand, PassChoice, QualityCommand, QualityMode, Session};
 
 use super::models::{moving, still};
@@ -268,4 +268,15 @@ fn a_device_that_draws_with_its_cpu_begins_with_few_pixels() {
     window.session.advance(0.01);
     window.pass(0.0, &[]);
     assert_eq!(window.session.quality().scale_now(), 0.5, "from its first frame");
+    let options = window.session.frame().options;
+    assert_eq!(
+        (options.shadow_detail, options.occlusion_detail),
+        (Detail::Low, Detail::Full)
+    );
+    window.session.apply(QualityCommand::SetMode(QualityMode::Full));
+    assert_eq!(
+        window.session.frame().options.shadow_detail,
+        Detail::Full,
+        "all of it was asked for"
+    );
 }

@@ -1,6 +1,7 @@
 //! Clips: they loop, feet keep to the ground, joints bend their own way.
 
-use glam::DVec3;
+use bindpose::format::Vertex;
+use glam::{DMat4, DVec3};
 
 use super::{FIGURE, LEFT_THIGH, RIGHT_THIGH, end_secs, frames, is_below, model_from_joint, palette, quat, skinned};
 
@@ -197,6 +198,54 @@ fn hands_do_not_pass_through_the_body() {
                         "{} frame {frame}: a hand {distance} from a bone",
                         clip.name
                     );
+                }
+            }
+        }
+    }
+}
+
+/// Beside ground that goes evenly under them, no point of a sole goes farther than a hundredth of a step while the
+/// foot is flat.
+#[test]
+fn planted_soles_stay_on_the_ground_all_the_while() {
+    // A step of the walk is 0.63 m long, one of the run is longer.
+    const HUNDREDTH_OF_A_STEP: f64 = 0.0063;
+    for (name, from, to) in [("Walk", 0.10, 0.32), ("Run", 0.07, 0.16)] {
+        let clip = FIGURE.clips.iter().find(|clip| clip.name == name).expect("named above");
+        let count = frames(clip);
+        for (thigh, shift) in [(LEFT_THIGH, 0.0), (RIGHT_THIGH, 0.5)] {
+            let is_of_leg = |vertex: &&Vertex| {
+                let influences = vertex.blend_weights.into_iter().zip(vertex.blend_indices);
+                influences
+                    .filter(|(weight, _)| *weight > 0.0)
+                    .all(|(_, joint)| is_below(joint as usize, thigh))
+            };
+            let soles = FIGURE
+                .vertices
+                .iter()
+                .filter(|vertex| vertex.position[1] < 0.02)
+                .filter(is_of_leg);
+            let soles: Vec<_> = soles.collect();
+            assert!(soles.len() > 50, "{} vertices", soles.len());
+            let planted = |frame: &usize| (from..to).contains(&(*frame as f64 / count as f64 + shift).rem_euclid(1.0));
+            // The frames of one stance in order, over the end of the loop.
+            let first = (0..count).find(|frame| planted(frame) && !planted(&(frame + count - 1)));
+            let first = first.expect("it begins somewhere");
+            let palettes: Vec<_> = (first..)
+                .take_while(planted)
+                .map(|frame| palette(clip, frame % count))
+                .collect();
+            assert!(palettes.len() >= 2, "{name}");
+            let mean = |palette: &Vec<DMat4>| {
+                soles.iter().map(|vertex| skinned(vertex, palette)).sum::<DVec3>() / soles.len() as f64
+            };
+            let spans = (palettes.len() - 1) as f64;
+            let step = (mean(&palettes[palettes.len() - 1]) - mean(&palettes[0])) / spans;
+            assert!(step.z > 0.02, "{name}: the ground goes by {step}");
+            for (frame, palette) in palettes.iter().enumerate() {
+                for vertex in &soles {
+                    let moved = skinned(vertex, palette) - skinned(vertex, &palettes[0]) - step * frame as f64;
+                    assert!(moved.length() < HUNDREDTH_OF_A_STEP, "{name} frame {frame}: {moved}");
                 }
             }
         }
