@@ -200,7 +200,7 @@ fn reading(_: &mut Criterion) {
         let mut theirs = || {
             drop(black_box(
                 ufbx::load_memory(black_box(&bytes), LoadOpts::default()).expect("it is sound"),
-            ))
+            ));
         };
         let mut rounds: Vec<[f64; 2]> = (0..15).map(|_| [seconds(&mut ours), seconds(&mut theirs)]).collect();
         rounds.sort_by(|a, b| (a[0] / a[1]).total_cmp(&(b[0] / b[1])));

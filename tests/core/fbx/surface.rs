@@ -264,7 +264,7 @@ fn of_six_weights_the_four_greatest_are_kept_and_told() {
     for influences in &model.mesh.influences {
         let names = influences
             .joints
-            .map(|joint| model.skeleton.name(bindpose::model::JointIndex(joint.into())));
+            .map(|joint| model.skeleton.name(bindpose::model::JointIndex(joint)));
         let found: Vec<_> = names.into_iter().zip(influences.weights).collect();
         let name = |bone: &str| {
             found
