@@ -8,7 +8,7 @@ use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::{JsCast as _, JsValue};
 
 use super::picture::Drawn;
-use super::rim;
+use super::rim::books;
 use crate::scene::{Detail, FrameCost, Pass, Theme, TimedPass};
 use crate::session::summary::{self, Books, Finding};
 use crate::session::{
@@ -221,7 +221,7 @@ impl<'a> State<'a> {
             theme,
             link,
             notices: session.diagnostics().map(Finding::from).collect(),
-            book: rim::books(session),
+            book: books(session),
             error: session.error().map(FileError::from),
         }
     }
