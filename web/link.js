@@ -33,6 +33,9 @@ function parsed(text) {
   return { ...found, view: found.view.join("&") };
 }
 
+/** A text as browsers have it behind `#` in an address: quotes, spaces and others in their codes. */
+const hashOf = (text) => new URL(`#${text}`, "about:blank").hash.slice(1);
+
 const asking = (name) => `This link is about ${baseName(name)}: open or drop it to see the same moment.`;
 
 /** The first digits of the SHA-256 of bytes; nothing where the page may not know it: it came without `https:`. */
@@ -67,11 +70,11 @@ export function keepLink({ viewer, changed, follow, ask, tell, refuse }) {
     const start = address.length + whole.length < MOST_CHARACTERS ? whole : "";
     const { text, leftOut } = viewer()?.link(address.length + start.length + 2) ?? { text: "", leftOut: [] };
     if (start !== whole) leftOut.unshift("model");
-    return { address, text: [start, text].filter(Boolean).join("&"), leftOut };
+    return { address, text: hashOf([start, text].filter(Boolean).join("&")), leftOut };
   };
 
-  /** Nothing is written any more. */
-  const rests = () => {
+  /** Nothing is written until what is seen rests. */
+  const holdOff = () => {
     clearTimeout(timer);
     seen = last;
   };
@@ -92,9 +95,10 @@ export function keepLink({ viewer, changed, follow, ask, tell, refuse }) {
     // A link was clicked, and its event is to come.
     if (location.hash.slice(1) !== heard) return;
     const { address, text } = read();
-    last = seen = heard = text;
+    last = seen = text;
     writtenAt = performance.now();
-    if (text !== location.hash.slice(1)) history.replaceState(history.state, "", text ? `${address}#${text}` : address);
+    if (text !== heard) history.replaceState(history.state, "", text ? `${address}#${text}` : address);
+    heard = location.hash.slice(1);
     changed(text);
   };
 
@@ -122,10 +126,10 @@ export function keepLink({ viewer, changed, follow, ask, tell, refuse }) {
   return {
     /** Behind the `#`. */
     text: () => read().text,
-    /** The whole address, and the names of what it has no room for. */
+    /** The whole address, the names of what it has no room for, and the file that who opens it is asked for. */
     whole() {
       const { address, text, leftOut } = read();
-      const asksFor = model.opening === own?.opening ? null : model.path;
+      const asksFor = model.opening === own?.opening || leftOut.includes("model") ? null : model.path;
       return { address: text ? `${address}#${text}` : address, leftOut, asksFor };
     },
     /** What comes until `work` is settled, the page opens by itself. Returns that. */
@@ -163,7 +167,7 @@ export function keepLink({ viewer, changed, follow, ask, tell, refuse }) {
     /** What is seen may be another. */
     settling: look,
     /** It changes by itself, or something is held. */
-    moving: rests,
+    moving: holdOff,
     /** Follows a link that was clicked, or one of before. */
     hashChanged() {
       const text = (heard = location.hash.slice(1));

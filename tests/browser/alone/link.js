@@ -40,7 +40,7 @@ async function pageOf() {
   globalThis.history = {
     state: null,
     replaceState(state, title, written) {
-      page.hash = written.split("#")[1] ?? "";
+      page.hash = new URL(written).hash.slice(1); // Browsers write some characters in codes.
       page.writes.push([now, page.hash]);
     },
   };
@@ -164,12 +164,30 @@ testOf("a link without a model is about the page's own, one with a model of its 
   assert.deepEqual([page.shown.path, page.view], ["own.m3d", "t=4"]);
 });
 
+testOf("what browsers write in codes is written once, and what comes after it too", async () => {
+  const page = await pageOf();
+  const [view, written] = ['clip=a "b" <c> `d` é&t=1', "clip=a%20%22b%22%20%3Cc%3E%20%60d%60%20%C3%A9&t=1"];
+  page.after(0, view);
+  page.after(1000);
+  page.after(0, `${view}&back=1`);
+  page.after(100, view);
+  page.after(1000);
+  assert.deepEqual(page.writes.map(([, hash]) => hash), [written]);
+  assert.deepEqual([page.link.text(), page.link.whole().address, page.told], [written, `https://host/#${written}`, [written]]);
+  page.link.hashChanged();
+  assert.equal(page.view, view, "its own writing is no link that was clicked");
+  page.after(0, "t=2");
+  page.after(1000);
+  assert.deepEqual([page.hash, page.told], ["t=2", [written, "t=2"]]);
+});
+
 for (const [characters, isNamed] of [[2_000, true], [2_001, false]]) {
   const outcome = isNamed ? "named" : "left out, and that is told";
   testOf(`a model with which the address would have ${characters} characters is ${outcome}`, async () => {
     const page = await pageOf();
     await page.opens({ path: "a".repeat(characters - "https://host/#model=&sha=".length - SHA.length), opening: 2 });
-    const { address, leftOut } = page.link.whole();
+    const { address, leftOut, asksFor } = page.link.whole();
+    assert.equal(asksFor === null, !isNamed, "who opens a link without its name is not asked for it");
     assert.equal(address.length, isNamed ? characters : "https://host/".length);
     assert.deepEqual(leftOut, isNamed ? [] : ["model"]);
     const taken = isNamed ? characters + 1 : "https://host/".length + 2;
