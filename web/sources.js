@@ -126,7 +126,7 @@ export async function fetchFrom(addresses, { began, got, signal }) {
 }
 
 /** `before` without the files whose names come again in `files`, and then those. */
-const joined = (before, files) => {
+export const joined = (before, files) => {
   const names = new Set(files.map(({ name }) => name));
   return [...before.filter(({ name }) => !names.has(name)), ...files];
 };

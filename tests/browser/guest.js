@@ -90,17 +90,32 @@ test("a viewer that leaves the page gives all back, and comes again where it was
     viewer.src = "web/other.m3d";
   });
   await hears(page, "a", "load", ROUNDS + 4);
-  assert.deepEqual(await page.evaluate(() => [viewer.error, viewer.state().model.name]), [null, "other.m3d"]);
+  const shown = () => page.evaluate(() => [viewer.error, viewer.state().model.name]);
+  assert.deepEqual(await shown(), [null, "other.m3d"]);
+  await page.evaluate(() => viewer.remove());
+  await settled(page);
+  await page.evaluate(() => {
+    viewer.src = "web/sample/figure.m3d";
+    document.body.append(viewer);
+  });
+  await hears(page, "a", "load", ROUNDS + 5);
+  assert.deepEqual(await shown(), [null, "figure.m3d"], "also where it was set out of the page");
 });
 
+/** How many frames a viewer has drawn. */
+const drawn = (page, id) => page.evaluate((id) => document.getElementById(id).state().framesRendered, id);
+
+/** Whether a viewer draws nothing in twelve frames of its page. */
+async function isStill(page, id) {
+  const before = await drawn(page, id);
+  for (let round = 0; round < 6; round += 1) await settled(page);
+  return before === (await drawn(page, id));
+}
+
 /** Waits until a viewer draws no more. */
-const comesToRest = (page, id) =>
-  page.waitForFunction(async (id) => {
-    const frames = () => document.getElementById(id).state().framesRendered;
-    const before = frames();
-    for (let count = 0; count < 12; count += 1) await new Promise(requestAnimationFrame);
-    return before === frames();
-  }, id, { polling: 50 });
+async function comesToRest(page, id) {
+  for (const deadline = Date.now() + 30_000; !(await isStill(page, id)); ) assert.ok(Date.now() < deadline, `${id} draws on`);
+}
 
 const boxes = pageOf(`<style>body { margin: 0 }</style><div style="display: flex; width: 640px"><bindpose-viewer id="flex" ${FIGURE} style="flex: 1; min-width: 0" autoplay loop></bindpose-viewer><p style="width: 200px">Beside</p></div>
     <details id="more"><summary>More</summary><bindpose-viewer id="folded" ${FIGURE} loading="lazy" poster="web/icon.svg"></bindpose-viewer></details>
@@ -116,7 +131,6 @@ test("in a flex box, in what is folded away, hidden and shown, a viewer has its 
 }, async (page) => {
   await hears(page, "flex", "load");
   const size = (id) => page.evaluate((id) => [document.getElementById(id).offsetWidth, document.getElementById(id).shadowRoot.querySelector("canvas")?.width ?? 0], id);
-  const drawn = (id) => page.evaluate((id) => document.getElementById(id).state().framesRendered, id);
   const [width, pixels] = await size("flex");
   assert.equal(width, 440);
   assert.ok(Math.abs(pixels - width * (await page.evaluate(() => devicePixelRatio))) <= 1, `${pixels} pixels for ${width}`);
@@ -133,17 +147,12 @@ test("in a flex box, in what is folded away, hidden and shown, a viewer has its 
   await hears(page, "folded", "load");
   assert.deepEqual(await size("folded"), [640, 640 * (await page.evaluate(() => devicePixelRatio))]);
   await keep(page, "element-layout");
-  const isStill = async (id) => {
-    const before = await drawn(id);
-    for (let round = 0; round < 6; round += 1) await settled(page);
-    return before === (await drawn(id));
-  };
-  assert.equal(await isStill("flex"), false);
+  assert.equal(await isStill(page, "flex"), false);
   await page.evaluate(() => (document.getElementById("flex").hidden = true));
   await comesToRest(page, "flex");
   assert.equal((await seen(page, "flex")).paused, false, "it goes on when it is seen again");
   await page.evaluate(() => (document.getElementById("flex").hidden = false));
-  await page.waitForFunction((before) => document.getElementById("flex").state().framesRendered > before, await drawn("flex"));
+  await page.waitForFunction((before) => document.getElementById("flex").state().framesRendered > before, await drawn(page, "flex"));
   await page.evaluate(() => scrollTo(0, 4000));
   await hears(page, "far", "load");
   assert.equal(await fetched(), 1);
@@ -181,13 +190,20 @@ test("a page scrolls under a finger, and turns the view once it was touched", {
   assert.notEqual(turned, pitch);
 });
 
-test("with the page's interface too, a viewer leaves the page its focus, its wheel and its store", {
-  ...pageOf(`<input id="field" aria-label="Search"><bindpose-viewer id="a" ${FIGURE} ui="full"></bindpose-viewer>
-    <p id="low">More</p>`, {
-    first: '<link rel="stylesheet" href="/notes.css">',
-    sheet: "body { margin: 0 } bindpose-viewer { width: 960px; height: 560px } #low { height: 2000px }",
-    policy: POLICY,
-  }),
+const full = pageOf(`<input id="field" aria-label="Search"><bindpose-viewer id="a" ${FIGURE} ui="full"></bindpose-viewer>
+  <p id="low">More</p>`, {
+  first: '<link rel="stylesheet" href="/notes.css">',
+  sheet: "body { margin: 0 } bindpose-viewer { width: 960px; height: 560px } #low { height: 2000px }",
+  policy: POLICY,
+});
+test("with the page's interface too, a viewer leaves the page its focus, its wheel and its stores", {
+  ...full,
+  firstVisit: true,
+  prepare: async (page) => {
+    // What pages of this site have kept before.
+    await page.addInitScript(() => localStorage.clear());
+    await full.prepare(page);
+  },
 }, async (page) => {
   await page.evaluate(() => {
     globalThis.viewer = document.getElementById("a");
@@ -232,9 +248,6 @@ test("with the page's interface too, a viewer leaves the page its focus, its whe
   await page.keyboard.type("Hips", { delay: 30 });
   await page.keyboard.press("Enter");
   await page.waitForFunction(() => viewer.state().skeleton.names[1] === "Hips", null, { polling: 50 });
-  for (let round = 0; round < 4; round += 1) await settled(page);
-  const kept = await page.evaluate(() => Object.keys(localStorage));
-  assert.deepEqual(kept.filter((key) => key.startsWith("bindpose.names")), []);
 
   // Clips that came to the model come back with it.
   const strolls = readFileSync(SAMPLE, "utf8").replace("AnimationClip Walk", "AnimationClip Stroll");
@@ -249,16 +262,20 @@ test("with the page's interface too, a viewer leaves the page its focus, its whe
 
   // It draws in sight only.
   await page.evaluate(() => viewer.play());
-  const drawn = () => page.evaluate(() => viewer.state().framesRendered);
   const goesOn = (from) =>
     page.waitForFunction((from) => viewer.state().framesRendered > from + 1, from, { polling: 50 });
-  await goesOn(await drawn());
+  await goesOn(await drawn(page, "a"));
   await page.evaluate(() => scrollTo(0, 1500));
   await comesToRest(page, "a");
   assert.equal((await seen(page, "a")).paused, false);
   await page.evaluate(() => scrollTo(0, 0));
-  await goesOn(await drawn());
+  await goesOn(await drawn(page, "a"));
+  await page.evaluate(() => (viewer.ui = "none"));
+  await hears(page, "a", "load", 4);
+  assert.ok(await page.evaluate(() => viewer.clips.includes("Stroll")), "in the small program too");
   assert.deepEqual(await page.evaluate(() => violations), [], "the policy of the README is enough for it");
+  const kept = await page.evaluate(() => [localStorage, sessionStorage].map((store) => Object.entries(store)));
+  assert.deepEqual(kept, [[], []], "neither the name nor anything else");
 });
 
 test("a panic in one viewer is told by all, in what the page has for it", {
@@ -277,17 +294,24 @@ test("a panic in one viewer is told by all, in what the page has for it", {
   assert.match(await card.textContent(), /index out of bounds/);
 });
 
+/** A program of the page's own: its function `trap` does. */
+const TRAP = [
+  0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 7, 8, 1, 4, 116, 114, 97, 112, 0, 0, 10, 5, 1, 3, 0, 0, 11,
+];
+
 const other = pageOf(`<bindpose-viewer id="a" ${FIGURE}></bindpose-viewer>`);
 test("another program's end is none of a viewer's, and its own is", {
   ...other,
   expectErrors: true,
   prepare: async (page) => {
     await withViewer(`
-      state() {
-        if (globalThis.hasTrapped) throw new WebAssembly.RuntimeError("unreachable");
-        return super.state();
+      start(...values) {
+        globalThis.newest = this;
+        return super.start(...values);
       }`)(page);
     await page.addInitScript(() => {
+      const errors = [];
+      Object.assign(globalThis, { errors, onerror: (words) => void errors.push(words) });
       // How many listen for errors of the page.
       const listening = (globalThis.listening = new Set());
       const { addEventListener, removeEventListener } = globalThis;
@@ -305,8 +329,13 @@ test("another program's end is none of a viewer's, and its own is", {
 }, async (page) => {
   await hears(page, "a", "load");
   const told = () => page.evaluate(() => [listening.size, document.getElementById("a").error?.message ?? null]);
-  const report = (words) => page.evaluate((words) => reportError(new WebAssembly.RuntimeError(words)), words);
-  await report("theirs");
+  // What is thrown in a task of its own is an error of the page.
+  await page.evaluate((bytes) => new Promise((done) => {
+    const { trap } = new WebAssembly.Instance(new WebAssembly.Module(Uint8Array.from(bytes))).exports;
+    setTimeout(trap);
+    setTimeout(done);
+  }), TRAP);
+  assert.match(await page.evaluate(() => errors.join()), /RuntimeError: unreachable/);
   assert.deepEqual(await told(), [1, null]);
   await page.evaluate(() => {
     globalThis.viewer = document.getElementById("a");
@@ -316,8 +345,11 @@ test("another program's end is none of a viewer's, and its own is", {
   assert.deepEqual(await page.evaluate(() => listening.size), 0, "nobody listens where no viewer is");
   await page.evaluate(() => document.body.append(viewer));
   await hears(page, "a", "load", 2);
-  await page.evaluate(() => (globalThis.hasTrapped = true));
-  await report("ours");
+  // Our program traps: it is asked about a viewer where it has no memory.
+  await page.evaluate(() => void setTimeout(() => {
+    newest.__wbg_ptr = 0xf0000000;
+    viewer.state();
+  }));
   await hears(page, "a", "error");
-  assert.deepEqual(await told(), [0, "ours"]);
+  assert.deepEqual(await told(), [0, "memory access out of bounds"]);
 });

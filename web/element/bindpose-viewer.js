@@ -130,12 +130,12 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     if (name === "poster") this.#showPoster(!this.#over.poster.hidden);
     if (["alt", "interaction"].includes(name)) this.#nameCanvas();
     if (name === "ui") this.#restart(before);
+    if (name === "src") this.#kept = null;
     if (name === "src" && this.#life) {
-      this.#kept = null;
       this.#later = [];
       this.#error = null;
       this.#over.error.hidden = true;
-      this.#life.wasGiven = false;
+      Object.assign(this.#life, { wasGiven: false, kept: null });
       if (this.#life.viewer) void this.#life.show();
     }
   }

@@ -1,13 +1,12 @@
 // A viewer from when its element comes into a page until it leaves it: its program, its canvas, its files.
 
 import { createApi } from "../api.js";
-import { onlyJoins } from "../files.js";
 import { handOver, hasOpened } from "../handing_over.js";
 import { mirrorOf } from "../mirror.js";
 import { servePanels } from "./panels.js";
 import { compile, fetchProgram, nameFor } from "../program.js";
 import { keepDrawn } from "../restart.js";
-import { fetchFrom, recordOf } from "../sources.js";
+import { fetchFrom, joined, recordOf } from "../sources.js";
 
 /** Programs that are here or on their way, by name: the viewers of a page share them. */
 const programs = new Map();
@@ -147,7 +146,8 @@ export class Life {
     await hasOpened(from);
     if (!this.files) return;
     const moment = this.moment(from);
-    await to.open(this.files.map(recordOf));
+    await to.open(this.files);
+    if (this.clips.length) await to.addClips(this.clips);
     to.followLink(moment);
   }
 
@@ -184,9 +184,9 @@ export class Life {
     try {
       const fresh = async () => ({ files: await this.fetch(signal), clips: [], moment: this.teller.moment() });
       const { files, clips, moment } = this.kept ?? (await fresh());
-      this.kept = null;
       if (signal.aborted || !files.length) return;
       await this.open(files, moment, clips);
+      this.kept = null;
     } catch (error) {
       if (!signal.aborted && error.name !== "AbortError") this.teller.error(error);
     }
@@ -216,14 +216,11 @@ export class Life {
   /** Opens files and goes to a moment in them, if one is named. Resolves with the state, which has an `error` where they could not be opened. */
   async open(files, moment, clips = []) {
     this.isShown = false;
-    const state = await this.api.give(files, "open");
+    const state = await this.give(files, "open");
     if (state.error) {
       this.teller.error(new Error(state.error.message));
       return state;
     }
-    // Pictures and clips that join a model are kept beside it, for when the element comes back.
-    if (this.files && onlyJoins(files)) this.files = [...this.files, ...files];
-    else Object.assign(this, { files, clips: [] });
     if (clips.length) await this.addClips(clips);
     if (moment !== null) this.follow(moment);
     this.isShown = true;
@@ -231,9 +228,19 @@ export class Life {
     return this.api.bindpose.state();
   }
 
-  async addClips(files) {
-    const { error } = await this.api.give(files, "addClips");
-    if (!error) this.clips.push(...files);
+  /** Adds the clips of files to those of the model. */
+  addClips(files) {
+    return this.give(files, "addClips");
+  }
+
+  /** Gives files to the viewer. Pictures and clips that join a model are kept beside it, for when the element comes back. */
+  async give(files, how) {
+    let joins;
+    const state = await this.api.give(files, how, (before, { model }) => (joins = before.model && before.model.opening === model?.opening));
+    if (state.error) return state;
+    const [list, records] = [how === "open" ? "files" : "clips", files.map(recordOf)];
+    Object.assign(this, this.files && joins ? { [list]: joined(this[list], records) } : { files: records, clips: [] });
+    return state;
   }
 
   /** Shows the moment of a link, or a change of what is seen, as far as the model and the viewer know it. */
@@ -276,7 +283,7 @@ export class Life {
     this.teller.error(error);
   }
 
-  /** Gives the GPU and the program's objects back. Returns what is open and seen, for another life. */
+  /** Gives the GPU and the program's objects back. Returns what is open and seen, or what was still to be, for another life. */
   finish(isSound = true) {
     if (this.over) return null;
     const moment = isSound && this.files ? this.moment() : null;
@@ -290,7 +297,7 @@ export class Life {
     if (isSound) this.viewer?.free();
     this.view.replaceChildren();
     this.view.classList.remove("drawn");
-    return moment === null ? null : { files: this.files, clips: this.clips, moment };
+    return this.kept ?? (moment === null ? null : { files: this.files, clips: this.clips, moment });
   }
 
   /** The link to what is seen, with whether it plays. */
