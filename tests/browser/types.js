@@ -52,7 +52,7 @@ test("the types have all that the viewer says of itself, and no more", { own: tr
   assert.match(complaints(program(names, [{ ...states[0], mood: "good" }])).join(), /mood/);
 });
 
-test("the types of the class have all its methods, with what each takes, and the details of what it tells", {
+test("the types of the class have all its methods, with what each takes, the formats of an export, and the details of what it tells", {
   own: true,
   only: "webgl2",
 }, async (page) => {
@@ -61,6 +61,8 @@ test("the types of the class have all its methods, with what each takes, and the
     const names = Object.getOwnPropertyNames(Viewer.prototype).filter((name) => !/^(__.*|constructor)$/.test(name));
     return Object.fromEntries(names.map((name) => [name, Viewer.prototype[name].length]));
   }, FOLDER);
+  const refused = await page.evaluate(() => bindpose.export({ format: "none" }).catch(({ message }) => message));
+  const formats = refused.split(" takes ")[1].split(/, | or /);
   const told = await page.evaluate(async () => {
     const details = {};
     for (const type of ["load", "error", "play", "pause", "timeupdate", "playbackchange"]) {
@@ -75,8 +77,10 @@ test("the types of the class have all its methods, with what each takes, and the
     await bindpose.open([{ name: "none.m3d", bytes: bytes.slice(0, 100) }]);
     return details;
   });
-  const program = (methods, told) => `
-    import type { Viewer, ViewerEventMap } from ${ofClass};
+  const program = (methods, told, known = formats) => `
+    import type { ExportOptions, Viewer, ViewerEventMap } from ${ofClass};
+    type Format = NonNullable<ExportOptions["format"]>;
+    export const formats: Record<Format, true> = ${JSON.stringify(Object.fromEntries(known.map((name) => [name, true])))};
     type Takes<K extends keyof Viewer> = Required<Parameters<Viewer[K]>>["length"];
     export const methods: { [K in keyof Viewer]: Takes<K> } = ${JSON.stringify(methods)};
     export const told: ViewerEventMap = ${JSON.stringify(told)};`;
@@ -88,6 +92,7 @@ test("the types of the class have all its methods, with what each takes, and the
   assert.equal(setWrap, 1);
   assert.match(complaints(program(fewer, told)).join(), /setWrap/);
   assert.match(complaints(program(methods, { ...told, load: {} })).join(), /name/);
+  assert.match(complaints(program(methods, told, formats.slice(1))).join(), /glb/);
 });
 
 test("the types of the element's events are those of what it tells", {

@@ -45,7 +45,7 @@ export interface HandedOver {
 }
 
 export interface ExportOptions {
-  format?: "glb" | "d3d12" | "d3d11";
+  format?: "glb" | "d3d12" | "d3d11" | "txt";
   clips?: string[];
   inPlace?: boolean;
   range?: [number, number];

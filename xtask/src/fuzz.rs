@@ -108,7 +108,7 @@ fn corpora(verb: &str) -> Result<(), Failure> {
     })
 }
 
-/// Files of others that another fuzzer damaged, where they are at hand.
+/// Files of others that another fuzzer damaged, where the folder of models beside the project has them.
 fn damaged(target: &str) -> Option<&'static str> {
     const FOLDER: &str = "../shared/fbx/damaged";
     (target == "fbx" && Path::new(FOLDER).is_dir()).then_some(FOLDER)

@@ -18,7 +18,7 @@ use crate::web::{field, is_absent, next_task, now_secs, object, promise};
 #[wasm_bindgen]
 impl Viewer {
     /// Writes the open model as one sees it, with edited materials and given names: `{format, clips, inPlace, range, closeLoop, reduce, forBook}`.
-    /// The format is `glb`, `d3d12` or `d3d11`; clips are names, the range of the only one is `[from, to]` in seconds, `closeLoop` is
+    /// The format is `glb`, `d3d12`, `d3d11` or `txt`; clips are names, the range of the only one is `[from, to]` in seconds, `closeLoop` is
     /// seconds, `reduce` a fraction of the model's size. What is absent changes nothing; a range that is absent is the timeline's where its
     /// clip is the only one. Resolves with `{name, bytes, changes, losses}`; rejects when it cannot be written.
     ///
@@ -101,7 +101,7 @@ fn read(options: &JsValue) -> Result<ExportOptions, JsValue> {
         _ => return checked(Err(of_type("{range}) takes an array of two times in seconds"))),
     };
     Ok(ExportOptions {
-        format: checked(format.ok_or_else(|| Misuse::Range("export({format}) takes glb, d3d12 or d3d11".to_owned())))?,
+        format: checked(format.ok_or_else(|| Misuse::Range("export({format}) takes glb, d3d12, d3d11 or txt".to_owned())))?,
         clips,
         in_place: field(options, "inPlace").is_truthy(),
         range,
