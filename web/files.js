@@ -1,7 +1,7 @@
 // Which file is what, by its name.
 
 /** The extensions of each kind, as the program has them in src/session/open/files.rs. "unread" are pictures that the viewer names and cannot read. */
-const KINDS = {
+export const KINDS = {
   model: ["m3d", "glb", "gltf", "fbx"],
   archive: ["zip"],
   picture: ["dds", "png", "jpg", "jpeg", "webp", "tga", "bmp", "hdr"],

@@ -5,6 +5,7 @@ import { readFileSync } from "node:fs";
 import { BACKEND, FIXTURES, SAMPLE, dropAndWait, keep, state, test as eachTest, until } from "./harness.js";
 import { hostOf } from "./host.js";
 import { pretendGpu } from "./programs.js";
+import { KINDS } from "../../web/files.js";
 
 const QUERY = `?backend=${BACKEND}&quality=low&scale=0.2`;
 const OTHER = `${FIXTURES}good/d3d12_skinned.m3d`;
@@ -233,14 +234,16 @@ test("a file that the system opens with the page is a drop, and R reads it again
   await page.waitForURL(/crowd=2$/, { waitUntil: "commit" });
 });
 
-test("the manifest is sound, and what it names is there", {}, async (page, host) => {
+test("the manifest is sound, what it names is there, and models and archives open with the page or are shared with it", {}, async (page, host) => {
   await page.goto(host.address);
   const devtools = await page.context().newCDPSession(page);
   const { url, data, errors } = await devtools.send("Page.getAppManifest");
   assert.deepEqual(errors, []);
-  const { icons, screenshots, shortcuts, file_handlers: handlers } = JSON.parse(data);
-  const endings = handlers.flatMap(({ accept }) => Object.values(accept).flat());
-  for (const ending of [".m3d", ".glb", ".gltf", ".zip"]) assert.ok(endings.includes(ending), ending);
+  const { icons, screenshots, shortcuts, file_handlers: handlers, share_target: target } = JSON.parse(data);
+  const opened = handlers.flatMap(({ accept }) => Object.values(accept).flat());
+  const shared = target.params.files.flatMap(({ accept }) => accept).filter((kind) => kind.startsWith("."));
+  const endings = [...KINDS.model, ...KINDS.archive].map((ending) => `.${ending}`).sort();
+  assert.deepEqual([opened.sort(), shared.sort()], [endings, endings]);
   const pictures = [icons, screenshots, ...shortcuts.map((shortcut) => shortcut.icons)].flat();
   const sizes = await page.evaluate(
     (addresses) =>

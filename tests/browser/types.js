@@ -29,7 +29,7 @@ function complaints(text) {
 
 test("the types have all that the viewer says of itself, and no more", { own: true, expectErrors: true, only: "webgl2" }, async (page) => {
   const states = [await state(page)];
-  for (const name of ["good/d3d12_skinned.m3d", "bad/parent_not_a_number.m3d"]) {
+  for (const name of ["good/d3d12_skinned.m3d", "fbx/walker.fbx", "bad/parent_not_a_number.m3d"]) {
     await dropAndWait(page, [`${FIXTURES}${name}`]);
     states.push(await state(page));
   }

@@ -23,7 +23,7 @@ export interface Model {
   name: string;
   path: string;
   opening: number | null;
-  dialect: "d3d11" | "d3d12" | "imm" | "txt" | "glb" | "gltf";
+  dialect: "d3d11" | "d3d12" | "imm" | "txt" | "glb" | "gltf" | "fbx" | "fbx-text";
   handedness: "left" | "right";
   upAxis: "y" | "z";
   counts: { materials: number; vertices: number; triangles: number; bones: number; clips: number };
