@@ -3,7 +3,7 @@
 /** How the page starts. What stands behind `#` is a link to what is seen: link.js. */
 export const options = new URLSearchParams(globalThis.location?.search);
 const named = options.get("backend");
-/** The way to draw that it asks for. */
+/** The backend that it asks for. */
 export const backend = ["webgpu", "webgl2"].includes(named) ? named : "auto";
 
 /** Of each program its script and its bytes, as bundlers find them. */
@@ -32,7 +32,7 @@ export async function fetchProgram(name) {
   return { name, module, response, total: Number(own?.dataset[name]) };
 }
 
-/** The name of the program for a way to draw. */
+/** The name of the program for a backend. */
 export const nameFor = async (wanted) => ((wanted === "auto" ? await hasGpu().catch(() => false) : wanted === "webgpu") ? "webgpu" : "full");
 
 /** Compiles a program while it arrives. `progress(arrived, total)` hears of bytes. */

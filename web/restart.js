@@ -133,7 +133,7 @@ export async function keepDrawn(program, backend, rim, before = null) {
   const keeper = keepOnCanvas(viewer, {
     canvas,
     backend,
-    // The plainer way, unless one was asked for.
+    // The plainer backend, unless one was asked for.
     lastBackend: backend === "auto" && isFull ? "webgl2" : backend,
     isOver: () => rim.isOver(),
     putAside: () => rim.putAside?.() ?? false,

@@ -5,7 +5,7 @@ import { createHash } from "node:crypto";
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
 import { LARGE, PAGE, SAMPLE, atRest, call, keep, listen, running, state, test, until } from "./harness.js";
-import { OWN, QUERY, follow, hash, hears, notice, says, visit } from "./link.js";
+import { OWN, QUERY, follow, hash, notice, says, speaks, visit } from "./link.js";
 import { coloursOnScreen } from "./picture.js";
 import { click, still } from "./widgets.js";
 
@@ -148,9 +148,9 @@ test("the buttons copy a link and a frame, and tell what has no room", HIGH, asy
     }
   };
   assert.equal(await press("copy-link"), `${PAGE}${QUERY}#${moment}`);
-  await hears(page, "Link copied");
+  await speaks(page, "Link copied");
   const frame = await press("copy-embed");
-  await hears(page, "Embed copied");
+  await speaks(page, "Embed copied");
   const [, source] = /^<iframe src="([^"]*)"[^<>]*><\/iframe>$/.exec(frame);
   assert.equal(source.replaceAll("&amp;", "&"), `${PAGE}${QUERY}&ui=transport#${moment}`);
   // An address that leaves little room.
@@ -161,7 +161,7 @@ test("the buttons copy a link and a frame, and tell what has no room", HIGH, asy
   });
   const short = await press("copy-link");
   assert.ok(short.length < 2000 && short.endsWith(`#${moment}`), short);
-  await hears(page, "Link copied; too long for trails");
+  await speaks(page, "Link copied; too long for trails");
   await page.context().clearPermissions();
 });
 
@@ -197,7 +197,7 @@ test("a link to a dropped file waits for it, by its name and by its bytes", GREE
     ["hero.m3d", true, "hero.m3d has other bytes than the file that the link was made of"],
   ]) {
     await visit(page, link);
-    await hears(page, "This link is about hero.m3d: open or drop it to see the same moment.");
+    await speaks(page, "This link is about hero.m3d: open or drop it to see the same moment.");
     await page.getByRole("button", { name: /^Close the welcome/ }).waitFor({ state: "attached" });
     await page.waitForTimeout(600);
     assert.equal(await hash(page), link, "it stays until its model is here");

@@ -70,7 +70,7 @@ export const notice = (page) => page.textContent("#notice");
 const PATIENCE = { polling: 50, timeout: 20_000 };
 
 /** Waits until a screen reader is given this. */
-export const hears = (page, words) =>
+export const speaks = (page, words) =>
   page.waitForFunction((words) => globalThis.heard.some((heard) => heard?.includes(words)), words, PATIENCE);
 
 /** Waits until the address says this. */

@@ -101,7 +101,9 @@ fn read(options: &JsValue) -> Result<ExportOptions, JsValue> {
         _ => return checked(Err(of_type("{range}) takes an array of two times in seconds"))),
     };
     Ok(ExportOptions {
-        format: checked(format.ok_or_else(|| Misuse::Range("export({format}) takes glb, d3d12, d3d11 or txt".to_owned())))?,
+        format: checked(
+            format.ok_or_else(|| Misuse::Range("export({format}) takes glb, d3d12, d3d11 or txt".to_owned())),
+        )?,
         clips,
         in_place: field(options, "inPlace").is_truthy(),
         range,
