@@ -24,7 +24,8 @@ addEventListener("activate", (event) => event.waitUntil(Promise.all([clients.cla
 addEventListener("message", (event) => {
   event.source.postMessage({ build: BUILD });
   // Where there is no room for it, visits go on as they did.
-  event.waitUntil(keep(filesOf(event.data.programs)).catch(() => {}));
+  // The page has its lock by now, and one that was closed has none any more.
+  event.waitUntil(keep(filesOf(event.data.programs)).catch(() => {}).then(forgetOthers));
 });
 addEventListener("fetch", (event) => {
   const { request } = event;
@@ -37,7 +38,6 @@ addEventListener("fetch", (event) => {
     event.respondWith(keptOrAsked(request));
   } else if (FILES.shell.some((name) => addressOf(name) === page)) {
     event.respondWith(askedOrKept(request, page));
-    event.waitUntil(forgetOthers());
   }
 });
 

@@ -83,6 +83,21 @@ test("what changes beside a picture at rest is in the address", FINE, async (pag
   await says(page, "t=0.5&play=0&loop=once");
 });
 
+test("a link in a page of notes shows its moment in the page that another one opened", OWN, async (page) => {
+  const moments = ["t=0.5&play=0", "clip=Walk&t=0.25&play=0"];
+  const links = moments.map((link) => `${PAGE}${QUERY}#${link}`.replaceAll("&", "&amp;"));
+  const notes = await serve(() => links.map((link) => `<a target="viewer" href="${link}">A moment</a>`).join(" "));
+  await page.goto(notes.address);
+  const [viewer] = await Promise.all([page.waitForEvent("popup"), page.locator("a").first().click()]);
+  await until(viewer, ({ timeSecs, playing }) => timeSecs === 0.5 && !playing);
+  await viewer.evaluate(() => (globalThis.stays = true));
+  await page.locator("a").last().click();
+  await until(viewer, ({ clip, timeSecs, playing }) => clip === "Walk" && timeSecs === 0.25 && !playing);
+  assert.equal(await viewer.evaluate(() => globalThis.stays), true, "it is not loaded anew");
+  await viewer.close();
+  notes.stop();
+});
+
 test("a link is about a model of those that the address names, without one about the first", OWN, async (page) => {
   const sample = await readFile(SAMPLE, "utf8");
   // The larger one opens.

@@ -142,6 +142,9 @@ test("a newer build says so, is taken by a click and leaves the pages of the old
   await other.close();
   await host.stop();
   await visit(page, host);
+  for (const deadline = Date.now() + 30_000; Object.keys(await kept(page)).length > 1; await page.waitForTimeout(50)) {
+    assert.ok(Date.now() < deadline, "the older build is kept on");
+  }
   assert.equal(await buildOf(page), two);
 });
 

@@ -23,7 +23,7 @@ dist/ is complete: any folder of any host over HTTPS will do. Netlify and Cloudf
 pub(crate) fn made(files: &BTreeMap<String, Vec<u8>>) -> String {
     let mut text = format!(
         "/*\n  Content-Security-Policy: {CONTENT_SECURITY_POLICY}; {FRAME_ANCESTORS}\n  X-Content-Type-Options: nosniff\n  \
-         Referrer-Policy: no-referrer\n  Cross-Origin-Opener-Policy: same-origin\n  Access-Control-Allow-Origin: *\n"
+         Referrer-Policy: no-referrer\n  Access-Control-Allow-Origin: *\n"
     );
     let page = ("".to_owned(), "index.html");
     let all = files.keys().map(|name| (name.clone(), name.as_str()));

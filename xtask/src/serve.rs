@@ -207,7 +207,6 @@ fn respond(status: u16, address: &str, body: Body) -> Response {
     )
     .with("X-Content-Type-Options", "nosniff")
     .with("Referrer-Policy", "no-referrer")
-    .with("Cross-Origin-Opener-Policy", "same-origin")
     .with("Cache-Control", "no-cache")
     .with("Vary", "Accept-Encoding")
 }
