@@ -963,9 +963,9 @@ table! {
             "Name the picture in a material.";
         CLIPS_BONES_DIFFER = "clips-bones-differ", Error,
             "Clips can only be added from a file with the same bones.",
-            "The message says which bone differs first.",
+            "Where both files name bones, at least half of those that the clips move must have a name that the model has too; else all are the same, in the same order. The message says what differs.",
             "No clip is added.",
-            "Export the clips with the model's skeleton: the same bones in the same order.";
+            "Export the clips with the model's skeleton: with the same names, or without names with the same bones in the same order.";
         CLIPS_NONE = "clips-none", Error,
             "The file has no clips to add.",
             "Perhaps it was exported without its animation.",

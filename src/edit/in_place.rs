@@ -1,27 +1,27 @@
 //! Keeps a clip over where it starts: what walks away walks on the spot.
 //!
-//! The topmost joint that moves has its way over the ground taken out, in the model's space; up and down it goes as before.
+//! The topmost joint that goes over the ground has its way there taken out, in the model's space; up and down it goes as before. Joints above it are taken as
+//! they are at the start.
 
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 
 use super::edited::{Change, Edited, with_tracks};
 use super::error::EditError;
-use crate::model::{Clip, JointIndex, Model, Skeleton, Track, UpAxis};
+use crate::model::{Clip, JointIndex, Model, Track, UpAxis};
 
 /// A way over the ground that is less than this part of the model's reach is none.
 const LEAST_WAY: f64 = 1e-4;
 
-/// Keeps the clips of these names in place.
+/// Keeps the clips of these names in place, each once.
 pub(super) fn keep_in_place(edited: &mut Edited, names: &[String]) -> Result<(), EditError> {
-    for name in names {
+    for (place, name) in names.iter().enumerate() {
         let Some(index) = edited.model.clips.iter().position(|clip| clip.name == *name) else {
             return Err(EditError::no_clip(name, &edited.model.clips));
         };
-        let kept = in_place(&edited.model, &edited.model.clips[index]);
-        if let Some((clip, way)) = kept {
+        let is_first = !names[..place].contains(name);
+        if is_first && let Some((clip, change)) = in_place(&edited.model, &edited.model.clips[index]) {
             edited.model.clips[index] = clip;
-            let message = format!("\"{name}\" stays over where it starts; it went {way:.3} over the ground.");
-            edited.changes.push(Change::new("in-place", message));
+            edited.changes.push(change);
         }
     }
     Ok(())
@@ -43,42 +43,63 @@ pub fn leads_away(model: &Model, clip: &Clip) -> bool {
     walker(model, clip).is_some()
 }
 
+/// Of several the one with most joints below. One that leaves most others behind, such as a jaw or an arm, leads nothing away.
 fn walker(model: &Model, clip: &Clip) -> Option<Walker> {
-    let skeleton = &model.skeleton;
-    let root = root(skeleton, clip)?;
+    let (parents, rest) = (model.skeleton.parents(), model.skeleton.rest());
     let up = match model.up_axis {
         UpAxis::Y => DVec3::Y,
         UpAxis::Z => DVec3::Z,
     };
-    let above = model_from_parent(skeleton, root).matrix3;
-    let channel = clip.tracks[root.index()].translation();
-    let start = channel.at(clip.start_secs);
-    let over_ground = |place: Vec3| {
-        let way = above * (place - start).as_dvec3();
-        (way - up * way.dot(up)).length()
-    };
-    let way = channel
-        .values()
-        .iter()
-        .map(|&place| over_ground(place))
-        .fold(0.0, f64::max);
-    let reach: f64 = skeleton
-        .rest()
-        .iter()
-        .map(|rest| f64::from(rest.translation.length()))
+    // Of each joint: from its parent to the model, without its place, and how many are above it.
+    let mut above: Vec<(DMat3, usize)> = Vec::with_capacity(parents.len());
+    for parent in parents {
+        let of_parent = parent.map(|parent| (above[parent.index()], &clip.tracks[parent.index()]));
+        above.push(of_parent.map_or((DMat3::IDENTITY, 0), |((above, count), track)| {
+            let placed = track.at(clip.start_secs).parent_from_joint().as_daffine3();
+            (above * placed.matrix3, count + 1)
+        }));
+    }
+    let mut below = vec![1; parents.len()];
+    for (joint, parent) in parents.iter().enumerate().rev() {
+        if let Some(parent) = parent {
+            below[parent.index()] += below[joint];
+        }
+    }
+    let lengths = above.iter().zip(rest);
+    let reach: f64 = lengths
+        .map(|((above, _), rest)| (*above * rest.translation.as_dvec3()).length())
         .sum();
-    let walks = way > LEAST_WAY * reach && above.determinant() != 0.0;
-    walks.then_some(Walker {
-        root,
-        above,
-        up,
-        start,
-        way,
-    })
+    let mut is_led = vec![false; parents.len()];
+    let mut found: Option<Walker> = None;
+    for (joint, (above, above_count)) in above.into_iter().enumerate() {
+        is_led[joint] = parents[joint].is_some_and(|parent| is_led[parent.index()]);
+        let channel = clip.tracks[joint].translation();
+        let start = channel.at(clip.start_secs);
+        let over_ground = |&place: &Vec3| {
+            let way = above * (place - start).as_dvec3();
+            (way - up * way.dot(up)).length()
+        };
+        let way = channel.values().iter().map(over_ground).fold(0.0, f64::max);
+        // An arm has less than a third of a character.
+        let has_most = 3 * below[joint] >= parents.len() - above_count;
+        let leads = has_most && way > LEAST_WAY * reach && above.determinant() != 0.0;
+        let most = found.as_ref().map_or(0, |found| below[found.root.index()]);
+        if leads && !is_led[joint] && below[joint] > most {
+            found = Some(Walker {
+                root: JointIndex(joint as u32),
+                above,
+                up,
+                start,
+                way,
+            });
+        }
+        is_led[joint] |= leads;
+    }
+    found
 }
 
-/// The clip in place, and how far it went; `None` where it goes nowhere.
-pub fn in_place(model: &Model, clip: &Clip) -> Option<(Clip, f64)> {
+/// The clip in place, and what is otherwise then; `None` where it goes nowhere.
+pub fn in_place(model: &Model, clip: &Clip) -> Option<(Clip, Change)> {
     let Walker {
         root,
         above,
@@ -96,35 +117,9 @@ pub fn in_place(model: &Model, clip: &Clip) -> Option<(Clip, f64)> {
     let mut tracks = clip.tracks.clone();
     let track = &tracks[root.index()];
     tracks[root.index()] = Track::of_channels(translation, track.rotation().clone(), track.scale().clone());
-    Some((with_tracks(clip, tracks), way))
-}
-
-/// The topmost joint that a clip moves from its place; of several the one with most joints below.
-fn root(skeleton: &Skeleton, clip: &Clip) -> Option<JointIndex> {
-    let parents = skeleton.parents();
-    let mut below = vec![1u32; parents.len()];
-    for (joint, parent) in parents.iter().enumerate().rev() {
-        if let Some(parent) = parent {
-            below[parent.index()] += below[joint];
-        }
-    }
-    let moves = |joint: usize| clip.tracks[joint].translation().has_keys();
-    let mut is_below = vec![false; parents.len()];
-    for (joint, parent) in parents.iter().enumerate() {
-        is_below[joint] = parent.is_some_and(|parent| is_below[parent.index()] || moves(parent.index()));
-    }
-    let tops = (0..parents.len()).filter(|&joint| moves(joint) && !is_below[joint]);
-    tops.max_by_key(|&joint| (below[joint], std::cmp::Reverse(joint)))
-        .map(|joint| JointIndex(joint as u32))
-}
-
-/// Where the parent of a joint is at rest.
-fn model_from_parent(skeleton: &Skeleton, joint: JointIndex) -> DAffine3 {
-    let mut placed = DAffine3::IDENTITY;
-    let mut at = skeleton.parents()[joint.index()];
-    while let Some(parent) = at {
-        placed = skeleton.rest()[parent.index()].parent_from_joint().as_daffine3() * placed;
-        at = skeleton.parents()[parent.index()];
-    }
-    placed
+    let message = format!(
+        "\"{}\" stays over where it starts; it went {way:.3} over the ground.",
+        clip.name
+    );
+    Some((with_tracks(clip, tracks), Change::new("in-place", message)))
 }

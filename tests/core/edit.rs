@@ -3,10 +3,12 @@
 mod closing;
 mod fixing;
 mod for_book;
+mod in_place;
 mod naming;
 mod orders;
 mod ranges;
 mod reducing;
+mod retargeting;
 mod spaces;
 
 use bindpose::anim::{CompiledClip, PoseBuffers, SkinnedVertices, skin};

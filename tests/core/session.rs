@@ -11,6 +11,7 @@ mod ghosts;
 mod going_back;
 mod handing_over;
 mod history;
+mod in_place;
 mod joining;
 mod joints;
 mod link;

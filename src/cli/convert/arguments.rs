@@ -33,10 +33,14 @@ pub(in crate::cli) struct Arguments {
     /// Add the clips of another file, whose bones have the same names; may be given more than once.
     ///
     /// Names are compared without what stands before a colon, so that mixamorig:Hips and mixamorig1:Hips are one. Files of the books have no names: their
-    /// bones are taken in order. A clip that is called mixamo.com or Take 001 gets the name of its file.
+    /// bones are taken in order. A clip that is called mixamo.com, Take 001 or Scene, also behind a |, or has no name gets
+    /// that of its file.
     #[arg(long, value_name = "FILE")]
     pub(super) add_clips: Vec<PathBuf>,
     /// Keep this clip over where it starts: what walks away walks on the spot; may be given more than once.
+    ///
+    /// The topmost bone that goes over the ground is held; up and down it goes as before. One that --add-clips adds is called as there: where the clip is called
+    /// mixamo.com, Take 001 or Scene, by the name of its file.
     #[arg(long, value_name = "CLIP")]
     pub(super) in_place: Vec<String>,
     /// Mend what check names and can be mended without a choice.

@@ -1,7 +1,8 @@
 //! Animation stacks as clips: layers over each other, Euler angles as rotations, curves as keys of our channels.
 //!
-//! A stack is evaluated as FBX says; from what comes out a channel is made that is off from it by at most [`MOST_OFF`]: straight between the file's keys where
-//! that is enough, else a spline with as many keys as it takes. Channels that stay are at rest.
+//! A stack is evaluated as FBX says; from what comes out a channel is made that is off from it by at most [`MOST_OFF`] wherever it is looked at, at three places
+//! from key to key: held or straight between the file's keys where that is enough, else a spline. That has as many keys as it takes, up to 128 ways between two
+//! of the file's, while the file's evaluations last. Channels that stay are at rest.
 
 mod fitting;
 mod layers;
@@ -280,7 +281,7 @@ pub(super) async fn clips(
     }
     if file.evaluations_left.get() == 0 {
         let message =
-            "There are more curves than can be followed exactly; some are straight between their keys.".to_owned();
+            "There are more curves than can be followed exactly; some may be off between their keys.".to_owned();
         file.note(&codes::FBX_LEFT_OUT, message);
     }
     let layered = read.iter().filter(|(stack, _)| stack.layers.len() > 1).count();

@@ -1,10 +1,11 @@
-//! Clips that joined the model or were replaced, put back.
+//! Clips that stand where others stood: that joined the model, were replaced or are kept in place, and how they are put back.
 
 use std::sync::Arc;
 
 use super::open_model::{ClipFacts, JoinedFile, OpenModel};
 use crate::anim::CompiledClip;
 use crate::diagnostic::Diagnostic;
+use crate::edit;
 use crate::model::Clip;
 
 /// The clips that stood where others stand now.
@@ -21,7 +22,7 @@ pub(in crate::session) struct ClipSwap {
 
 /// A clip that is not in the list.
 #[derive(Clone, Debug)]
-struct KeptClip {
+pub(in crate::session) struct KeptClip {
     clip: Clip,
     compiled: CompiledClip,
     facts: ClipFacts,
@@ -55,8 +56,18 @@ impl ClipSwap {
     pub(in crate::session) fn deed<'a>(&'a self, now: &'a OpenModel) -> (&'static str, usize, &'a str) {
         let name = |clip: Option<&'a Clip>| clip.map_or("", |clip| clip.name.as_str());
         let of_now = name(now.model.clips.get(self.at));
+        let leads_away = |facts: Option<&ClipFacts>, clip: Option<&Clip>| {
+            let away = facts.and_then(|facts| facts.leading_away.as_ref());
+            away.is_some_and(|away| Some(&away.0) == clip)
+        };
         match self.clips.first() {
             Some(kept) if self.count_now == 0 => ("remove", self.clips.len(), name(Some(&kept.clip))),
+            Some(kept) if leads_away(now.clip_facts.get(self.at), Some(&kept.clip)) => {
+                ("in place:", self.count_now, of_now)
+            }
+            Some(kept) if leads_away(Some(&kept.facts), now.model.clips.get(self.at)) => {
+                ("no longer in place:", self.count_now, of_now)
+            }
             Some(_) => ("replace", self.count_now, of_now),
             None => ("add", self.count_now, of_now),
         }
@@ -72,6 +83,45 @@ impl OpenModel {
             facts: facts.clone(),
         });
         kept.map(Arc::new).collect()
+    }
+
+    /// A clip over where it starts, or as its file has it; `None` where it is so already, and for one that goes nowhere.
+    pub(in crate::session) fn placed(&self, index: usize, is_kept: bool) -> Option<KeptClip> {
+        let (clip, facts) = self.model.clips.get(index).zip(self.clip_facts.get(index))?;
+        let (clip, leading_away) = match (&facts.leading_away, is_kept) {
+            (None, true) => {
+                let (kept, change) = edit::in_place(&self.model, clip)?;
+                (kept, Some(Arc::new((clip.clone(), change))))
+            }
+            (Some(away), false) => (away.0.clone(), None),
+            _ => return None,
+        };
+        let (mut known, compiled) = (ClipFacts::of_file(&facts.file_name), CompiledClip::new(&clip));
+        (known.joined, known.leading_away) = (facts.joined, leading_away);
+        Some(KeptClip {
+            clip,
+            compiled,
+            facts: known,
+        })
+    }
+
+    /// Puts a clip in the place of one.
+    pub(in crate::session) fn put(&mut self, index: usize, KeptClip { clip, compiled, facts }: KeptClip) {
+        self.model.clips[index] = clip;
+        self.compiled[index] = compiled;
+        self.clip_facts[index] = facts;
+    }
+
+    /// Keeps in place what was so before, by the names of clips.
+    pub(in crate::session) fn keep_as_before(&mut self, before: &Self) {
+        for index in 0..self.model.clips.len() {
+            let mut kept = before.kept_in_place();
+            if kept.any(|(name, _)| *name == self.model.clips[index].name)
+                && let Some(placed) = self.placed(index, true)
+            {
+                self.put(index, placed);
+            }
+        }
     }
 
     /// Puts the clips back. Returns those that stood in their place.

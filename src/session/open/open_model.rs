@@ -82,8 +82,8 @@ pub(in crate::session) struct ClipFacts {
     pub(in crate::session) file_name: String,
     /// Whether it came from another file than the model.
     pub(in crate::session) joined: bool,
-    /// The clip as its file has it, where it is kept in place.
-    pub(in crate::session) leading_away: Option<Arc<Clip>>,
+    /// The clip as its file has it, where it is kept in place, and what is otherwise since.
+    pub(in crate::session) leading_away: Option<Arc<(Clip, Change)>>,
     extent: OnceLock<Extent>,
     key_times: OnceLock<Vec<f32>>,
     loop_gap: OnceLock<LoopGap>,
@@ -276,24 +276,10 @@ impl OpenModel {
         edit::leads_away(&self.model, &self.model.clips[clip])
     }
 
-    /// Keeps a clip over where it starts, or lets it go as its file has it.
-    pub(in crate::session) fn keep_in_place(&mut self, index: usize, is_kept: bool) {
-        let clip = &self.model.clips[index];
-        let facts = ClipFacts {
-            joined: self.clip_facts[index].joined,
-            ..ClipFacts::of_file(&self.clip_facts[index].file_name)
-        };
-        let (clip, leading_away) = match (&self.clip_facts[index].leading_away, is_kept) {
-            (None, true) => match edit::in_place(&self.model, clip) {
-                Some((kept, _)) => (kept, Some(Arc::new(clip.clone()))),
-                None => return,
-            },
-            (Some(away), false) => (Clip::clone(away), None),
-            _ => return,
-        };
-        self.compiled[index] = CompiledClip::new(&clip);
-        self.model.clips[index] = clip;
-        self.clip_facts[index] = ClipFacts { leading_away, ..facts };
+    /// The names of the clips that are kept in place, with what is otherwise in each.
+    pub(in crate::session) fn kept_in_place(&self) -> impl Iterator<Item = (&String, &Change)> {
+        let clips = self.model.clips.iter().zip(&self.clip_facts);
+        clips.filter_map(|(clip, facts)| Some((&clip.name, &facts.leading_away.as_ref()?.1)))
     }
 
     /// Length of the model's diagonal in the bind pose, in its own units: a mesh's, or else that of its joints; 1 where both

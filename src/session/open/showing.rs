@@ -79,11 +79,11 @@ impl Session {
         self.note(Event::Error);
     }
 
-    /// Shows another model, with all that belongs to it. The same file again keeps camera, clip, time and choices.
+    /// Shows another model, with all that belongs to it. The same file again keeps camera, clip, time and choices, and what is in place.
     fn replace_model(&mut self, loaded: Loaded) {
         let Loaded {
             files,
-            open,
+            mut open,
             maps,
             verdicts,
         } = loaded;
@@ -93,6 +93,9 @@ impl Session {
         let old = std::mem::take(&mut self.content);
         let before = old.open.filter(|old| old.file.base_name() == open.file.base_name());
         let again = before.is_some();
+        if let Some(before) = &before {
+            Arc::make_mut(&mut open).keep_as_before(before);
+        }
         if !before.as_ref().is_some_and(|before| self.history.fits(before, &open)) {
             self.history.clear();
         }
@@ -167,6 +170,7 @@ impl Session {
         let Some(open) = &mut self.content.open else {
             return;
         };
+        let was = Arc::clone(open);
         let open = Arc::make_mut(open);
         let had_clips = !open.model.clips.is_empty();
         let mut refused = read.is_empty().then(|| Box::new(LoadError::no_model(files)));
@@ -185,6 +189,7 @@ impl Session {
                 Err(error) => refused = refused.or(Some(error)),
             }
         }
+        open.keep_as_before(&was);
         self.instances.measure(open);
         match refused {
             Some(error) => self.fail(*error),
@@ -245,13 +250,15 @@ impl Session {
 
     /// Keeps a clip over where it starts, or lets it go.
     pub(in crate::session) fn keep_in_place(&mut self, clip: usize, is_kept: bool) {
+        let open = self.content.open.as_ref();
+        let Some(placed) = open.and_then(|open| open.placed(clip, is_kept)) else {
+            return;
+        };
         let before = self.shown_clips();
-        let Some(open) = &mut self.content.open else { return };
-        let facts = open.clip_facts.get(clip);
-        if facts.is_some_and(|facts| facts.leading_away.is_some() != is_kept) {
-            Arc::make_mut(open).keep_in_place(clip, is_kept);
-            self.show_clips_again(&before);
+        if let Some(open) = &mut self.content.open {
+            Arc::make_mut(open).put(clip, placed);
         }
+        self.show_clips_again(&before);
     }
 
     /// The wish that a cube map is the sky, unless it is.

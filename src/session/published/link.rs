@@ -197,11 +197,14 @@ impl Session {
         } = view;
         let hidden = selection.hidden_subsets.len();
         let trails = appearance.trails.len();
+        let in_place = playback.in_place.len();
         selection.hidden_subsets.retain(has_submesh);
         appearance.trails.retain(has_bone);
+        playback.in_place.retain(has_clip);
         let mut foreign = vec![
             ("hide", selection.hidden_subsets.len() < hidden),
             ("trails", appearance.trails.len() < trails),
+            ("inplace", playback.in_place.len() < in_place),
             ("bone", selection.bone.take_if(|bone| !has_bone(bone)).is_some()),
             (
                 "vertex",

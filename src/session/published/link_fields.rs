@@ -22,8 +22,10 @@ pub(super) enum Form {
     Number,
     /// An angle in radians, written in degrees.
     Degrees,
-    /// Names or numbers, with commas between them.
-    List,
+    /// Numbers with commas between them.
+    Numbers,
+    /// Names with commas between them; a number can be one.
+    Names,
     /// A name and a number.
     Pair,
     /// Numbers, by the names of the object's fields.
@@ -41,21 +43,21 @@ pub(super) const FIELDS: &[Field] = &[
     ("speed", "/view/playback/speed", Form::Number),
     ("loop", "/view/playback/loopMode", Form::Text),
     ("wrap", "/view/playback/wrapMode", Form::Text),
-    ("range", "/view/playback/rangeSecs", Form::List),
+    ("range", "/view/playback/rangeSecs", Form::Numbers),
     ("blend", "/view/playback/blend", Form::Pair),
-    ("inplace", "/view/playback/inPlace", Form::List),
+    ("inplace", "/view/playback/inPlace", Form::Names),
     ("fade", "/view/playback/crossfadeSecs", Form::Number),
     ("bind", "/view/playback/bindWeight", Form::Number),
     ("bone", "/view/selection/bone", Form::Number),
     ("vertex", "/view/selection/vertex", Form::Number),
     ("subset", "/view/selection/subset", Form::Number),
-    ("hide", "/view/selection/hiddenSubsets", Form::List),
+    ("hide", "/view/selection/hiddenSubsets", Form::Numbers),
     ("solo", "/view/selection/soloSubset", Form::Number),
     ("skin", "/view/appearance/skinView", Form::Text),
     ("bones", "/view/appearance/bonesVisible", Form::Flag),
     ("bonestyle", "/view/appearance/boneStyle", Form::Text),
     ("labels", "/view/appearance/labelsVisible", Form::Flag),
-    ("trails", "/view/appearance/trails", Form::List),
+    ("trails", "/view/appearance/trails", Form::Numbers),
     (
         "ghosts",
         "/view/appearance/ghosts",
@@ -66,7 +68,7 @@ pub(super) const FIELDS: &[Field] = &[
     ("split", "/view/appearance/split", Form::Number),
     ("view", "/view/appearance/viewMode", Form::Text),
     ("bg", "/view/appearance/background", Form::Color),
-    ("overlay", "/view/appearance/overlays", Form::List),
+    ("overlay", "/view/appearance/overlays", Form::Names),
     ("lines", "/view/appearance/lineLength", Form::Number),
     ("exposure", "/view/appearance/exposureStops", Form::Number),
     ("env", "/view/appearance/environmentTurnRadians", Form::Degrees),
@@ -81,7 +83,7 @@ pub(super) const FIELDS: &[Field] = &[
     ("ortho", "/view/camera/orthographic", Form::Flag),
     ("turntable", "/view/camera/turntable", Form::Flag),
     ("quality", "/quality", Form::Text),
-    ("panel", "/panels", Form::List),
+    ("panel", "/panels", Form::Names),
 ];
 
 /// The name of the field that says whether time moves.
@@ -106,7 +108,7 @@ impl Form {
             (Self::Flag, Value::Bool(flag)) => u8::from(*flag).to_string(),
             (Self::Number, Value::Number(_)) => number(value)?,
             (Self::Degrees, Value::Number(radians)) => degrees(radians.as_f64()? as f32),
-            (Self::List | Self::Pair, Value::Array(items)) => {
+            (Self::Numbers | Self::Names | Self::Pair, Value::Array(items)) => {
                 let items = items
                     .iter()
                     .map(|item| item.as_str().map(text).or_else(|| number(item)));
@@ -141,13 +143,9 @@ impl Form {
             },
             Self::Number => number(written)?,
             Self::Degrees => json!(read_degrees(written)?),
-            Self::List if written.is_empty() => json!([]),
-            Self::List => {
-                let items = written
-                    .split(',')
-                    .map(|item| number(item).or_else(|| Some(json!(text(item)?))));
-                Value::Array(items.collect::<Option<_>>()?)
-            }
+            Self::Numbers | Self::Names if written.is_empty() => json!([]),
+            Self::Numbers => Value::Array(written.split(',').map(number).collect::<Option<_>>()?),
+            Self::Names => json!(written.split(',').map(text).collect::<Option<Vec<_>>>()?),
             Self::Pair => {
                 let (name, weight) = written.rsplit_once(',')?;
                 json!([text(name)?, read_number(weight)?])

@@ -5,7 +5,6 @@ use crate::model::JointIndex;
 use crate::scene::Overlays;
 use crate::session::choose::selecting::{JointCommand, SubmeshCommand};
 use crate::session::look::LookCommand;
-use crate::session::open::open_model::OpenModel;
 use crate::session::play::mixer::Blend;
 use crate::session::{Event, Session};
 
@@ -19,10 +18,7 @@ impl Session {
             camera: CameraState::of(&self.view),
             crowd: self.crowd(),
             appearance: AppearanceState::of(&self.view, file_bones),
-            playback: PlaybackState {
-                in_place: self.clips_in_place(),
-                ..PlaybackState::of(&self.actor, self.content.clips())
-            },
+            playback: PlaybackState::of(&self.actor, open),
             selection: SelectionState {
                 bone: joints.selected().map(|joint| self.bone_number(joint)),
                 vertex: joints.selected_vertex().map(|selected| selected.vertex),
@@ -88,12 +84,6 @@ impl Session {
         view.look.set_book_lights_turn(state.book_lights_turn_radians);
         view.handedness = state.handedness;
         view.up_axis = state.up_axis;
-    }
-
-    fn clips_in_place(&self) -> Vec<String> {
-        let clips = self.open_model().into_iter().flat_map(OpenModel::clip_list);
-        let in_place = clips.filter(|clip| clip.in_place);
-        in_place.map(|clip| clip.name.to_owned()).collect()
     }
 
     fn restore_playback(&mut self, state: &PlaybackState) {

@@ -4,9 +4,10 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use crate::anim::{GhostPlan, LoopMode, SkinView, WrapMode};
-use crate::model::{Clip, Handedness, UpAxis};
+use crate::model::{Handedness, UpAxis};
 use crate::scene::{Background, BoneStyle, Camera, Light, MAX_PITCH_RADIANS, Overlay, Projection, ViewMode};
 use crate::session::look::view::View;
+use crate::session::open::open_model::OpenModel;
 use crate::session::play::actor::Actor;
 use crate::session::play::instances::CrowdState;
 
@@ -137,7 +138,7 @@ pub struct PlaybackState {
 
 impl Default for PlaybackState {
     fn default() -> Self {
-        Self::of(&Actor::default(), &[])
+        Self::of(&Actor::default(), None)
     }
 }
 
@@ -232,9 +233,10 @@ impl AppearanceState {
 }
 
 impl PlaybackState {
-    pub(in crate::session) fn of(actor: &Actor, clips: &[Clip]) -> Self {
+    pub(in crate::session) fn of(actor: &Actor, open: Option<&OpenModel>) -> Self {
         let (playback, mixer) = (&actor.player.playback, &actor.mixer);
-        let name = |clip: usize| Some(clips.get(clip)?.name.clone());
+        let name = |clip: usize| Some(open?.model.clips.get(clip)?.name.clone());
+        let in_place = open.into_iter().flat_map(OpenModel::kept_in_place);
         Self {
             clip: actor.player.clip.and_then(name),
             time_secs: playback.time_secs(),
@@ -245,7 +247,7 @@ impl PlaybackState {
             wrap_mode: playback.wrap_mode(),
             range_secs: playback.range_secs(),
             blend: mixer.blend().and_then(|blend| Some((name(blend.clip)?, blend.weight))),
-            in_place: Vec::new(),
+            in_place: in_place.map(|(name, _)| name.clone()).collect(),
             crossfade_secs: mixer.crossfade_secs(),
             bind_weight: actor.bind_weight,
         }

@@ -13,7 +13,7 @@ pub struct ExportOptions {
     pub format: ExportFormat,
     /// Names of the clips to keep; `None` keeps all.
     pub clips: Option<Vec<String>>,
-    /// Keeps all that stay over where they start.
+    /// Keeps all over where they start.
     pub in_place: bool,
     /// The part of the only clip to keep.
     pub range: ExportRange,

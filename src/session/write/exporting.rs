@@ -144,12 +144,8 @@ impl Session {
             message: "Green of normal maps is taken as it was chosen here.".to_owned(),
         });
         let (name, clips) = (open.file.base_name(), options.clips.as_deref());
-        let is_written = |name: &str| clips.is_none_or(|clips| clips.iter().any(|clip| clip == name));
-        let in_place = open.clip_list().filter(|clip| clip.in_place && is_written(clip.name));
-        let in_place = in_place.map(|clip| Change {
-            code: "in-place",
-            message: format!("\"{}\" stays over where it starts.", clip.name),
-        });
+        let is_written = |name: &String| clips.is_none_or(|clips| clips.contains(name));
+        let in_place = open.kept_in_place().filter(|(name, _)| is_written(name));
         let what = ToExport {
             turns_green: green_flipped || model.front == Front::Positive,
             model,
@@ -158,7 +154,7 @@ impl Session {
                 .mended(clips)
                 .chain(edited)
                 .chain(flipped)
-                .chain(in_place)
+                .chain(in_place.map(|(_, change)| change.clone()))
                 .collect(),
             losses: open.left_out(clips, options.format.dialect().is_none()).collect(),
             edits: self.edits(options),
@@ -176,10 +172,16 @@ impl Session {
     fn edits(&self, options: &ExportOptions) -> Edits {
         let is_of_book = options.format.dialect().is_some();
         let all = || self.content.clips().iter().map(|clip| clip.name.clone());
-        let kept = || options.clips.clone().unwrap_or_else(|| all().collect());
+        let chosen = || options.clips.clone().unwrap_or_else(|| all().collect());
+        // What is in place as it is shown stays as it is.
+        let is_kept = |name: &String| {
+            self.open_model()
+                .is_some_and(|open| open.kept_in_place().any(|(kept, _)| kept == name))
+        };
+        let to_keep = || chosen().into_iter().filter(|name| !is_kept(name)).collect();
         let edits = Edits {
             clips: options.clips.clone(),
-            in_place: if options.in_place { kept() } else { Vec::new() },
+            in_place: if options.in_place { to_keep() } else { Vec::new() },
             range_secs: match options.range {
                 ExportRange::Timeline => self.timeline_range(options.clips.as_deref()),
                 ExportRange::Whole => None,

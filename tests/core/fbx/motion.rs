@@ -2,7 +2,7 @@
 
 use bindpose::anim::{CompiledClip, PoseBuffers, skin_positions};
 use bindpose::edit::{Edits, apply, common_name};
-use bindpose::export::m3d;
+use bindpose::export::{MapImages, glb, m3d};
 use bindpose::format::Dialect;
 use bindpose::import::import;
 use bindpose::model::{Clip, JointIndex, JointNames, Model};
@@ -124,6 +124,82 @@ fn a_character_and_its_motions_open_as_one_model() {
             .count(),
         0
     );
+}
+
+/// The same model as `.glb`.
+fn as_glb(file: &File) -> File {
+    let model = import(&file.bytes).expect("it is sound").model;
+    let glb = glb(&model, &JointNames::default(), &MapImages::default()).expect("it can be written");
+    File::new(file.path.replace(".fbx", ".glb"), glb.bytes)
+}
+
+/// How far the joints of two clips of a model are apart at most, and how far the first moves them.
+fn apart(model: &Model, clips: [usize; 2]) -> (f32, f32) {
+    let compiled = clips.map(|clip| CompiledClip::new(&model.clips[clip]));
+    let (mut apart, mut way) = (0f32, 0f32);
+    let starts = posed(model, &compiled[0], model.clips[clips[0]].start_secs);
+    for part in 0..=10 {
+        let poses = [0, 1].map(|which| {
+            let clip = &model.clips[clips[which]];
+            posed(
+                model,
+                &compiled[which],
+                clip.start_secs + clip.duration_secs() * part as f32 / 10.0,
+            )
+        });
+        for (((_, start), (_, one)), (_, other)) in starts.iter().zip(&poses[0]).zip(&poses[1]) {
+            apart = apart.max(one.translation.distance(other.translation));
+            way = way.max(one.translation.distance(start.translation));
+        }
+    }
+    (apart, way)
+}
+
+#[test]
+fn motions_join_characters_of_the_other_format_by_names() {
+    let walking = fixture("walking.fbx");
+    let both = [as_glb(&walking), walking];
+    for character in [fixture("walker.fbx"), as_glb(&fixture("walker.fbx"))] {
+        let mut session = Session::default();
+        session.apply(FileCommand::Add(vec![character.clone()]));
+        for motion in &both {
+            session.apply(FileCommand::AddClips(vec![motion.clone()]));
+            assert_eq!(session.error(), None, "{} {}", character.path, motion.path);
+        }
+        let model = &session.open_model().expect("it opened").model;
+        assert_eq!(
+            names(&model.clips),
+            ["Scene", "walking", "walking (2)"],
+            "{}",
+            character.path
+        );
+        let (apart, way) = apart(model, [1, 2]);
+        assert!(apart < 1e-3 && way > 1.0, "{}: {apart} {way}", character.path);
+    }
+}
+
+#[test]
+fn a_motion_of_mixamo_joins_itself_in_the_other_format() {
+    let Some(folder) = crate::shared::shared("fbx/mixamo") else {
+        return;
+    };
+    let file = |name: &str| File::new(name, std::fs::read(folder.join(name)).expect("it is there"));
+    for [character, motion] in
+        [["fbx", "glb"], ["glb", "fbx"]].map(|kinds| kinds.map(|kind| file(&format!("Breathing Idle.{kind}"))))
+    {
+        let mut session = Session::default();
+        session.apply(FileCommand::Add(vec![character.clone()]));
+        session.apply(FileCommand::AddClips(vec![motion]));
+        assert_eq!(session.error(), None, "{}", character.path);
+        let open = session.open_model().expect("it opened");
+        let (apart, way) = apart(&open.model, [0, 1]);
+        let size = open.size();
+        assert!(
+            apart < 1e-3 * size && way > 0.01 * size,
+            "{}: {apart} {way} {size}",
+            character.path
+        );
+    }
 }
 
 #[test]
