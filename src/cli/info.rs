@@ -35,7 +35,7 @@ const JSON: &str = "\
 JSON: an object
   schemaVersion     1; it grows when a key changes its meaning or goes
   file              the path as given
-  dialect           \"d3d12\", \"d3d11\" or \"imm\"; \"glb\" or \"gltf\"
+  dialect           \"d3d12\", \"d3d11\", \"imm\" or \"txt\"; \"glb\" or \"gltf\"; \"fbx\" or \"fbx-text\"
   handedness        \"left\" or \"right\", found from the triangles
   up_axis           \"y\" or \"z\", as the dialect suggests
   counts            materials, vertices, triangles, bones, clips
@@ -66,7 +66,7 @@ JSON: an object
     message         one sentence
     line, column    place, both from 1; null when it is about the whole file
     json_pointer    what of a glTF file's JSON it is about, or null
-    byte_offset     place in a .glb file, in bytes from its start, or null
+    byte_offset     place in a .glb or binary .fbx file, in bytes from its start, or null
     expected, found   what belonged there and what stood there, in a few words, or null
     subject           the part of the model that it is about, or null: kind (\"material\", \"subset\", \"vertex\",
                       \"triangle\", \"bone\" or \"clip\") and index, its number in the file from 0

@@ -25,10 +25,13 @@ pub(super) fn read_all(path: &Path) -> Result<Vec<File>, Failure> {
     Ok(std::iter::once(model).chain(beside).collect())
 }
 
-/// The bytes of a file that a model names by a relative path. Only regular files are opened: opening a pipe would wait for a writer.
+/// The bytes of a file that a model names by a relative path, or else that of its base name in the folder `NAME.fbm`, into which programs unpack the
+/// pictures of `NAME.fbx`. Only regular files are opened: opening a pipe would wait for a writer.
 pub(super) fn beside(model: &Path, name: &str) -> Option<bytes::Bytes> {
-    let path = model.parent()?.join(name);
-    path.is_file().then(|| paths::read_file(&path).ok())?.map(Into::into)
+    let unpacked = model.with_extension("fbm").join(Path::new(name).file_name()?);
+    let mut places = [model.parent()?.join(name), unpacked].into_iter();
+    let path = places.find(|path| path.is_file())?;
+    Some(paths::read_file(&path).ok()?.into())
 }
 
 /// A model that can be shown. It has its name where that is a model's.

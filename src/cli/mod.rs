@@ -32,7 +32,7 @@ use clap::{Parser, Subcommand};
 use failure::{Failure, Outcome};
 use output::UntilClosed;
 
-/// Looks at skinned models: .m3d, the text format of Frank Luna's DirectX books, and glTF.
+/// Looks at skinned models: .m3d, the text format of Frank Luna's DirectX books, glTF and FBX.
 #[derive(Debug, Parser)]
 #[command(name = "bindpose", version, after_help = EXIT_CODES)]
 struct Arguments {

@@ -43,7 +43,7 @@ const JSON: &str = "\
 JSON: an object
   schemaVersion  1; it grows when a key changes its meaning or goes
   clip        name of the clip; null for a model without clips, which is shown at rest: as it was bound, or as its
-              glTF file has it
+              glTF or FBX file has it
   time_secs   the time as asked for
   palette     array: for each bone, in the file's order, sixteen numbers, row by row, for row vectors
   positions   only with --positions: for each vertex, in the file's order, [x, y, z] after skinning,

@@ -2,8 +2,10 @@
 
 use std::cell::Cell;
 
+use super::document::Value;
 use super::place::Place;
 use crate::diagnostic::Fault;
+use crate::diagnostic::collect::counted;
 
 /// What deflate makes of a byte at most: <https://zlib.net/zlib_tech.html>.
 const MOST_GROWTH: u64 = 1032;
@@ -45,6 +47,40 @@ pub(super) enum Content<'a> {
     Numbers(Vec<f64>),
 }
 
+impl Content<'_> {
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Self::Packed { count, .. } => *count as usize,
+            Self::Integers(integers) => integers.len(),
+            Self::Numbers(numbers) => numbers.len(),
+        }
+    }
+
+    /// Adds a number to those of text: they are whole ones as long as all are. Gives whether the value is one.
+    pub(super) fn push(&mut self, value: &Value<'_>) -> bool {
+        match (&mut *self, value) {
+            (Self::Integers(integers), Value::Integer(integer)) => integers.push(*integer),
+            (Self::Integers(integers), Value::Number(number)) => {
+                let numbers = integers.iter().map(|&integer| integer as f64);
+                *self = Self::Numbers(numbers.chain([*number]).collect());
+            }
+            (Self::Numbers(numbers), Value::Integer(integer)) => numbers.push(*integer as f64),
+            (Self::Numbers(numbers), Value::Number(number)) => numbers.push(*number),
+            _ => return false,
+        }
+        true
+    }
+
+    /// The numbers of text as single ones.
+    pub(super) fn into_values<'v>(self) -> Vec<Value<'v>> {
+        match self {
+            Self::Packed { .. } => Vec::new(),
+            Self::Integers(integers) => integers.into_iter().map(Value::Integer).collect(),
+            Self::Numbers(numbers) => numbers.into_iter().map(Value::Number).collect(),
+        }
+    }
+}
+
 /// How many bytes the arrays of a file may still become, and what is made of them.
 #[derive(Debug)]
 pub struct Budget {
@@ -53,7 +89,7 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// For a file of so many bytes: a least one, and so many times the file for each of both.
+    /// For a file of so many bytes: each of both is 64 MiB, and twenty times the file.
     pub fn of_file(len: usize) -> Self {
         const LEAST: u64 = 64 << 20;
         const GROWTH: u64 = 20;
@@ -90,11 +126,7 @@ fn take(from: &Cell<u64>, bytes: u64, place: Place) -> Result<(), Fault> {
 impl Array<'_> {
     /// How many numbers it says to have.
     pub fn len(&self) -> usize {
-        match &self.0 {
-            Content::Packed { count, .. } => *count as usize,
-            Content::Integers(integers) => integers.len(),
-            Content::Numbers(numbers) => numbers.len(),
-        }
+        self.0.len()
     }
 
     /// Whether it has none.
@@ -164,7 +196,10 @@ impl Array<'_> {
         };
         let len = u64::from(*count) * element.size() as u64;
         let at = Place::Offset(*offset);
-        let wrong = |found: String| at.damaged(format!("An array of {count} numbers takes {len} bytes; {found}."));
+        let wrong = |found: String| {
+            let numbers = counted(*count as usize, "number", "numbers");
+            at.damaged(format!("An array of {numbers} takes {len} bytes; {found}."))
+        };
         budget.unpack(len, place)?;
         if !is_deflated {
             if bytes.len() as u64 != len {

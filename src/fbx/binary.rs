@@ -6,6 +6,7 @@ use super::array::{Array, Content, Element};
 use super::document::{Document, Growing, Record, Value, check_version};
 use super::place::Place;
 use crate::diagnostic::Fault;
+use crate::diagnostic::collect::counted;
 use crate::slices::Slices;
 
 pub(super) const MAGIC: &[u8] = b"Kaydara FBX Binary  \0";
@@ -86,7 +87,8 @@ impl<'a> Reader<'a> {
         let taken = taken.ok_or_else(|| {
             let left = self.bytes.len().saturating_sub(self.at);
             self.place().damaged(format!(
-                "The file ends here: {len} bytes are needed, and {left} are left."
+                "The file ends here: {} needed, and {left} left.",
+                counted(len, "byte is", "bytes are")
             ))
         })?;
         self.at += len;
@@ -126,7 +128,8 @@ impl<'a> Reader<'a> {
         let is_within = |end: u64| end > self.at as u64 && end <= limit as u64;
         if !is_within(end) || values_len > end - self.at as u64 {
             return Err(place.damaged(format!(
-                "A record says that it ends at byte {end} with {values_len} bytes of values; what it lies in ends at byte {limit}."
+                "A record says that it ends at byte {end} with {} of values; what it lies in ends at byte {limit}.",
+                counted(values_len as usize, "byte", "bytes")
             )));
         }
         Ok(Some(Head {
@@ -147,9 +150,8 @@ impl<'a> Reader<'a> {
         }
         if self.at != values_end || values_end > head.end {
             return Err(place.damaged(format!(
-                "The {} values of {name} take {} bytes more or fewer than it says.",
-                head.value_count,
-                self.at.abs_diff(values_end)
+                "The values of {name} take {} more or fewer than the record says.",
+                counted(self.at.abs_diff(values_end), "byte", "bytes")
             )));
         }
         Ok(Record {

@@ -131,13 +131,7 @@ impl<'a> Reader<'a> {
     /// What stands up to a character that ends a word.
     fn word(&mut self) -> &'a [u8] {
         let rest = &self.bytes[self.at..];
-        let ends = |byte: &u8| {
-            matches!(
-                byte,
-                b' ' | b'\t' | b'\r' | b'\n' | b',' | b':' | b'{' | b'}' | b'"' | b';' | b'*'
-            )
-        };
-        let len = rest.iter().position(ends).unwrap_or(rest.len());
+        let len = rest.iter().position(ends_word).unwrap_or(rest.len());
         self.at += len;
         &rest[..len]
     }
@@ -167,39 +161,38 @@ impl<'a> Reader<'a> {
 
     /// The values behind a colon. They go on in other lines where a comma stands between.
     fn values(&mut self) -> Result<Vec<Value<'a>>, Fault> {
-        let mut values = Vec::new();
         // Some begin in the next line, where no record begins with such a character.
-        let mut is_next_line = self.skip_space() && !matches!(self.peek(), Some(b'0'..=b'9' | b'-' | b'"' | b'*'));
+        let is_next_line = self.skip_space() && !matches!(self.peek(), Some(b'0'..=b'9' | b'-' | b'"' | b'*'));
         // `Content: ,` begins with one.
         let mut has_comma = self.pass_comma();
-        while has_comma || (values.is_empty() && !is_next_line) {
-            match self.peek() {
+        let mut begins = !is_next_line;
+        let mut values = Vec::new();
+        // Numbers in a row, once they are too many for single ones.
+        let mut row: Option<Content<'a>> = None;
+        while has_comma || begins {
+            begins = false;
+            let value = match self.peek() {
                 None | Some(b'{' | b'}') => break,
-                // One that has no values.
-                Some(_) if self.is_at_record() => break,
-                Some(_) => values.push(self.value()?),
+                Some(_) => match self.plain_number() {
+                    Some(number) => number,
+                    // One that has no values.
+                    None if self.is_at_record() => break,
+                    None => self.value()?,
+                },
+            };
+            if !row.as_mut().is_some_and(|row| row.push(&value)) {
+                values.extend(row.take().into_iter().flat_map(Content::into_values));
+                values.push(value);
+                if values.len() == MOST_SINGLE + 1 {
+                    row = Some(numbers_of(&values)).filter(|row| row.len() == values.len());
+                    values.truncate(if row.is_some() { 0 } else { values.len() });
+                }
             }
-            is_next_line = self.skip_space();
+            self.skip_space();
             has_comma = self.pass_comma();
         }
-        if values.len() <= MOST_SINGLE {
-            return Ok(values);
-        }
-        let integers = values.iter().map(|value| match value {
-            Value::Integer(integer) => Some(*integer),
-            _ => None,
-        });
-        let numbers = values.iter().map(|value| match value {
-            Value::Integer(integer) => Some(*integer as f64),
-            Value::Number(number) => Some(*number),
-            _ => None,
-        });
-        let integers: Option<Vec<_>> = integers.collect();
-        let content = integers
-            .map(Content::Integers)
-            .or_else(|| numbers.collect::<Option<_>>().map(Content::Numbers));
-        Ok(match content {
-            Some(content) => vec![Value::Array(Array(content))],
+        Ok(match row {
+            Some(row) => vec![Value::Array(Array(row))],
             None => values,
         })
     }
@@ -223,6 +216,35 @@ impl<'a> Reader<'a> {
         has_comma
     }
 
+    /// A number as most are, if one stands here; passes it. All others are words first.
+    fn plain_number(&mut self) -> Option<Value<'a>> {
+        /// So many digits are always an `i64`.
+        const MOST_DIGITS: usize = 18;
+        let rest = &self.bytes[self.at..];
+        let is_negative = rest.first() == Some(&b'-');
+        let start = usize::from(is_negative);
+        let mut end = start;
+        let mut whole = 0i64;
+        while let Some(digit @ b'0'..=b'9') = rest.get(end)
+            && end - start < MOST_DIGITS
+        {
+            whole = whole * 10 + i64::from(digit - b'0');
+            end += 1;
+        }
+        let value = match rest.get(end) {
+            _ if end == start => return None,
+            Some(b'.' | b'e' | b'E') => {
+                let (number, len) = fast_float2::parse_partial(rest).ok()?;
+                end = len;
+                Value::Number(number)
+            }
+            _ => Value::Integer(if is_negative { -whole } else { whole }),
+        };
+        let is_whole = rest.get(end).is_none_or(|next| *next != b':' && ends_word(next));
+        self.at += if is_whole { end } else { 0 };
+        is_whole.then_some(value)
+    }
+
     fn value(&mut self) -> Result<Value<'a>, Fault> {
         let place = self.place();
         match self.peek() {
@@ -236,7 +258,11 @@ impl<'a> Reader<'a> {
                         .map_or_else(String::new, |byte| char::from(byte).escape_default().to_string());
                     return Err(place.damaged(format!("A value was expected, and \"{found}\" stands here.")));
                 }
-                Ok(number(word).unwrap_or(Value::Text(Cow::Borrowed(word))))
+                Ok(match number(word) {
+                    Some(number) => number,
+                    None if self.in_array => not_finite(word).map_or(Value::Text(Cow::Borrowed(word)), Value::Number),
+                    None => Value::Text(Cow::Borrowed(word)),
+                })
             }
         }
     }
@@ -291,8 +317,8 @@ impl<'a> Reader<'a> {
         self.in_array = false;
         let array = match <[Value<'a>; 1]>::try_from(values) {
             Ok([Value::Array(array)]) => array,
-            Ok([single]) => numbers_of(vec![single]),
-            Err(values) => numbers_of(values),
+            Ok(single) => Array(numbers_of(&single)),
+            Err(values) => Array(numbers_of(&values)),
         };
         let said = std::str::from_utf8(count)
             .ok()
@@ -308,15 +334,21 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// An array of few values; those that are no numbers are left out, so that their count tells of them.
-fn numbers_of(values: Vec<Value<'_>>) -> Array<'static> {
-    let numbers = values.into_iter().filter_map(|value| match value {
-        Value::Integer(integer) => Some(integer as f64),
-        Value::Number(number) => Some(number),
-        Value::Text(word) => not_finite(&word),
-        Value::Array(_) => None,
-    });
-    Array(Content::Numbers(numbers.collect()))
+/// Values as a row of numbers; those that are none are left out, so that their count tells of them.
+fn numbers_of(values: &[Value<'_>]) -> Content<'static> {
+    let mut row = Content::Integers(Vec::new());
+    for value in values {
+        row.push(value);
+    }
+    row
+}
+
+/// Whether a word ends before this character.
+fn ends_word(byte: &u8) -> bool {
+    matches!(
+        byte,
+        b' ' | b'\t' | b'\r' | b'\n' | b',' | b':' | b'{' | b'}' | b'"' | b';' | b'*'
+    )
 }
 
 /// A number, whole or not; `None` for a word. Some writers have `1.#INF`.

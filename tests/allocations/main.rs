@@ -1,4 +1,9 @@
-//! While a clip plays, frames allocate nothing: all that a frame fills is kept for the next. What wgpu and egui allocate is theirs.
+//! While a clip plays, frames allocate nothing: all that a frame fills is kept for the next. What wgpu and egui allocate is theirs. Reading damaged files
+//! takes memory by their size.
+
+mod fbx;
+#[path = "../common/shared.rs"]
+mod shared;
 
 use std::alloc::System;
 use std::hint::black_box;
@@ -16,18 +21,30 @@ const FRAME_SECS: f32 = 1.0 / 60.0;
 const WARMING_FRAMES: u32 = 300;
 const FRAMES: u32 = 300;
 
-/// How often this thread asked for memory during some work.
-fn allocations(work: impl FnOnce()) -> u64 {
+/// What this thread asked for during some work.
+struct Measured {
+    allocations: u64,
+    /// The most that was held at once.
+    peak_bytes: u64,
+}
+
+fn measured(work: impl FnOnce()) -> Measured {
     let tracker = Tracker::new().no_stdout().no_file();
     let operation = tracker.operation("frames");
     let span = operation.measure_thread().iterations(1);
     work();
     drop(span);
     let report = tracker.to_report();
-    report
-        .operations()
-        .map(|(_, operation)| operation.total_allocations_count())
-        .sum()
+    let (_, operation) = report.operations().next().expect("it was measured");
+    Measured {
+        allocations: operation.total_allocations_count(),
+        peak_bytes: operation.peak_outstanding_bytes().expect("of one thread") as u64,
+    }
+}
+
+/// How often this thread asked for memory during some work.
+fn allocations(work: impl FnOnce()) -> u64 {
+    measured(work).allocations
 }
 
 /// The sample, with what these commands make of it.
@@ -58,6 +75,10 @@ fn frame(session: &mut Session) -> u64 {
 fn what_allocates_is_counted() {
     assert_eq!(allocations(|| drop(black_box(Vec::<u8>::with_capacity(8)))), 1);
     assert_eq!(allocations(|| ()), 0);
+    assert_eq!(
+        measured(|| drop(black_box(Vec::<u8>::with_capacity(800)))).peak_bytes,
+        800
+    );
 }
 
 #[test]

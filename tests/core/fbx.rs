@@ -1,7 +1,10 @@
 //! FBX as its files have it.
 
+mod damage;
+mod materials;
 mod motion;
 mod oracle;
+mod polygons;
 mod surface;
 
 use bindpose::diagnostic::{Fault, Position};

@@ -76,7 +76,7 @@ enum When {
 const OUTPUT: &str = "\
 Text:
   FILE:LINE:COLUMN: SEVERITY[CODE]: MESSAGE
-  and the line of the file with a mark under the place; without :LINE:COLUMN when it is about the whole file.
+  and the line of the file with a mark under the place; in a binary file @BYTE for :LINE:COLUMN, and neither when it is about the whole file.
   Findings come in the order of the file. Many alike are one, with the lines of the next few below it.
   Last stands how to write the file without what was mended, or can be.
   Of a folder every .m3d, .glb, .gltf and .fbx file below it is read, by path. After several files, or none, comes a line with counts.
@@ -92,7 +92,7 @@ JSON: an array with one object for each file
     message           one sentence
     line, column      place, both from 1, the column in bytes; null when it is about the whole file
     json_pointer      what of a glTF file's JSON it is about, or null
-    byte_offset       place in a .glb file, in bytes from its start, or null
+    byte_offset       place in a .glb or binary .fbx file, in bytes from its start, or null
     expected, found   what belonged there and what stood there, in a few words, or null
     subject           the part of the model that it is about, or null: kind (\"material\", \"subset\", \"vertex\",
                       \"triangle\", \"bone\", \"clip\" or \"map\") and index, its number in the file from 0; maps
@@ -110,7 +110,7 @@ JSON: an array with one object for each file
       shows           what one then sees
       ends            whether its demo ends before it shows anything
       limits          what the demo cannot show as it is meant: code and message of each
-    converted         of a glTF file, which the books' programs do not read; else null
+    converted         of a glTF or FBX file, which the books' programs do not read; else null
       fits            whether `convert --for-book` makes one of it that the demos have room for
       limits          what it exceeds there: code and message of each
   error               why the file could not be read, or null
@@ -124,7 +124,7 @@ pictures that no material names.
 A file that cannot be read is named on standard error; the others are still checked.
 
 --deny warnings counts warnings, and a folder without a model. --deny book counts, with --book, a file that the book's
-program does not read or with which its demo ends, also where --textures lacks a map; of a glTF file, one that does not fit
+program does not read or with which its demo ends, also where --textures lacks a map; of a glTF or FBX file, one that does not fit
 once it is converted. --deny CODE counts a finding of this code, also of a book. --allow CODE takes findings out of all that.
 
 Exit codes:

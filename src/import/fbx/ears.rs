@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use glam::{DVec2, DVec3, Vec3};
 
-/// The corners of an outline by where they are, so that a triangle meets few that are far from it.
+/// Corners of an outline by where they are, so that a triangle meets few that are far from it.
 struct Grid {
     least: DVec2,
     cells_per_length: DVec2,
@@ -15,25 +15,26 @@ struct Grid {
 }
 
 impl Grid {
-    fn of(points: &[DVec2]) -> Self {
+    fn of(corners: &[u32], points: &[DVec2]) -> Self {
         const MOST_CELLS_PER_SIDE: usize = 512;
-        let least = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
-        let most = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
-        let side = points.len().isqrt().clamp(1, MOST_CELLS_PER_SIDE);
+        let places = || corners.iter().map(|&corner| points[corner as usize]);
+        let least = places().fold(DVec2::INFINITY, DVec2::min);
+        let most = places().fold(DVec2::NEG_INFINITY, DVec2::max);
+        let side = corners.len().isqrt().clamp(1, MOST_CELLS_PER_SIDE);
         let mut grid = Self {
             least,
             cells_per_length: side as f64 / (most - least).max(DVec2::splat(f64::MIN_POSITIVE)),
             side,
             starts: vec![0; side * side + 1],
-            corners: vec![0; points.len()],
+            corners: vec![0; corners.len()],
         };
-        let cells: Vec<usize> = points.iter().map(|&point| grid.index(grid.cell(point))).collect();
+        let cells: Vec<usize> = places().map(|point| grid.index(grid.cell(point))).collect();
         cells.iter().for_each(|&cell| grid.starts[cell + 1] += 1);
         for cell in 0..side * side {
             grid.starts[cell + 1] += grid.starts[cell];
         }
         let mut free = grid.starts.clone();
-        for (corner, &cell) in (0u32..).zip(&cells) {
+        for (&corner, &cell) in corners.iter().zip(&cells) {
             grid.corners[free[cell] as usize] = corner;
             free[cell] += 1;
         }
@@ -68,7 +69,12 @@ struct Outline {
     points: Vec<DVec2>,
     before: Vec<u32>,
     after: Vec<u32>,
+    /// The corners that bend inwards or not at all: where another one lies in an ear, so does one of these.
     grid: Grid,
+}
+
+fn side(from: DVec2, to: DVec2, point: DVec2) -> f64 {
+    (to - from).perp_dot(point - from)
 }
 
 /// The corner behind one that was cut off.
@@ -92,10 +98,17 @@ impl Outline {
         };
         let points: Vec<DVec2> = places.iter().map(flat).map(turned).collect();
         let count = points.len() as u32;
+        let before: Vec<u32> = (0..count).map(|corner| (corner + count - 1) % count).collect();
+        let after: Vec<u32> = (0..count).map(|corner| (corner + 1) % count).collect();
+        let bends_outwards = |corner: u32| {
+            let [a, b, c] = [before[corner as usize], corner, after[corner as usize]].map(|at| points[at as usize]);
+            side(a, b, c) > 0.0
+        };
+        let others: Vec<u32> = (0..count).filter(|&corner| !bends_outwards(corner)).collect();
         Self {
-            grid: Grid::of(&points),
-            before: (0..count).map(|corner| (corner + count - 1) % count).collect(),
-            after: (0..count).map(|corner| (corner + 1) % count).collect(),
+            grid: Grid::of(&others, &points),
+            before,
+            after,
             points,
         }
     }
@@ -103,7 +116,6 @@ impl Outline {
     /// Whether a corner can be cut off: it bends outwards, and no other corner lies in it.
     fn is_ear(&self, corners: [u32; 3], tests_left: &Cell<u64>) -> bool {
         let point = |corner: u32| self.points[corner as usize];
-        let side = |from: DVec2, to: DVec2, point: DVec2| (to - from).perp_dot(point - from);
         let ends @ [a, b, c] = corners.map(point);
         tests_left.set(tests_left.get().saturating_sub(1));
         if side(a, b, c) <= 0.0 {
@@ -126,17 +138,21 @@ impl Outline {
     }
 }
 
-/// Cuts a polygon into triangles whose corners run as its own do. `tests_left` is how many corners may still be looked at: what is left of the polygon then is cut
-/// like a fan, as one without an area is.
+/// How many corners each corner of a polygon may have looked at, whatever others took.
+const OWN_TESTS: u64 = 64;
+
+/// Cuts a polygon into triangles whose corners run as its own do. `tests_left` is how many corners may still be looked at beside those that are the polygon's own.
+/// What is left when there are none is cut like a fan, and so is a polygon without an area; one that crosses itself is cut at corners that are no ears. Gives
+/// whether none of that was so.
 pub(super) fn triangulate(
     polygon: &[u32],
     positions: &[[f32; 3]],
     triangles: &mut Vec<[u32; 3]>,
     tests_left: &Cell<u64>,
-) {
+) -> bool {
     if let &[a, b, c] = polygon {
         triangles.push([a, b, c]);
-        return;
+        return true;
     }
     let places: Vec<DVec3> = polygon
         .iter()
@@ -148,26 +164,33 @@ pub(super) fn triangulate(
         .sum();
     if normal == DVec3::ZERO {
         triangles.extend((2..polygon.len()).map(|at| [polygon[0], polygon[at - 1], polygon[at]]));
-        return;
+        return false;
     }
     let mut outline = Outline::new(&places, normal);
     let vertices = |corners: [u32; 3]| corners.map(|corner| polygon[corner as usize]);
-    let (mut corner, mut left, mut tried) = (0u32, polygon.len(), 0);
+    let of_file = tests_left.get();
+    tests_left.set(of_file + OWN_TESTS * polygon.len() as u64);
+    let (mut corner, mut left, mut tried, mut is_whole) = (0u32, polygon.len(), 0, true);
     while left > 3 && tests_left.get() > 0 {
-        let ear @ [before, _, after] = [outline.before[corner as usize], corner, outline.after[corner as usize]];
+        let ear @ [_, _, after] = [outline.before[corner as usize], corner, outline.after[corner as usize]];
         // An outline that crosses itself has no ear at the end.
-        if tried >= left || outline.is_ear(ear, tests_left) {
+        let has_ear = tried < left;
+        if !has_ear || outline.is_ear(ear, tests_left) {
             triangles.push(vertices(ear));
             outline.cut(ear);
-            (corner, left, tried) = (before, left - 1, 0);
+            is_whole &= has_ear;
+            // The next ear does not share the new side, where it can be so: triangles stay small.
+            (corner, left, tried) = (outline.after[after as usize], left - 1, 0);
         } else {
             (corner, tried) = (after, tried + 1);
         }
     }
+    tests_left.set(tests_left.get().min(of_file));
     let mut second = outline.after[corner as usize];
     for _ in 2..left {
         let third = outline.after[second as usize];
         triangles.push(vertices([corner, second, third]));
         second = third;
     }
+    is_whole && left == 3
 }

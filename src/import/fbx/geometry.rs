@@ -189,7 +189,7 @@ pub(super) async fn read(
     let mut known: HashMap<(u32, [Option<usize>; 5]), u32> = HashMap::new();
     let mut parts: HashMap<usize, usize> = HashMap::new();
     let mut of_polygon: Vec<u32> = Vec::new();
-    let mut without_values = 0;
+    let (mut without_values, mut not_whole) = (0, 0);
     for (polygon, range) in polygons(&corners).enumerate() {
         slices.pause_before(polygon).await;
         of_polygon.clear();
@@ -233,26 +233,26 @@ pub(super) async fn read(
                 triangles: Vec::new(),
             });
         }
-        let positions = &geometry.vertices.positions;
-        triangulate(
-            &of_polygon,
-            positions,
-            &mut geometry.parts[part].triangles,
-            &file.ear_tests_left,
-        );
+        let (positions, triangles) = (&geometry.vertices.positions, &mut geometry.parts[part].triangles);
+        not_whole += usize::from(!triangulate(&of_polygon, positions, triangles, &file.ear_tests_left));
     }
     geometry.parts.sort_by_key(|part| part.material);
     let open = corners.iter().rev().take_while(|corner| **corner >= 0).count();
-    let corner = ["corner", "corners"];
-    for (count, what) in [
+    for (count, [one, many], what) in [
         (
             without_values,
-            "a normal, a texture coordinate, a colour or a tangent that is not there; 0 stands in",
+            ["corner", "corners"],
+            "without a normal, a texture coordinate, a colour or a tangent; 0 is taken, and white as a colour",
         ),
-        (open, "no polygon that ends; left out"),
+        (open, ["corner", "corners"], "behind the last polygon; left out"),
+        (
+            not_whole,
+            ["polygon", "polygons"],
+            "without an area, with sides that cross or with too many corners; triangles may overlap",
+        ),
     ] {
         if count > 0 {
-            let message = format!("{} of \"{name}\" with {what}.", counted(count, corner[0], corner[1]));
+            let message = format!("{} of \"{name}\" {what}.", counted(count, one, many));
             file.note_of(record.place, &codes::FBX_RULE_BROKEN, message);
         }
     }

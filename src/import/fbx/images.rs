@@ -26,13 +26,13 @@ impl Images {
         // Textures of one picture share it.
         let mut paths: Vec<String> = Vec::new();
         let mut inside: Vec<Option<Cow<'_, [u8]>>> = Vec::new();
-        let mut known: HashMap<String, usize> = HashMap::new();
+        let mut known: HashMap<Result<ObjectIndex, String>, usize> = HashMap::new();
         let mut of_texture = Vec::with_capacity(textures.len());
         for (index, texture) in textures {
             let Some(path) = path(objects, texture) else { continue };
             // What lies in the file is one picture, whatever its textures call it.
             let video = with_content(objects, texture);
-            let key = video.map_or_else(|| path.to_lowercase(), |(video, _)| format!("#{}", video.index()));
+            let key = video.map(|(video, _)| video).ok_or_else(|| path.to_lowercase());
             let place = *known.entry(key).or_insert(paths.len());
             if place == paths.len() {
                 inside.push(video.and_then(|(_, record)| content(record)));

@@ -35,15 +35,19 @@ mod names {
         "Maya|specularRoughness",
         "3dsMax|Parameters|roughness",
         "3dsMax|main|roughness",
+        "3dsMax|main|glossiness",
+        "3dsMax|main|Glossiness",
     ];
-    pub(super) const GLOSSINESS: &[&str] = &["3dsMax|main|glossiness", "3dsMax|main|Glossiness"];
-    pub(super) const EMISSIVE: &[&str] = &[
-        "Maya|emissive",
-        "Maya|emissionColor",
-        "3dsMax|Parameters|emit_color",
-        "3dsMax|main|emit_color",
-        "EmissiveColor",
-        "Emissive",
+    /// 1 where the number is glossiness.
+    pub(super) const IS_GLOSSINESS: &[&str] = &["3dsMax|Parameters|roughness_inv", "3dsMax|main|useGlossiness"];
+    /// Each with how much of it there is.
+    pub(super) const EMISSIVE: &[[&str; 2]] = &[
+        ["Maya|emissive", "Maya|emissive_intensity"],
+        ["Maya|emissionColor", "Maya|emission"],
+        ["3dsMax|Parameters|emit_color", "3dsMax|Parameters|emission"],
+        ["3dsMax|main|emit_color", ""],
+        ["EmissiveColor", "EmissiveFactor"],
+        ["Emissive", "EmissiveFactor"],
     ];
     pub(super) const COLOR_MAP: &[&str] = &[
         "Maya|TEX_color_map",
@@ -172,12 +176,12 @@ fn material(
         .as_ref()
         .map(one)
         .or_else(|| color(object, names::BASE_COLOR));
+    let emissive = names::EMISSIVE
+        .iter()
+        .find_map(|&[name, times]| Some((color(object, &[name])?, factor(&[times]))));
+    let (emissive, emissive_factor) = emissive.unwrap_or_else(|| ([0.0; 3], factor(&["EmissiveFactor"])));
     // A map stands in the place of the colour.
-    let emissive = emissive_map
-        .as_ref()
-        .map(one)
-        .or_else(|| color(object, names::EMISSIVE))
-        .unwrap_or_default();
+    let emissive = emissive_map.as_ref().map_or(emissive, one);
     let opacity = opacity(object);
     let is_cut_by_own = opacity_map
         .as_ref()
@@ -209,7 +213,7 @@ fn material(
             true => AlphaMode::Blend,
             false => AlphaMode::Opaque,
         },
-        emissive: emissive.map(|number| number.max(0.0) * factor(&["EmissiveFactor"])),
+        emissive: emissive.map(|number| number.max(0.0) * emissive_factor),
         normal_map: map(names::NORMAL_MAP),
         occlusion_map: map(names::OCCLUSION_MAP),
         diffuse_map,
@@ -221,7 +225,8 @@ fn material(
 
 /// Of Blinn's and Phong's exponent: `α² = 2 / (n + 2)`, and roughness is the root of α (Walter 2007; glTF 2.0, appendix B).
 fn roughness(object: &Object<'_, '_>) -> f32 {
-    let given = number(object, names::ROUGHNESS).or_else(|| number(object, names::GLOSSINESS).map(|gloss| 1.0 - gloss));
+    let is_glossiness = number(object, names::IS_GLOSSINESS) == Some(1.0);
+    let given = number(object, names::ROUGHNESS).map(|given| if is_glossiness { 1.0 - given } else { given });
     let of_exponent = || {
         let is_lambert = object
             .record
@@ -248,14 +253,22 @@ fn opacity(object: &Object<'_, '_>) -> f32 {
 /// A material has a map for each of its properties.
 const MOST_TEXTURES: usize = 64;
 
-/// The maps of a material by the properties on which they hang; those of its models without any by no name.
+/// Whether a map is switched off: `use_color_map` is of `TEX_color_map`, and `base_color_map_on` of `base_color_map`.
+fn is_off(material: &Object<'_, '_>, property: &str) -> bool {
+    let switches = [property.replace("TEX_", "use_"), format!("{property}_on")];
+    let mut switches = switches.iter().filter(|switch| *switch != property);
+    switches.any(|switch| material.number(switch) == Some(0.0))
+}
+
+/// The maps of a material by the properties on which they hang, without those that are switched off; those of its models without any by no name.
 fn maps(objects: &Objects<'_, '_>, material: &Object<'_, '_>, images: &Images) -> Vec<(String, MaterialMap)> {
     let textures = |object: &Object<'_, '_>| {
         let textures = object
             .children
             .iter()
             .filter_map(|child| Some((child.property.clone(), texture(objects, child.to)?)))
-            .take(MOST_TEXTURES);
+            .take(MOST_TEXTURES)
+            .filter(|(property, _)| !is_off(material, property));
         textures.collect::<Vec<_>>()
     };
     let mut found = textures(material);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use bindpose::import::{Imported, import};
-use bindpose::model::{Model, Reflectance};
+use bindpose::model::Model;
 use glam::DVec3;
 use ufbx::Scene;
 
@@ -113,53 +113,6 @@ fn triangles_cover_each_polygon_once_in_its_material() {
 }
 
 #[test]
-fn materials_have_the_numbers_that_ufbx_finds() {
-    let (mut wrong, mut count) = (Vec::new(), 0);
-    for (name, bytes) in files("files") {
-        let (Ok(imported), Ok(scene)) = (import(&bytes), ufbx::load_memory(&bytes, ufbx::LoadOpts::default())) else {
-            continue;
-        };
-        for material in &imported.model.materials {
-            let mut same = scene
-                .materials
-                .iter()
-                .filter(|other| *other.element.name == *material.name);
-            let (Some(theirs), None) = (same.next(), same.next()) else {
-                continue;
-            };
-            let pbr = &theirs.pbr;
-            let Reflectance::MetallicRoughness { metallic, roughness } = material.reflectance else {
-                wrong.push(format!("{name}, {}: no metal or other", material.name));
-                continue;
-            };
-            let is_physical = !theirs.shader_prop_prefix.is_empty();
-            let mut compare = |what: &str, ours: f32, theirs: f64| {
-                if (f64::from(ours) - theirs).abs() > 1e-4 {
-                    wrong.push(format!("{name}, {}: {what} {ours}, not {theirs}", material.name));
-                }
-            };
-            if is_physical && pbr.metalness.has_value && pbr.metalness.texture.is_none() {
-                compare("metallic", metallic, pbr.metalness.value_vec4.x);
-                compare("roughness", roughness, pbr.roughness.value_vec4.x);
-                count += 1;
-            }
-            // Of Lambert's and Phong's it is the diffuse colour.
-            let [color, factor] = [&pbr.base_color, &pbr.base_factor];
-            if material.diffuse_map.is_none() && color.has_value {
-                let factor = if factor.has_value { factor.value_vec4.x } else { 1.0 };
-                let color = color.value_vec4;
-                for (ours, theirs) in material.diffuse.into_iter().zip([color.x, color.y, color.z]) {
-                    compare("colour", ours, (theirs * factor).clamp(0.0, 1.0));
-                }
-                count += 1;
-            }
-        }
-    }
-    assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
-    assert!(count == 0 || count > 40, "{count}");
-}
-
-#[test]
 fn what_has_no_place_in_a_model_is_told() {
     let found: Vec<(String, Vec<u8>)> = files("files");
     if found.is_empty() {
@@ -191,21 +144,17 @@ fn what_has_no_place_in_a_model_is_told() {
 
 #[test]
 fn pictures_in_a_file_are_taken() {
-    for (name, count, magic) in [
-        ("blender_293_embedded_textures_7400_binary.fbx", 1, &b"\x89PNG"[..]),
-        ("synthetic_embedded_base64_7700_ascii.fbx", 1, b""),
+    for name in [
+        "blender_293_embedded_textures_7400_binary.fbx",
+        "synthetic_embedded_base64_7700_ascii.fbx",
     ] {
         let Some((_, bytes)) = files("files").into_iter().find(|(file, _)| file == name) else {
             return;
         };
         let pictures = import(&bytes).expect("it is sound").pictures;
-        assert!(pictures.len() >= count, "{name}: {}", pictures.len());
+        assert!(!pictures.is_empty(), "{name}");
         for picture in &pictures {
-            assert!(
-                !picture.bytes.is_empty() && picture.bytes.starts_with(magic),
-                "{name}: {}",
-                picture.name
-            );
+            assert!(picture.bytes.starts_with(b"\x89PNG"), "{name}: {}", picture.name);
         }
     }
 }
@@ -289,29 +238,4 @@ fn of_six_weights_the_four_greatest_are_kept_and_told() {
         posed,
         "1 bone is bound in another way than the bind pose says; the skin is believed: Bone 5."
     );
-}
-
-#[test]
-fn damage_names_the_object_and_its_property() {
-    let file = skinned(&[1.0]);
-    for (from, to, told) in [
-        (
-            "-6",
-            "-9",
-            "In \"L\": PolygonVertexIndex: A polygon names control point 8, but there are 6.",
-        ),
-        (
-            "Indexes: *6",
-            "Indexes: *7",
-            "An array says that it has 7 numbers, and has 6.",
-        ),
-    ] {
-        let refused = import(file.replacen(from, to, 1).as_bytes()).map(drop).expect_err(told);
-        assert_eq!(refused.error.message, told);
-        assert!(
-            refused.error.position.is_some_and(|position| position.line > 5),
-            "{:?}",
-            refused.error
-        );
-    }
 }

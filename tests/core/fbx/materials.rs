@@ -1,0 +1,228 @@
+//! What materials of a file become: numbers as ufbx finds them, maps, and what is told where a map has no place.
+
+use bindpose::import::{Imported, import, import_beside};
+use bindpose::model::{MapSlot, Reflectance};
+use bindpose::session::{File, FileCommand, Session};
+
+use super::files;
+
+#[test]
+fn materials_have_the_numbers_that_ufbx_finds() {
+    let (mut wrong, mut count, mut rough, mut bright) = (Vec::new(), 0, 0, 0);
+    for (name, bytes) in files("files") {
+        let (Ok(imported), Ok(scene)) = (import(&bytes), ufbx::load_memory(&bytes, ufbx::LoadOpts::default())) else {
+            continue;
+        };
+        for material in &imported.model.materials {
+            let mut same = scene
+                .materials
+                .iter()
+                .filter(|other| *other.element.name == *material.name);
+            let (Some(theirs), None) = (same.next(), same.next()) else {
+                continue;
+            };
+            let pbr = &theirs.pbr;
+            let Reflectance::MetallicRoughness { metallic, roughness } = material.reflectance else {
+                wrong.push(format!("{name}, {}: no metal or other", material.name));
+                continue;
+            };
+            let is_physical = !theirs.shader_prop_prefix.is_empty();
+            let mut compare = |what: &str, ours: f32, theirs: f64| {
+                if (f64::from(ours) - theirs).abs() > 1e-4 {
+                    wrong.push(format!("{name}, {}: {what} {ours}, not {theirs}", material.name));
+                }
+            };
+            if is_physical && pbr.metalness.has_value {
+                compare("metallic", metallic, pbr.metalness.value_vec4.x);
+                count += 1;
+            }
+            // Of a file with glossiness it is what is missing to 1. Exponents of Blinn's and Phong's become others there.
+            if is_physical && (pbr.roughness.has_value || pbr.glossiness.has_value) {
+                compare("roughness", roughness, pbr.roughness.value_vec4.x);
+                rough += 1;
+            }
+            let [light, strength] = [&pbr.emission_color, &pbr.emission_factor];
+            if material.emissive_map.is_none() && light.has_value {
+                let light = light.value_vec4;
+                for (ours, theirs) in material.emissive.into_iter().zip([light.x, light.y, light.z]) {
+                    compare("light", ours, theirs * strength.value_vec4.x);
+                }
+                bright += usize::from(material.emissive != [0.0; 3]);
+            }
+            // Of Lambert's and Phong's it is the diffuse colour.
+            let [color, factor] = [&pbr.base_color, &pbr.base_factor];
+            if material.diffuse_map.is_none() && color.has_value {
+                let factor = if factor.has_value { factor.value_vec4.x } else { 1.0 };
+                let color = color.value_vec4;
+                for (ours, theirs) in material.diffuse.into_iter().zip([color.x, color.y, color.z]) {
+                    compare("colour", ours, (theirs * factor).clamp(0.0, 1.0));
+                }
+                count += 1;
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(
+        count == 0 || (count > 40 && rough > 5 && bright > 5),
+        "{count} colours, {rough} that say how rough they are, {bright} with light of their own"
+    );
+}
+
+/// A triangle whose material has these properties, and textures: the property on which each hangs, its path, and its bytes in base 64 if they lie in the
+/// file.
+fn painted(properties: &[&str], textures: &[(&str, &str, Option<&str>)]) -> String {
+    let mut objects = String::new();
+    let mut connections = String::new();
+    for (number, (property, path, bytes)) in (10..).zip(textures) {
+        objects.push_str(&format!(
+            "\tTexture: {number}, \"Texture::\", \"\" {{\n\t\tRelativeFilename: \"{path}\"\n\t}}\n"
+        ));
+        connections.push_str(&format!("\tC: \"OP\",{number},3,\"{property}\"\n"));
+        if let Some(bytes) = bytes {
+            objects.push_str(&format!(
+                "\tVideo: {number}0, \"Video::\", \"Clip\" {{\n\t\tContent: ,\n\t\t\t\"{bytes}\"\n\t}}\n"
+            ));
+            connections.push_str(&format!("\tC: \"OO\",{number}0,{number}\n"));
+        }
+    }
+    let properties: String = properties.iter().map(|line| format!("\t\t\tP: {line}\n")).collect();
+    format!(
+        "; FBX 7.4.0 project file\nObjects:  {{\n\tGeometry: 1, \"Geometry::\", \"Mesh\" {{\n\t\tVertices: *9 {{\n\t\t\ta: \
+         0,0,0,1,0,0,1,1,0\n\t\t}}\n\t\tPolygonVertexIndex: *3 {{\n\t\t\ta: 0,1,-3\n\t\t}}\n\t}}\n\tModel: 2, \"Model::Card\", \"Mesh\" \
+         {{\n\t}}\n\tMaterial: 3, \"Material::Paint\", \"\" {{\n\t\tProperties70:  {{\n{properties}\t\t}}\n\t}}\n{objects}}}\n\
+         Connections:  {{\n\tC: \"OO\",1,2\n\tC: \"OO\",2,0\n\tC: \"OO\",3,2\n{connections}}}\n"
+    )
+}
+
+fn read(file: &str) -> Imported {
+    import(file.as_bytes()).unwrap_or_else(|refused| panic!("{:?}", refused.error))
+}
+
+/// The names of the maps of the first material: of its colour and of its light.
+fn maps(imported: &Imported) -> [Option<&str>; 2] {
+    let material = &imported.model.materials[0];
+    [&material.diffuse_map, &material.emissive_map].map(|map| map.as_ref().map(|map| &*map.name))
+}
+
+fn left_out(imported: &Imported) -> Vec<&str> {
+    let findings = imported.diagnostics.iter();
+    findings
+        .filter(|finding| finding.code == "fbx-left-out")
+        .map(|finding| &*finding.message)
+        .collect()
+}
+
+#[test]
+fn a_map_that_is_switched_off_is_not_taken_and_not_told() {
+    for (color, switch, textures) in [
+        (
+            "\"Maya|base_color\", \"Vector3D\", \"Vector\", \"\",0.25,0.5,0.75",
+            "\"Maya|use_color_map\", \"float\", \"\", \"\"",
+            [
+                ("Maya|TEX_color_map", "color.png", None),
+                ("Maya|TEX_metallic_map", "metal.png", None),
+            ],
+        ),
+        (
+            "\"3dsMax|Parameters|base_color\", \"ColorAndAlpha\", \"\", \"A\",0.25,0.5,0.75,1",
+            "\"3dsMax|Parameters|base_color_map_on\", \"Bool\", \"\", \"A\"",
+            [
+                ("3dsMax|Parameters|base_color_map", "color.png", None),
+                ("3dsMax|Parameters|metalness_map", "metal.png", None),
+            ],
+        ),
+    ] {
+        let off = read(&painted(&[color, &format!("{switch},0")], &textures));
+        assert_eq!(maps(&off), [None, None]);
+        assert_eq!(off.model.materials[0].diffuse, [0.25, 0.5, 0.75]);
+        let on = read(&painted(&[color, &format!("{switch},1")], &textures));
+        assert_eq!(maps(&on), [Some("color.png"), None]);
+        assert_eq!(on.model.materials[0].diffuse, [1.0; 3]);
+        let metal = textures[1].0;
+        let told = format!("1 map is of a kind that has no place in a model: Paint's {metal}.");
+        assert_eq!((left_out(&off), left_out(&on)), (vec![&*told], vec![&*told]));
+    }
+    let black = read(&painted(
+        &["\"DiffuseColor\", \"Color\", \"\", \"A\",0,0,0"],
+        &[("DiffuseColor", "color.png", None)],
+    ));
+    assert_eq!(maps(&black), [Some("color.png"), None], "a colour is no switch");
+}
+
+#[test]
+fn maps_of_metal_and_roughness_of_real_files_are_told_by_name() {
+    for (name, told) in [
+        (
+            "maya_shaderfx_pbs_material_7700_ascii.fbx",
+            &["Maya|TEX_metallic_map"][..],
+        ),
+        (
+            "max_pbr_metal_rough_material_7700_ascii.fbx",
+            &["3dsMax|main|metalness_map", "3dsMax|main|Roughness_Map"],
+        ),
+    ] {
+        let Some((_, bytes)) = files("files").into_iter().find(|(file, _)| file == name) else {
+            return;
+        };
+        let imported = import(&bytes).unwrap_or_else(|_| panic!("{name}"));
+        let messages = left_out(&imported).join(" ");
+        for map in told {
+            assert!(messages.contains(map), "{name}: {map} in {messages}");
+        }
+        assert!(!messages.contains("TEX_roughness_map"), "{name}: it is off");
+    }
+}
+
+#[test]
+fn light_is_as_strong_as_its_own_number_says() {
+    let white = "\"Maya|emissionColor\", \"Vector3D\", \"Vector\", \"\",1,1,1";
+    for (strength, light) in [("0", 0.0), ("0.5", 0.5)] {
+        let factor = format!("\"Maya|emission\", \"float\", \"\", \"\",{strength}");
+        let file = painted(&[white, &factor, "\"EmissiveFactor\", \"Number\", \"\", \"A\",3"], &[]);
+        assert_eq!(read(&file).model.materials[0].emissive, [light; 3]);
+    }
+}
+
+/// A picture in the file is known by the place of its object; here a texture has that as its path.
+#[test]
+fn a_picture_beside_the_file_is_not_taken_for_one_in_it() {
+    let bytes = "iVBORw0KGgo=";
+    let textures = [("DiffuseColor", "in.png", Some(bytes)), ("EmissiveColor", "#4", None)];
+    let file = painted(&[], &textures);
+    let kinds: Vec<&str> = file
+        .lines()
+        .filter(|line| line.ends_with('{') && line.contains("::"))
+        .collect();
+    assert!(kinds[4].contains("Video"), "{kinds:?}");
+    let imported = import_beside(file.as_bytes(), &|path| (path == "#4").then(|| vec![7u8].into()));
+    let imported = imported.unwrap_or_else(|refused| panic!("{:?}", refused.error));
+    assert_eq!(maps(&imported), [Some("in.png"), Some("#4")]);
+    let pictures: Vec<_> = imported
+        .pictures
+        .iter()
+        .map(|picture| (&*picture.name, picture.bytes.len()))
+        .collect();
+    assert_eq!(pictures, [("in.png", 8), ("#4", 1)]);
+}
+
+/// Programs unpack pictures into a folder beside the file, and name them by whatever path they had.
+#[test]
+fn pictures_of_the_folder_beside_a_file_are_found_in_a_drop() {
+    let png = bindpose::image::encode_png(&[10, 20, 30, 255], 1, 1).expect("one pixel");
+    for path in [
+        "card.fbm\\skin.png",
+        "C:\\work\\card.fbm\\skin.png",
+        "..\\elsewhere\\skin.png",
+    ] {
+        let file = painted(&[], &[("DiffuseColor", path, None)]);
+        let mut session = Session::new(false);
+        session.apply(FileCommand::Add(vec![
+            File::new("walk/card.fbx", file.into_bytes()),
+            File::new("walk/card.fbm/skin.png", png.clone()),
+        ]));
+        assert!(session.error().is_none(), "{:?}", session.error());
+        let picture = session.maps().image(0, MapSlot::Diffuse);
+        let pixel = picture.and_then(|picture| Some(picture.to_rgba8(0, 0)?[..4].to_vec()));
+        assert_eq!(pixel, Some(vec![10, 20, 30, 255]), "{path}");
+    }
+}
