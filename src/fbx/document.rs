@@ -132,15 +132,15 @@ impl<'a> Record<'a> {
         fault
     }
 
-    /// Name and class of an object, from its value at this place: `Cube` and `Model`. Binary files part them by two bytes, and have the name first.
-    pub fn name_and_class(&self, index: usize) -> Option<(Cow<'_, str>, Cow<'_, str>)> {
+    /// The name of an object, without its class, from its value at this place: `Cube`. Binary files part them by two bytes, and have the name first.
+    pub fn name_of(&self, index: usize) -> Option<Cow<'_, str>> {
         let text = self.bytes(index)?;
-        let (name, class) = match (memchr::memmem::find(text, b"\0\x01"), memchr::memmem::find(text, b"::")) {
-            (Some(at), _) => (&text[..at], &text[at + 2..]),
-            (None, Some(at)) => (&text[at + 2..], &text[..at]),
-            (None, None) => (text, &text[..0]),
+        let name = match (memchr::memmem::find(text, b"\0\x01"), memchr::memmem::find(text, b"::")) {
+            (Some(at), _) => &text[..at],
+            (None, Some(at)) => &text[at + 2..],
+            (None, None) => text,
         };
-        Some((String::from_utf8_lossy(name), String::from_utf8_lossy(class)))
+        Some(String::from_utf8_lossy(name))
     }
 }
 

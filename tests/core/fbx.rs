@@ -121,7 +121,7 @@ fn text_is_read() {
     assert_eq!(creator.expect("it is there").text(0).expect("text"), "A \t\"pen\"");
     let mesh = of_mesh(&document);
     assert_eq!((mesh.integer(0), mesh.text(2).as_deref()), (Some(42), Some("Mesh")));
-    assert_eq!(mesh.name_and_class(1), Some(("Cube".into(), "Geometry".into())));
+    assert_eq!(mesh.name_of(1).as_deref(), Some("Cube"));
     let budget = Budget::of_file(TEXT.len());
     let numbers = |name: &str| mesh.find(name).expect(name).numbers(&budget).expect("numbers");
     assert_eq!(numbers("Vertices"), [-1.0, 0.5, 20.0, 4.0, 5.0, 6.0]);
@@ -172,7 +172,7 @@ fn arrays_are_unpacked() {
         let document = parse(&file).expect("it is sound");
         assert_eq!((document.version, document.is_binary), (7400, true));
         let mesh = of_mesh(&document);
-        assert_eq!(mesh.name_and_class(1), Some(("Cube".into(), "Geometry".into())));
+        assert_eq!(mesh.name_of(1).as_deref(), Some("Cube"));
         let vertices = mesh.find("Vertices").expect("it is there");
         assert_eq!(
             vertices.numbers(&Budget::of_file(file.len())).expect("numbers"),

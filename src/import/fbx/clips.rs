@@ -6,23 +6,24 @@
 
 mod fitting;
 mod layers;
+mod motion;
 
 use std::cell::Cell;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
-use self::fitting::{Fitted, Source};
-use self::layers::{Layer, Property};
+use self::fitting::MOST_HALVINGS;
+use self::layers::Layer;
+use self::motion::Motion;
 use super::curves::TICKS_PER_SEC;
 use super::file::File;
 use super::nodes::Nodes;
 use super::objects::{ObjectIndex, Objects};
-use super::transform::{Local, Parts, Transform, is_even};
-use crate::diagnostic::codes;
-use crate::diagnostic::collect::counted;
-use crate::diagnostic::{Fault, Subject};
+use crate::diagnostic::collect::{counted, few, quoted};
+use crate::diagnostic::{Fault, Subject, codes};
+use crate::fbx::Place;
 use crate::import::scene::Rig;
-use crate::model::{Clip, LocalJoint, Track, unique_names};
+use crate::model::{Clip, Track, unique_names};
 use crate::slices::Slices;
 
 /// How far a channel may be off: rotations in radians, scales as they are, translations as a part of the model's size. Off by so much in each joint of
@@ -32,12 +33,13 @@ pub(super) const MOST_OFF: f64 = 5e-6;
 /// More tracks than this do not come from a file of a character.
 const MOST_TRACKS: usize = 1_000_000;
 
-/// Between two keys a joint is asked for as often as it turns by so much: a whole turn would be seen by no one who looks at both its ends.
-const MOST_TURN_DEGREES: f64 = 60.0;
+/// What is kept of a key of a channel at most, in the clip and as it is laid out for sampling.
+const BYTES_PER_KEY: u64 = 64;
 
 /// A stack: what it is called, when it is, and its layers, the lowest first.
 pub(super) struct Stack {
     name: String,
+    place: Place,
     /// Where it says so. In seconds.
     span_secs: Option<[f64; 2]>,
     layers: Vec<Rc<Layer>>,
@@ -47,8 +49,8 @@ impl Stack {
     /// The stacks of a file.
     ///
     /// # Errors
-    /// When an array of a curve is damaged.
-    pub(super) fn all(file: &File<'_, '_>, objects: &Objects<'_, '_>, nodes: &Nodes) -> Result<Vec<Self>, Fault> {
+    /// When an array of a curve is damaged, or the budget has no room for what is moved.
+    pub(super) fn all(file: &mut File<'_, '_>, objects: &Objects<'_, '_>, nodes: &Nodes) -> Result<Vec<Self>, Fault> {
         let mut stacks = Vec::new();
         let mut known_layers: HashMap<ObjectIndex, Rc<Layer>> = HashMap::new();
         let mut curves = HashMap::new();
@@ -65,6 +67,7 @@ impl Stack {
             }
             stacks.push(Self {
                 name: stack.name.clone().into_owned(),
+                place: stack.record.place,
                 span_secs: secs("LocalStart").zip(secs("LocalStop")).map(Into::into),
                 layers,
             });
@@ -83,6 +86,7 @@ impl Stack {
             if !layer.is_empty() {
                 stacks.push(Self {
                     name: take.text(0).unwrap_or_default().into_owned(),
+                    place: take.place,
                     span_secs: span.map(|span| span.map(|ticks| ticks / TICKS_PER_SEC)),
                     layers: vec![Rc::new(layer)],
                 });
@@ -91,145 +95,38 @@ impl Stack {
         Ok(stacks)
     }
 
-    /// Marks the nodes that it moves.
-    pub(super) fn mark_moved(&self, nodes: &mut Nodes) {
-        let mut is_moved = vec![false; nodes.transforms.len()];
-        self.layers
-            .iter()
-            .flat_map(|layer| layer.models())
-            .for_each(|model| is_moved[model as usize] = true);
-        for node in 0..nodes.scene.nodes.len() as u32 {
-            let by_own = is_moved[nodes.model_of(node) as usize];
-            nodes.scene.nodes[node as usize].is_moved |= by_own;
-        }
-    }
-
-    /// Whether the scale of a model differs by axis at some key.
-    pub(super) fn scales_unevenly(&self, model: u32, transform: &Transform) -> bool {
-        let mut times = self.key_times_secs(model, &[Property::Scale]);
-        times.any(|secs| !is_even(self.parts(transform, model, secs, false).scale))
-    }
-
-    fn key_times_secs(&self, model: u32, properties: &[Property]) -> impl Iterator<Item = f64> {
-        self.layers
-            .iter()
-            .flat_map(move |layer| layer.times_secs(model, properties, self.span()))
-    }
-
     /// From when to when it is, where it says so.
     fn span(&self) -> Option<[f64; 2]> {
         let is_one = |[start, end]: &[f64; 2]| start < end && start.is_finite() && end.is_finite();
         self.span_secs.filter(is_one)
     }
+}
 
-    /// The parts of a model at a time.
-    fn parts(&self, transform: &Transform, model: u32, secs: f64, is_before: bool) -> Parts {
-        let mut parts = transform.parts();
-        for (index, layer) in self.layers.iter().enumerate() {
-            layer.add_to(
-                &mut parts,
-                (model, transform),
-                [secs, if is_before { 1.0 } else { 0.0 }],
-                index == 0,
-            );
-        }
-        parts
-    }
+/// The models whose scale differs by axis at some key.
+pub(super) fn uneven(stacks: &[Stack], nodes: &Nodes, evaluations_left: &Cell<u64>) -> HashSet<u32> {
+    let motions = stacks.iter().filter_map(|stack| Motion::of(stack, nodes, evaluations_left));
+    motions.flat_map(|motion| motion.uneven()).collect()
+}
 
-    fn local(&self, nodes: &Nodes, node: u32, secs: f64, is_before: bool) -> Local {
-        nodes.local(node, &|model| {
-            self.parts(&nodes.transforms[model as usize], model, secs, is_before)
-        })
-    }
-
-    /// The times at which something happens to a node: keys within the stack's span, and its ends.
-    fn times(&self, nodes: &Nodes, node: u32, properties: &[Property]) -> Vec<f64> {
-        let moving = nodes.depends_on(nodes.model_of(node));
-        let mut times: Vec<f64> = moving
-            .iter()
-            .flat_map(|&model| self.key_times_secs(model, properties))
-            .collect();
-        times.sort_by(f64::total_cmp);
-        if let (Some([start, end]), Some(_)) = (self.span(), times.first()) {
-            times.retain(|&secs| start < secs && secs < end);
-            times.insert(0, start);
-            times.push(end);
-        }
-        if properties.contains(&Property::Rotation) {
-            let added = self.turning(nodes, nodes.model_of(node), &times);
-            times.extend(added);
-            times.sort_by(f64::total_cmp);
-        }
-        // Equal ones as a clip has them.
-        times.dedup_by(|next, before| *next as f32 <= *before as f32);
-        times
-    }
-
-    /// Times between those at which a model turns far.
-    fn turning(&self, nodes: &Nodes, model: u32, times: &[f64]) -> Vec<f64> {
-        const MOST_PIECES: f64 = 128.0;
-        let transform = &nodes.transforms[model as usize];
-        let degrees = |secs: f64, is_before| self.parts(transform, model, secs, is_before).rotation;
-        let mut added = Vec::new();
-        for &[from, to] in times.array_windows() {
-            let turn = (degrees(to, true) - degrees(from, false)).abs().max_element();
-            let pieces = (turn / MOST_TURN_DEGREES).ceil().clamp(1.0, MOST_PIECES) as u32;
-            added.extend((1..pieces).map(|piece| from + (to - from) * f64::from(piece) / f64::from(pieces)));
-        }
-        added
-    }
-
-    /// `evaluations_left` is how often joints of the file may still be asked for.
-    fn track(
-        &self,
-        nodes: &Nodes,
-        node: u32,
-        rest: LocalJoint,
-        size: f64,
-        evaluations_left: &Cell<u64>,
-    ) -> Result<Track, Fault> {
-        let all = [Property::Translation, Property::Rotation, Property::Scale];
-        let of = |property: Property| {
-            let transform = &nodes.transforms[node as usize];
-            let is_alone = nodes.depends_on(nodes.model_of(node)).len() == 1;
-            match property {
-                _ if !is_alone => &all[..],
-                Property::Translation if transform.has_pivots() => &all[..],
-                Property::Translation => &all[..1],
-                Property::Rotation => &all[1..2],
-                Property::Scale => &all[2..],
-            }
-        };
-        let fitted = |property: Property, tolerance: f64| {
-            let source = Source {
-                at: &|secs, is_before| {
-                    let local = self.local(nodes, node, secs, is_before);
-                    match property {
-                        Property::Translation => local.translation.extend(0.0),
-                        Property::Rotation => local.rotation.into(),
-                        Property::Scale => local.scale.extend(0.0),
-                    }
-                },
-                is_rotation: property == Property::Rotation,
-                tolerance,
-                evaluations_left,
-            };
-            source.fitted(&self.times(nodes, node, of(property)))
-        };
-        let vector = |fitted: Fitted, rest| fitted.channel(|value| value.truncate().as_vec3(), rest);
-        Ok(Track::of_channels(
-            vector(fitted(Property::Translation, MOST_OFF * size), rest.translation)?,
-            fitted(Property::Rotation, MOST_OFF)
-                .channel(|value| glam::DQuat::from_vec4(value).as_quat(), rest.rotation)?,
-            vector(fitted(Property::Scale, MOST_OFF), rest.scale)?,
-        ))
+/// Marks the nodes that stacks move.
+pub(super) fn mark_moved(stacks: &[Stack], nodes: &mut Nodes) {
+    let mut is_moved = vec![false; nodes.transforms.len()];
+    let mut known = HashSet::new();
+    let layers = stacks.iter().flat_map(|stack| &stack.layers);
+    layers
+        .filter(|layer| known.insert(Rc::as_ptr(layer)))
+        .flat_map(|layer| layer.models())
+        .for_each(|model| is_moved[model as usize] = true);
+    for node in 0..nodes.scene.nodes.len() as u32 {
+        let by_own = is_moved[nodes.model_of(node) as usize];
+        nodes.scene.nodes[node as usize].is_moved |= by_own;
     }
 }
 
 /// The clips of a file for a skeleton; `size` is the model's. Stacks that move no joint are none.
 ///
 /// # Errors
-/// When a channel is none.
+/// When the budget has no room for their keys.
 pub(super) async fn clips(
     file: &mut File<'_, '_>,
     nodes: &Nodes,
@@ -239,23 +136,36 @@ pub(super) async fn clips(
     slices: &Slices,
 ) -> Result<Vec<Clip>, Fault> {
     let mut read = Vec::new();
-    // Tracks whose numbers are too great for any.
-    let mut unwritten = 0;
+    // Tracks whose numbers are too great for any, those that would take too long, and those that are off.
+    let (mut unwritten, mut unfollowed, mut off) = (0, 0, Vec::new());
     let most = MOST_TRACKS / rig.node_of_joint.len().max(1);
-    for stack in &stacks[..stacks.len().min(most)] {
+    let mut left_out = stacks.len().saturating_sub(most);
+    for stack in stacks.iter().take(most) {
+        let Some(motion) = Motion::of(stack, nodes, &file.evaluations_left) else {
+            left_out += 1;
+            continue;
+        };
         let mut tracks = Vec::with_capacity(rig.node_of_joint.len());
         for (joint, (&node, &rest)) in (0u32..).zip(rig.node_of_joint.iter().zip(rig.skeleton.rest())) {
             slices.pause().await;
-            let stands_in = rig.joint_of_node[node as usize] != Some(joint);
+            let is_off = Cell::new(false);
             // A joint that stands in for another has no motion of its own.
-            let track = match stands_in {
-                true => Ok(Track::at_rest(rest)),
-                false => stack.track(nodes, node, rest, size, &file.evaluations_left),
+            let stands_in = rig.joint_of_node[node as usize] != Some(joint);
+            let track = match (!stands_in).then(|| motion.track(node, rest, size, &is_off)) {
+                Some(Some(Ok(track))) => track,
+                other => {
+                    unwritten += usize::from(matches!(other, Some(Some(Err(_)))));
+                    unfollowed += usize::from(matches!(other, Some(None)));
+                    Track::at_rest(rest)
+                }
             };
-            tracks.push(track.unwrap_or_else(|_| {
-                unwritten += 1;
-                Track::at_rest(rest)
-            }));
+            if is_off.get() {
+                let name = &nodes.scene.nodes[node as usize].tag.name;
+                off.push(format!("{} in {}", quoted(name), quoted(&stack.name)));
+            }
+            file.budget
+                .keep(BYTES_PER_KEY * track.channel_key_count() as u64, stack.place)?;
+            tracks.push(track);
         }
         if tracks.iter().any(Track::has_keys) {
             read.push((stack, tracks));
@@ -265,32 +175,60 @@ pub(super) async fn clips(
         let message = format!("Another clip has the same name; this one is shown as \"{name}\".");
         file.note_about(Subject::Clip(index), &codes::DUPLICATE_CLIP_NAME, message);
     });
-    if unwritten > 0 {
-        let message = format!(
-            "{} numbers that overflow; at rest.",
-            counted(unwritten, "track has", "tracks have")
-        );
-        file.note(&codes::FBX_RULE_BROKEN, message);
-    }
-    if stacks.len() > most {
-        let message = format!(
-            "{} beyond what fits into memory; left out.",
-            counted(stacks.len() - most, "clip is", "clips are")
-        );
-        file.note(&codes::FBX_LEFT_OUT, message);
-    }
-    if file.evaluations_left.get() == 0 {
-        let message =
-            "There are more curves than can be followed exactly; some may be off between their keys.".to_owned();
-        file.note(&codes::FBX_LEFT_OUT, message);
-    }
     let layered = read.iter().filter(|(stack, _)| stack.layers.len() > 1).count();
-    if layered > 0 {
-        let message = format!(
-            "{} of several layers, which become one.",
-            counted(layered, "clip is", "clips are")
-        );
-        file.note(&codes::FBX_LEFT_OUT, message);
+    let inexact = usize::from(file.evaluations_left.get() == 0);
+    for (count, code, message) in [
+        (
+            unwritten,
+            &codes::FBX_RULE_BROKEN,
+            format!(
+                "{} numbers that overflow; at rest.",
+                counted(unwritten, "track has", "tracks have")
+            ),
+        ),
+        (
+            unfollowed,
+            &codes::FBX_LEFT_OUT,
+            format!(
+                "{} keys or layers than are followed in a file of this size; at rest.",
+                counted(unfollowed, "track has more", "tracks have more")
+            ),
+        ),
+        (
+            off.len(),
+            &codes::FBX_LEFT_OUT,
+            format!(
+                "{} between two keys more than {} pieces follow: {}.",
+                counted(off.len(), "track bends", "tracks bend"),
+                1 << MOST_HALVINGS,
+                few(&off)
+            ),
+        ),
+        (
+            left_out,
+            &codes::FBX_LEFT_OUT,
+            format!(
+                "{} beyond what is read of a file of this size; left out.",
+                counted(left_out, "clip is", "clips are")
+            ),
+        ),
+        (
+            inexact,
+            &codes::FBX_LEFT_OUT,
+            "There are more curves than can be followed exactly; some may be off between their keys.".to_owned(),
+        ),
+        (
+            layered,
+            &codes::FBX_LEFT_OUT,
+            format!(
+                "{} of several layers, which become one.",
+                counted(layered, "clip is", "clips are")
+            ),
+        ),
+    ] {
+        if count > 0 {
+            file.note(code, message);
+        }
     }
     let clips = names.into_iter().zip(read);
     Ok(clips.map(|(name, (_, tracks))| Clip::new(name, tracks)).collect())

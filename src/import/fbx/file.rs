@@ -15,7 +15,7 @@ pub(super) struct File<'f, 'a> {
     pub(super) document: &'f Document<'a>,
     pub(super) budget: Budget,
     pub(super) settings: Settings,
-    /// How often joints may still be asked for where they are: curves can be made that no keys follow.
+    /// How often layers may still be asked how they move a property of a model: a curve can hang on many models, and be one that no keys follow.
     pub(super) evaluations_left: Cell<u64>,
     /// How many corners may still be looked at to cut polygons into triangles: outlines can be made in which each ear meets all others.
     pub(super) ear_tests_left: Cell<u64>,

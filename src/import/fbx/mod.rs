@@ -61,8 +61,8 @@ pub(super) async fn import(bytes: &[u8], find: FindFile<'_>, slices: &Slices) ->
         document: &document,
         budget: Budget::of_file(bytes.len()),
         settings: Settings::of(&document),
-        // A key takes a dozen bytes, and is asked for a dozen times.
-        evaluations_left: Cell::new(4_000_000 + 8 * bytes.len() as u64),
+        // A key takes four bytes or more, and is asked for by some dozen evaluations of its channel.
+        evaluations_left: Cell::new(8_000_000 + 16 * bytes.len() as u64),
         ear_tests_left: Cell::new(8_000_000 + 16 * bytes.len() as u64),
         bind_pose: HashMap::new(),
         disagreeing: BTreeSet::new(),
@@ -107,14 +107,9 @@ async fn model(
     let images = Images::read(&objects, find);
     let mut materials = Materials::read(file, &objects, &images);
     let stacks = Stack::all(file, &objects, &nodes)?;
-    let transforms = nodes.transforms.clone();
-    nodes.build_scene(&objects, |model| {
-        !transform::is_even(transforms[model as usize].scale)
-            || stacks
-                .iter()
-                .any(|stack| stack.scales_unevenly(model, &transforms[model as usize]))
-    });
-    stacks.iter().for_each(|stack| stack.mark_moved(&mut nodes));
+    let uneven = clips::uneven(&stacks, &nodes, &file.evaluations_left);
+    nodes.build_scene(&objects, &uneven);
+    clips::mark_moved(&stacks, &mut nodes);
     let meshes = Meshes::read(file, &objects, &mut nodes, slices).await?;
     let rig = Rig::new(&nodes.scene)?;
     check_count(&rig)?;
@@ -164,9 +159,7 @@ fn bind_pose(file: &File<'_, '_>, objects: &Objects<'_, '_>) -> Result<HashMap<O
     for (_, pose) in objects.of_class("Pose") {
         for node in pose.record.all("PoseNode") {
             let object = node.find("Node").and_then(|named| objects.by_key(named, 0));
-            let matrix = node
-                .find("Matrix")
-                .map_or(Ok(None), |record| skins::matrix(record, file))?;
+            let matrix = skins::matrix(node, "Matrix", file)?;
             posed.extend(object.zip(matrix));
         }
     }

@@ -1,10 +1,12 @@
 //! Models of a file as nodes of a scene: who is whose parent, and where each is.
 
+use std::collections::HashSet;
+
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use super::objects::{Object, ObjectIndex, Objects};
 use super::settings::Settings;
-use super::transform::{Inherit, Local, Parts, Transform};
+use super::transform::{Inherit, Local, Parts, Transform, is_even};
 use crate::import::scene::{self, Scene};
 use crate::model::Tag;
 
@@ -70,9 +72,10 @@ impl Nodes {
         }
     }
 
-    /// Builds the scene of the nodes, with where they are at rest. `differs` tells whether the scale of a model's own differs by axis, at rest or in a clip.
-    pub(super) fn build_scene(&mut self, objects: &Objects<'_, '_>, differs: impl Fn(u32) -> bool) {
+    /// Builds the scene of the nodes, with where they are at rest. `uneven` are the models whose own scale differs by axis in a clip.
+    pub(super) fn build_scene(&mut self, objects: &Objects<'_, '_>, uneven: &HashSet<u32>) {
         let models = 0..self.above.len() as u32;
+        let differs = |model: u32| uneven.contains(&model) || !is_even(self.transforms[model as usize].scale);
         let differs: Vec<bool> = models.clone().map(differs).collect();
         let mut asks = vec![false; differs.len()];
         for model in models.clone().filter(|&model| self.inherit(model) != Inherit::Whole) {
@@ -141,8 +144,13 @@ impl Nodes {
             None => self.in_axes(plain),
             Some(_) if self.inherit(model) == Inherit::Whole => plain,
             Some(above) => {
-                let of_above = self.scale_below(above, parts);
-                let scale = plain.scale * self.scale_from_above(model, parts);
+                let from_above = self.scale_from_above(above, parts);
+                let of_above = parts(above).scale * from_above;
+                let on_model = match self.inherit(model) {
+                    Inherit::ScaleAfterRotation => of_above,
+                    _ => from_above,
+                };
+                let scale = plain.scale * on_model;
                 match self.rigid[above as usize] {
                     Some(_) => Local {
                         translation: plain.translation * of_above,
@@ -184,24 +192,30 @@ impl Nodes {
         self.transforms[model as usize].inherit
     }
 
-    /// What acts on the children of a model: its own scale times [`Self::scale_from_above`].
-    fn scale_below(&self, model: u32, parts: &dyn Fn(u32) -> Parts) -> DVec3 {
-        parts(model).scale * self.scale_from_above(model, parts)
-    }
-
     /// The product of the parents' scales that [`Inherit::ScaleAfterRotation`] applies on the model itself, not through its parent's matrix.
     fn scale_from_above(&self, model: u32, parts: &dyn Fn(u32) -> Parts) -> DVec3 {
-        let mut scale = DVec3::ONE;
-        for above in self.depends_on(model).windows(2) {
-            if self.inherit(above[0]) == Inherit::ScaleAfterRotation {
-                scale *= parts(above[1]).scale;
-            }
-        }
-        scale
+        self.scaling(model).map(|above| parts(above).scale).product()
     }
 
-    /// The model, and those above whose scale its local transform needs, nearest first.
-    pub(super) fn depends_on(&self, model: u32) -> Vec<u32> {
+    /// The models whose scales those are.
+    fn scaling(&self, model: u32) -> impl Iterator<Item = u32> {
+        let chain = self.depends_on(model);
+        let count = chain.len();
+        let acts = move |at: usize| (self.inherit(chain[at - 1]) == Inherit::ScaleAfterRotation).then(|| chain[at]);
+        (1..count).filter_map(acts)
+    }
+
+    /// The models above whose scales where a model is relative to its parent depends on.
+    pub(super) fn scales_of(&self, model: u32) -> Vec<u32> {
+        let above = self.above[model as usize].filter(|_| self.inherit(model) != Inherit::Whole);
+        above
+            .into_iter()
+            .flat_map(|above| std::iter::once(above).chain(self.scaling(above)))
+            .collect()
+    }
+
+    /// The model, and those above that it does not inherit as a whole, nearest first.
+    fn depends_on(&self, model: u32) -> Vec<u32> {
         let mut models = vec![model];
         let mut at = model;
         while let (Inherit::ScaleAfterRotation | Inherit::NoScale, Some(above)) =

@@ -51,8 +51,6 @@ pub(super) struct Connection {
 #[derive(Debug, Default)]
 pub(super) struct Objects<'f, 'a> {
     pub(super) all: Vec<Object<'f, 'a>>,
-    /// What hangs on the scene itself.
-    pub(super) of_scene: Vec<ObjectIndex>,
     /// Where ids come a second time.
     pub(super) doubled: Vec<Place>,
     /// Where connections name what is not there.
@@ -94,8 +92,7 @@ impl<'f, 'a> Objects<'f, 'a> {
             let Some(key) = key(record, 0) else { continue };
             // Those of 6.1 have no number before the name.
             let at_name = usize::from(matches!(key, Key::Number(_)));
-            let (name, _) = record.name_and_class(at_name).unwrap_or_default();
-            let name = shortened(name);
+            let name = shortened(record.name_of(at_name).unwrap_or_default());
             let properties = record.find("Properties70").or_else(|| record.find("Properties60"));
             if by_key.contains_key(&key) {
                 objects.doubled.push(record.place);
@@ -133,7 +130,7 @@ impl<'f, 'a> Objects<'f, 'a> {
                     objects.all[parent.index()].children.push(connection(child));
                     objects.all[child.index()].parents.push(connection(parent));
                 }
-                (Some(child), None) if parent.is_scene() => objects.of_scene.push(child),
+                (Some(_), None) if parent.is_scene() => (),
                 _ => objects.missing.push(record.place),
             }
         }

@@ -171,8 +171,8 @@ fn cluster(
         .iter()
         .zip(&weights)
         .for_each(|(&point, &weight)| add(point, weight));
-    let matrix = |name: &str| record.find(name).map_or(Ok(None), |found| matrix(found, file));
-    let (bone_from_node, file_from_bone) = (matrix("Transform")?, matrix("TransformLink")?);
+    let [bone_from_node, file_from_bone] = ["Transform", "TransformLink"].map(|name| matrix(record, name, file));
+    let (bone_from_node, file_from_bone) = (bone_from_node?, file_from_bone?);
     if let (Some(link), Some(posed)) = (file_from_bone, file.bind_pose.get(&bone))
         && !link.abs_diff_eq(*posed, 1e-3 * (1.0 + link.translation.length()))
     {
@@ -185,12 +185,12 @@ fn cluster(
     }))
 }
 
-/// Sixteen numbers, column by column as we have them; lengths in metres.
+/// The matrix of this name in a record, lengths in metres: sixteen numbers, column by column as we have them. `None` without it.
 ///
 /// # Errors
 /// When the array is damaged.
-pub(super) fn matrix(record: &Record<'_>, file: &File<'_, '_>) -> Result<Option<DAffine3>, Fault> {
-    let numbers = record.numbers(&file.budget)?;
+pub(super) fn matrix(record: &Record<'_>, name: &str, file: &File<'_, '_>) -> Result<Option<DAffine3>, Fault> {
+    let numbers = record.numbers_of(name, &file.budget)?;
     let matrix = numbers.first_chunk().map(DMat4::from_cols_array);
     let matrix = matrix.map(DAffine3::from_mat4).filter(|matrix| matrix.is_finite());
     Ok(matrix.map(|matrix| DAffine3 {

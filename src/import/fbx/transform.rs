@@ -9,64 +9,42 @@ use glam::{DAffine3, DQuat, DVec3, EulerRot};
 use super::objects::Object;
 use crate::model::LocalJoint;
 
-/// In which order a node turns about its axes. Of `XYZ` it turns about x first.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum RotationOrder {
-    #[default]
-    Xyz,
-    Xzy,
-    Yzx,
-    Yxz,
-    Zxy,
-    Zyx,
-}
+/// In which order a node turns about its axes, by the number that files have for it: the first axis first, and what [`EulerRot`] calls that, which names the
+/// last one first. Spherical rotations, 6, are turned as XYZ is.
+const ORDERS: [([usize; 3], EulerRot); 7] = [
+    ([0, 1, 2], EulerRot::ZYX),
+    ([0, 2, 1], EulerRot::YZX),
+    ([1, 2, 0], EulerRot::XZY),
+    ([1, 0, 2], EulerRot::ZXY),
+    ([2, 0, 1], EulerRot::YXZ),
+    ([2, 1, 0], EulerRot::XYZ),
+    ([0, 1, 2], EulerRot::ZYX),
+];
+
+/// A row of [`ORDERS`].
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct RotationOrder(usize);
 
 impl RotationOrder {
-    /// By the number that files have for it; that of spherical rotations, 6, is turned as the first.
     fn from_number(number: i64) -> Self {
-        match number {
-            1 => Self::Xzy,
-            2 => Self::Yzx,
-            3 => Self::Yxz,
-            4 => Self::Zxy,
-            5 => Self::Zyx,
-            _ => Self::Xyz,
-        }
+        let row = usize::try_from(number).ok().filter(|&row| row < ORDERS.len());
+        Self(row.unwrap_or_default())
     }
 
     /// The rotation by these angles in degrees about x, y and z.
     pub(super) fn rotation(self, degrees: DVec3) -> DQuat {
-        let angles = degrees.map(f64::to_radians);
-        let [x, y, z] = [
-            DQuat::from_rotation_x(angles.x),
-            DQuat::from_rotation_y(angles.y),
-            DQuat::from_rotation_z(angles.z),
-        ];
-        match self {
-            Self::Xyz => z * y * x,
-            Self::Xzy => y * z * x,
-            Self::Yzx => x * z * y,
-            Self::Yxz => z * x * y,
-            Self::Zxy => y * x * z,
-            Self::Zyx => x * y * z,
-        }
+        let about = |axis: usize| DQuat::from_axis_angle(DVec3::AXES[axis], degrees[axis].to_radians());
+        let [first, second, third] = ORDERS[self.0].0.map(about);
+        third * second * first
     }
-}
 
-impl RotationOrder {
     /// The angles in degrees about x, y and z of a rotation.
     pub(super) fn degrees(self, rotation: DQuat) -> DVec3 {
-        // The first axis to turn about stands last.
-        let (order, [x, y, z]) = match self {
-            Self::Xyz => (EulerRot::ZYX, [2, 1, 0]),
-            Self::Xzy => (EulerRot::YZX, [2, 0, 1]),
-            Self::Yzx => (EulerRot::XZY, [0, 2, 1]),
-            Self::Yxz => (EulerRot::ZXY, [1, 2, 0]),
-            Self::Zxy => (EulerRot::YXZ, [1, 0, 2]),
-            Self::Zyx => (EulerRot::XYZ, [0, 1, 2]),
-        };
-        let angles: [f64; 3] = rotation.to_euler(order).into();
-        DVec3::new(angles[x], angles[y], angles[z]).map(f64::to_degrees)
+        let ([first, second, third], order) = ORDERS[self.0];
+        let angles = rotation.to_euler(order);
+        let mut degrees = DVec3::ZERO;
+        (degrees[third], degrees[second], degrees[first]) = angles;
+        degrees.map(f64::to_degrees)
     }
 }
 
@@ -152,7 +130,7 @@ impl Transform {
         let has_space = object.integer("RotationActive") != Some(0)
             && object.integer("RotationSpaceForLimitOnly").unwrap_or(0) == 0;
         let turned = |name: &str| match has_space {
-            true => RotationOrder::Xyz.rotation(angles(name)),
+            true => RotationOrder::default().rotation(angles(name)),
             false => DQuat::IDENTITY,
         };
         let order = object.integer("RotationOrder").filter(|_| has_space);
@@ -175,7 +153,7 @@ impl Transform {
             scaling_pivot: offset("ScalingPivot"),
             node_from_geometry: DAffine3::from_scale_rotation_translation(
                 vector("GeometricScaling", DVec3::ONE),
-                RotationOrder::Xyz.rotation(angles("GeometricRotation")),
+                RotationOrder::default().rotation(angles("GeometricRotation")),
                 offset("GeometricTranslation"),
             ),
         }

@@ -8,7 +8,7 @@ use crate::diagnostic::Fault;
 use crate::model::{Channel, ChannelValue};
 
 /// So often an interval between two keys is halved at most: into 128 pieces.
-const MOST_HALVINGS: u32 = 7;
+pub(super) const MOST_HALVINGS: u32 = 7;
 
 /// A value over time. Vectors have 0 as their fourth number.
 pub(super) struct Source<'a> {
@@ -19,6 +19,8 @@ pub(super) struct Source<'a> {
     pub(super) tolerance: f64,
     /// How often it may still be asked.
     pub(super) evaluations_left: &'a Cell<u64>,
+    /// Set where keys are off by more.
+    pub(super) is_off: &'a Cell<bool>,
 }
 
 /// Keys with times in seconds.
@@ -48,7 +50,6 @@ struct Way {
 
 impl Source<'_> {
     fn at(&self, secs: f64, is_before: bool) -> DVec4 {
-        self.evaluations_left.set(self.evaluations_left.get().saturating_sub(1));
         (self.at)(secs, is_before)
     }
 
@@ -105,10 +106,13 @@ impl Source<'_> {
         };
         let middle = 0.5 * (way[0] + way[1]);
         let has_middle = way[0] as f32 <= (middle as f32).next_down() && middle as f32 <= (way[1] as f32).next_down();
-        if halves > 0 && has_middle && self.evaluations_left.get() > 0 && ![0.25, 0.5, 0.75].into_iter().all(is_near) {
-            self.add([way[0], middle], halves - 1, knots);
-            self.add([middle, way[1]], halves - 1, knots);
-            return;
+        if has_middle && self.evaluations_left.get() > 0 && ![0.25, 0.5, 0.75].into_iter().all(is_near) {
+            if let Some(halves) = halves.checked_sub(1) {
+                self.add([way[0], middle], halves, knots);
+                self.add([middle, way[1]], halves, knots);
+                return;
+            }
+            self.is_off.set(true);
         }
         let [from, to] = spline.values;
         let [left, reached] = spline.slopes;

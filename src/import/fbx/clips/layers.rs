@@ -1,5 +1,6 @@
 //! A layer of a stack: curves of nodes, and how they come over the layers below.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -10,11 +11,14 @@ use crate::fbx::Record;
 use crate::import::fbx::curves::Curve;
 use crate::import::fbx::file::File;
 use crate::import::fbx::nodes::Nodes;
-use crate::import::fbx::objects::{Object, ObjectIndex, Objects};
+use crate::import::fbx::objects::{Connection, Object, ObjectIndex, Objects};
 use crate::import::fbx::transform::{Parts, Transform};
 
+/// What is kept at most where a curve node hangs on something, in each layer that has it.
+const BYTES_PER_CONNECTION: u64 = 256;
+
 /// What curves move of a node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Property {
     Translation,
     Rotation,
@@ -22,6 +26,8 @@ pub(super) enum Property {
 }
 
 impl Property {
+    pub(super) const ALL: [Self; 3] = [Self::Translation, Self::Rotation, Self::Scale];
+
     fn named(name: &str) -> Option<Self> {
         match name {
             "Lcl Translation" | "T" => Some(Self::Translation),
@@ -47,6 +53,21 @@ struct Axes {
     without: [Option<f64>; 3],
 }
 
+/// What a layer moves of a model, by [`Property`].
+#[derive(Clone, Debug, Default)]
+pub(super) struct Moved([Option<Axes>; 3]);
+
+impl Moved {
+    fn of(&self, property: Property) -> Option<&Axes> {
+        self.0[property as usize].as_ref()
+    }
+
+    fn has_keys(&self) -> bool {
+        let mut curves = self.0.iter().flatten().flat_map(|axes| axes.curves.iter().flatten());
+        curves.any(|curve| curve.times_secs().next().is_some())
+    }
+}
+
 /// How a layer comes over those below: Autodesk's `FbxAnimLayer::EBlendMode`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Blend {
@@ -68,23 +89,30 @@ pub(super) struct Layer {
     /// Whether rotations follow each other, where angles add up otherwise; and whether scales multiply.
     turns: bool,
     multiplies: bool,
-    moved: Moved<Axes>,
+    /// Of each model.
+    moved: HashMap<u32, Moved>,
 }
 
 impl Layer {
     /// A layer of 7.x.
     ///
     /// # Errors
-    /// When an array of a curve is damaged.
+    /// When an array of a curve is damaged, or the budget has no room for what is moved.
     pub(super) fn read(
-        (file, curves): (&File<'_, '_>, &mut HashMap<ObjectIndex, Rc<Curve>>),
+        (file, curves): (&mut File<'_, '_>, &mut HashMap<ObjectIndex, Rc<Curve>>),
         objects: &Objects<'_, '_>,
         nodes: &Nodes,
         (index, layer): (ObjectIndex, &Object<'_, '_>),
     ) -> Result<Self, Fault> {
-        let mut moved: Moved<Axes> = HashMap::new();
+        let mut moved: HashMap<u32, Moved> = HashMap::new();
         let mut weight_curve = None;
         for (_, curve_node) in objects.children(layer, "AnimationCurveNode") {
+            let connections = curve_node.children.len() + curve_node.parents.len();
+            file.budget
+                .keep(BYTES_PER_CONNECTION * connections as u64, curve_node.record.place)?;
+            let moves = |parent: &Connection| Some((node_of(nodes, parent.to)?, Property::named(&parent.property)?));
+            let first = curve_node.parents.iter().find(|parent| moves(parent).is_some());
+            let first = first.map(|parent| format!("{}, {}", objects.get(parent.to).name, parent.property));
             let mut axes = Axes {
                 without: ["d|X", "d|Y", "d|Z"].map(|name| curve_node.number(name).filter(|number| number.is_finite())),
                 ..Axes::default()
@@ -102,18 +130,22 @@ impl Layer {
                 };
                 let known = match curves.get(&child.to) {
                     Some(known) => Rc::clone(known),
-                    None => Rc::new(Curve::read(curve.record, file.document, &file.budget)?),
+                    None => Rc::new(Curve::read(
+                        curve.record,
+                        file,
+                        first.as_deref().unwrap_or(&curve_node.name),
+                    )?),
                 };
                 curves.insert(child.to, Rc::clone(&known));
                 axes.curves[axis] = Some(known);
             }
             for parent in &curve_node.parents {
-                match (Property::named(&parent.property), node_of(nodes, parent.to)) {
-                    (Some(property), Some(model)) => {
-                        moved.insert((model, property), axes.clone());
+                match moves(parent) {
+                    Some((model, property)) => {
+                        moved.entry(model).or_default().0[property as usize] = Some(axes.clone());
                     }
-                    _ if parent.property == "Weight" && parent.to == index => weight_curve = axes.curves[0].clone(),
-                    _ => (),
+                    None if parent.property == "Weight" && parent.to == index => weight_curve = axes.curves[0].clone(),
+                    None => (),
                 }
             }
         }
@@ -134,7 +166,7 @@ impl Layer {
 
     /// The one layer of a take of 6.1.
     pub(super) fn of_take(take: &Record<'_>, objects: &Objects<'_, '_>, nodes: &Nodes, unit_metres: f64) -> Self {
-        let mut moved: Moved<Axes> = HashMap::new();
+        let mut moved: HashMap<u32, Moved> = HashMap::new();
         for model in take.all("Model") {
             let Some(node) = model
                 .bytes(0)
@@ -157,7 +189,7 @@ impl Layer {
                     axes.curves[axis] =
                         Some(Rc::new(Curve::read_take(of_axis))).filter(|curve| curve.times_secs().next().is_some());
                 }
-                moved.insert((node, property), axes);
+                moved.entry(node).or_default().0[property as usize] = Some(axes);
             }
         }
         Self {
@@ -174,28 +206,23 @@ impl Layer {
 
     /// The models that a curve moves.
     pub(super) fn models(&self) -> impl Iterator<Item = u32> + '_ {
-        let moves = |axes: &Axes| {
-            axes.curves
-                .iter()
-                .flatten()
-                .any(|curve| curve.times_secs().next().is_some())
-        };
-        self.moved
-            .iter()
-            .filter(move |(_, axes)| moves(axes))
-            .map(|(&(node, _), _)| node)
+        let moved = self.moved.iter().filter(|(_, moved)| moved.has_keys());
+        moved.map(|(&model, _)| model)
+    }
+
+    /// The models that it says something of.
+    pub(super) fn moved(&self) -> impl ExactSizeIterator<Item = (u32, &Moved)> {
+        self.moved.iter().map(|(&model, moved)| (model, moved))
     }
 
     /// The times of the keys of some properties of a model, again and again where curves repeat them within a span.
-    pub(super) fn times_secs(
-        &self,
-        model: u32,
-        properties: &[Property],
+    pub(super) fn times_secs<'s>(
+        &'s self,
+        moved: &'s Moved,
+        properties: &'s [Property],
         span: Option<[f64; 2]>,
-    ) -> impl Iterator<Item = f64> {
-        let axes = properties
-            .iter()
-            .filter_map(move |&property| self.moved.get(&(model, property)));
+    ) -> impl Iterator<Item = f64> + 's {
+        let axes = properties.iter().filter_map(|&property| moved.of(property));
         let curves = axes.flat_map(|axes| axes.curves.iter().flatten());
         // How much of a layer counts changes what it moves.
         let has_any = curves.clone().next().is_some();
@@ -204,26 +231,23 @@ impl Layer {
             .flat_map(move |curve| curve.times_within(span))
     }
 
-    /// Brings what it has at a time over the parts of a node; the lowest layer replaces them. `is_before` is 1 for just before that time.
+    /// Brings what it has of some properties over the parts of a node, at a time or just before it; the lowest layer replaces them.
     pub(super) fn add_to(
         &self,
         parts: &mut Parts,
-        (node, transform): (u32, &Transform),
-        [secs, is_before]: [f64; 2],
+        (moved, properties): (&Moved, &[Property]),
+        transform: &Transform,
+        (secs, is_before): (f64, bool),
         is_lowest: bool,
     ) {
-        let is_before = is_before != 0.0;
-        for property in [Property::Translation, Property::Rotation, Property::Scale] {
-            let Some(axes) = self.moved.get(&(node, property)) else {
-                continue;
-            };
+        for &property in properties {
+            let Some(axes) = moved.of(property) else { continue };
             let below = property.of(parts);
             let is_over = !is_lowest && self.blend == Blend::Additive;
             // Where it says nothing of an axis, it adds nothing.
-            let nothing = if property == Property::Scale {
-                DVec3::ONE
-            } else {
-                DVec3::ZERO
+            let nothing = match property {
+                Property::Scale if self.multiplies => DVec3::ONE,
+                _ => DVec3::ZERO,
             };
             let mut value = if is_over { nothing } else { *below };
             let unit = if property == Property::Translation {
@@ -274,16 +298,14 @@ fn part_of(percent: f64) -> f64 {
     if part > 0.99999 { 1.0 } else { part }
 }
 
-/// Each number to this power, with its sign.
+/// Each number to this power, with its sign; to the power of 0 it is 1.
 fn power(numbers: DVec3, exponent: f64) -> DVec3 {
     match exponent {
+        0.0 => DVec3::ONE,
         1.0 => numbers,
         _ => numbers.map(|number| number.abs().powf(exponent) * number.signum()),
     }
 }
-
-/// Curve nodes by what they move.
-type Moved<T> = HashMap<(u32, Property), T>;
 
 /// Which node an object of a connection is.
 fn node_of(nodes: &Nodes, object: ObjectIndex) -> Option<u32> {
@@ -291,6 +313,6 @@ fn node_of(nodes: &Nodes, object: ObjectIndex) -> Option<u32> {
 }
 
 /// The name of a record's first value.
-fn named<'s>(record: &'s Record<'_>) -> std::borrow::Cow<'s, str> {
+fn named<'s>(record: &'s Record<'_>) -> Cow<'s, str> {
     record.text(0).unwrap_or_default()
 }
