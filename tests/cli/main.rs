@@ -4,6 +4,7 @@ mod appearance;
 mod check;
 mod codes;
 mod convert;
+mod fbx;
 mod folders;
 mod gltf;
 mod info;
