@@ -1,15 +1,18 @@
 //! Reading FBX beside ufbx, a reader in C, in one run: a file of about 20 MB, binary and as text. Both make meshes of it; ours makes a model that is proved.
+//! What inflating its arrays takes is told apart, and what the records with their numbers take.
 
 use std::fmt::Write as _;
 use std::hint::black_box;
 use std::time::Instant;
 
+use bindpose::fbx::{Budget, Record, parse};
 use bindpose::import::import;
 use criterion::{Criterion, criterion_group, criterion_main};
-use ufbx::LoadOpts;
+use ufbx::{InflateInput, InflateRetain, LoadOpts};
 
-/// Quads along each side.
-const SIDE: u32 = 520;
+/// Quads along each side, so that either file has about 20 MB.
+const SIDE_OF_BINARY: u32 = 500;
+const SIDE_OF_TEXT: u32 = 256;
 
 /// The arrays of a hilly sheet: positions, corners, normals of corners, texture coordinates, and indices of these.
 struct Sheet {
@@ -21,15 +24,15 @@ struct Sheet {
 }
 
 impl Sheet {
-    fn new() -> Self {
-        let points = || (0..=SIDE).flat_map(|y| (0..=SIDE).map(move |x| [f64::from(x), f64::from(y)]));
+    fn new(side: u32) -> Self {
+        let points = || (0..=side).flat_map(move |y| (0..=side).map(move |x| [f64::from(x), f64::from(y)]));
         let height = |x: f64, y: f64| (x * 0.11).sin() * (y * 0.07).cos() * 5.0;
-        let quads = (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| y * (SIDE + 1) + x));
+        let quads = (0..side).flat_map(|y| (0..side).map(move |x| y * (side + 1) + x));
         let corners: Vec<u32> = quads
-            .flat_map(|at| [at, at + 1, at + SIDE + 2, at + SIDE + 1])
+            .flat_map(|at| [at, at + 1, at + side + 2, at + side + 1])
             .collect();
         let normal = |&at: &u32| {
-            let [x, y] = [f64::from(at % (SIDE + 1)), f64::from(at / (SIDE + 1))];
+            let [x, y] = [f64::from(at % (side + 1)), f64::from(at / (side + 1))];
             let slopes = [
                 height(x + 0.01, y) - height(x - 0.01, y),
                 height(x, y + 0.01) - height(x, y - 0.01),
@@ -42,7 +45,7 @@ impl Sheet {
             positions: points().flat_map(|[x, y]| [x, y, height(x, y)]).collect(),
             normals: corners.iter().flat_map(normal).collect(),
             tex_coords: points()
-                .flat_map(|[x, y]| [x, y].map(|at| at / f64::from(SIDE)))
+                .flat_map(|[x, y]| [x, y].map(|at| at / f64::from(side)))
                 .collect(),
             tex_coord_indices: corners.iter().map(|&at| at as i32).collect(),
             corners: corners.iter().enumerate().map(ends).collect(),
@@ -184,35 +187,119 @@ fn packed(kind: u8, count: usize, bytes: &[u8]) -> Vec<u8> {
     [&[kind][..], &words, &deflated].concat()
 }
 
-#[expect(clippy::print_stdout, reason = "the ratio is what the benchmark is for")]
-fn reading(_: &mut Criterion) {
-    let sheet = Sheet::new();
-    for (name, bytes) in [("binary", sheet.binary()), ("text", sheet.text())] {
-        let seconds = |work: &mut dyn FnMut()| {
+/// All arrays of a record and of those in it are made, as far as they are no single numbers. Gives how many numbers there are.
+fn numbers(record: &Record<'_>, budget: &Budget) -> usize {
+    let own = record.numbers(budget).expect("it is sound").len();
+    own + record.records.iter().map(|inner| numbers(inner, budget)).sum::<usize>()
+}
+
+fn records(bytes: &[u8]) -> usize {
+    let budget = Budget::of_file(bytes.len());
+    let document = parse(bytes).expect("it is sound");
+    document.records.iter().map(|record| numbers(record, &budget)).sum()
+}
+
+/// Of what [`packed`] gives: what is deflated, and how long it was.
+fn deflated(array: &[u8]) -> (&[u8], usize) {
+    let size = if array[0] == b'd' { 8 } else { 4 };
+    let count = u32::from_le_bytes([array[1], array[2], array[3], array[4]]) as usize;
+    (&array[13..], count * size)
+}
+
+fn inflate(arrays: &[Vec<u8>]) {
+    for (bytes, len) in arrays.iter().map(|array| deflated(array)) {
+        let inflated = miniz_oxide::inflate::decompress_to_vec_zlib_with_limit(black_box(bytes), len);
+        assert_eq!(black_box(inflated.expect("it is sound")).len(), len);
+    }
+}
+
+fn inflate_by_ufbx(arrays: &[Vec<u8>]) {
+    for (bytes, len) in arrays.iter().map(|array| deflated(array)) {
+        let mut inflated = vec![0; len];
+        let input = InflateInput {
+            total_size: bytes.len(),
+            data: bytes.as_ptr().cast(),
+            data_size: bytes.len(),
+            buffer: std::ptr::null_mut(),
+            buffer_size: 0,
+            read_fn: None,
+            read_user: std::ptr::null_mut(),
+            progress_cb: ufbx::RawProgressCb::default(),
+            progress_interval_hint: 0,
+            progress_size_before: 0,
+            progress_size_after: 0,
+            no_header: false,
+            no_checksum: false,
+            internal_fast_bits: 0,
+        };
+        let mut retain = InflateRetain {
+            initialized: false,
+            data: [0; 1024],
+        };
+        let came_out = ufbx::inflate(&mut inflated, black_box(&input), &mut retain);
+        assert_eq!(came_out, black_box(&inflated).len() as isize);
+    }
+}
+
+/// Seconds of each work, round by round, each in turn.
+fn rounds<const WORKS: usize>(mut works: [&mut dyn FnMut(); WORKS]) -> Vec<[f64; WORKS]> {
+    let mut round = || {
+        works.each_mut().map(|work| {
             let start = Instant::now();
             work();
             start.elapsed().as_secs_f64()
-        };
+        })
+    };
+    // The first one warms up.
+    round();
+    (0..15).map(|_| round()).collect()
+}
+
+/// The round whose ratio of its first two is the median.
+fn median<const WORKS: usize>(mut rounds: Vec<[f64; WORKS]>) -> [f64; WORKS] {
+    rounds.sort_by(|a, b| (a[0] / a[1]).total_cmp(&(b[0] / b[1])));
+    rounds[rounds.len() / 2]
+}
+
+#[expect(clippy::print_stdout, reason = "the ratio is what the benchmark is for")]
+fn tell(what: &str, [ours, theirs]: [f64; 2]) {
+    let ratio = ours / theirs;
+    println!(
+        "{what}: {:.0} ms, ufbx {:.0} ms; in one round: {ratio:.2}",
+        ours * 1e3,
+        theirs * 1e3
+    );
+}
+
+fn reading(_: &mut Criterion) {
+    let [of_binary, of_text] = [SIDE_OF_BINARY, SIDE_OF_TEXT].map(Sheet::new);
+    for (name, bytes) in [("binary", of_binary.binary()), ("text", of_text.text())] {
         let model = import(&bytes).expect("it is sound").model;
         let scene = ufbx::load_memory(&bytes, LoadOpts::default()).expect("it is sound");
         assert_eq!(model.mesh.triangle_count(), scene.meshes[0].num_triangles);
-        let mut ours = || drop(black_box(import(black_box(&bytes)).expect("it is sound")));
-        let mut theirs = || {
-            drop(black_box(
-                ufbx::load_memory(black_box(&bytes), LoadOpts::default()).expect("it is sound"),
-            ));
-        };
-        let mut rounds: Vec<[f64; 2]> = (0..15).map(|_| [seconds(&mut ours), seconds(&mut theirs)]).collect();
-        rounds.sort_by(|a, b| (a[0] / a[1]).total_cmp(&(b[0] / b[1])));
-        let [ours, theirs] = rounds[rounds.len() / 2];
-        println!(
-            "reading {name} FBX of {:.1} MB: {:.0} ms, ufbx {:.0} ms; in one round: {:.2}",
-            bytes.len() as f64 / 1e6,
-            ours * 1e3,
-            theirs * 1e3,
-            ours / theirs
-        );
+        drop((model, scene));
+        let by_ufbx = || ufbx::load_memory(black_box(&bytes), LoadOpts::default()).expect("it is sound");
+        let found = median(rounds([
+            &mut || drop(black_box(import(black_box(&bytes)).expect("it is sound"))),
+            &mut || drop(black_box(by_ufbx())),
+        ]));
+        let megabytes = bytes.len() as f64 / 1e6;
+        tell(&format!("reading {name} FBX of {megabytes:.1} MB"), found);
+        let found = median(rounds([
+            &mut || assert!(black_box(records(black_box(&bytes))) > 1000),
+            &mut || drop(black_box(by_ufbx())),
+        ]));
+        tell("    its records and numbers alone, beside all of ufbx", found);
     }
+    let arrays = [
+        doubles(&of_binary.positions),
+        ints(&of_binary.corners),
+        doubles(&of_binary.normals),
+        doubles(&of_binary.tex_coords),
+        ints(&of_binary.tex_coord_indices),
+    ];
+    let found = median(rounds([&mut || inflate(&arrays), &mut || inflate_by_ufbx(&arrays)]));
+    tell("    inflating the arrays of the binary one alone", found);
 }
 
 criterion_group!(benches, reading);

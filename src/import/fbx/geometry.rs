@@ -59,14 +59,28 @@ struct Corner {
 }
 
 impl Layer {
-    /// The first layer of this name, such as `LayerElementNormal` with `Normals` and `NormalsIndex`; `None` where there is none, or by edges.
+    /// The layer of this name, such as `LayerElementNormal` with `Normals` and `NormalsIndex`, that the first `Layer` names, else the first; `None` where there
+    /// is none, or by edges.
     fn first(
         record: &Record<'_>,
         [layer, values, indices]: [&str; 3],
         width: usize,
         budget: &Budget,
     ) -> Result<Option<Self>, Fault> {
-        let found = record.all(layer).min_by_key(|layer| layer.integer(0).unwrap_or(0));
+        let index = |record: &Record<'_>| record.integer(0).unwrap_or(0);
+        let is_of_layer =
+            |element: &&Record<'_>| element.find("Type").and_then(|kind| kind.text(0)).as_deref() == Some(layer);
+        let named = record.all("Layer").min_by_key(|&first| index(first));
+        let named = named.and_then(|first| {
+            first
+                .all("LayerElement")
+                .find(is_of_layer)?
+                .find("TypedIndex")?
+                .integer(0)
+        });
+        let found = record
+            .all(layer)
+            .min_by_key(|&found| (named != Some(index(found)), index(found)));
         found.map_or(Ok(None), |found| Self::read(found, values, indices, width, budget))
     }
 

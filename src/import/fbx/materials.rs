@@ -307,7 +307,7 @@ fn sampling(texture: &Object<'_, '_>) -> Sampling {
     let [rotation_pivot, scaling_pivot] =
         ["TextureRotationPivot", "TextureScalingPivot"].map(|name| vector(name, DVec3::ZERO));
     let at = DAffine3::from_translation;
-    let rotation = DAffine3::from_quat(RotationOrder::Xyz.rotation(vector("Rotation", DVec3::ZERO)));
+    let rotation = DAffine3::from_quat(RotationOrder::default().rotation(vector("Rotation", DVec3::ZERO)));
     let tex_coords_from_map = at(vector("Translation", DVec3::ZERO) + rotation_pivot)
         * rotation
         * at(scaling_pivot - rotation_pivot)

@@ -75,7 +75,7 @@ impl<'s> Motion<'s> {
     }
 
     /// The times of the keys of some properties of a model, as far as they may still be asked for.
-    fn key_times(&self, model: u32, properties: &[Property]) -> impl Iterator<Item = f64> {
+    fn key_times<'a>(&'a self, model: u32, properties: &'a [Property]) -> impl Iterator<Item = f64> + 'a {
         let layers = self.layers_of(model);
         self.take(layers.len());
         layers
