@@ -130,7 +130,7 @@ fn a_character_and_its_motions_open_as_one_model() {
 fn as_glb(file: &File) -> File {
     let model = import(&file.bytes).expect("it is sound").model;
     let glb = glb(&model, &JointNames::default(), &MapImages::default()).expect("it can be written");
-    File::new(file.path.replace(".fbx", ".glb"), glb.bytes)
+    File::new(&file.path.replace(".fbx", ".glb"), glb.bytes)
 }
 
 /// How far the joints of two clips of a model are apart at most, and how far the first moves them.
