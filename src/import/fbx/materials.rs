@@ -68,6 +68,12 @@ mod names {
         "Bump",
     ];
     pub(super) const OCCLUSION_MAP: &[&str] = &["Maya|TEX_ao_map", "3dsMax|main|ao_map"];
+    /// Of Stingray's environment, which is no part of the material.
+    pub(super) const SCENE_MAPS: &[&str] = &[
+        "Maya|TEX_global_diffuse_cube",
+        "Maya|TEX_global_specular_cube",
+        "Maya|TEX_brdf_lut",
+    ];
     pub(super) const EMISSIVE_MAP: &[&str] = &[
         "Maya|TEX_emissive_map",
         "Maya|emissionColor",
@@ -193,8 +199,10 @@ fn material(
         names::OCCLUSION_MAP,
     ]
     .concat();
-    let is_left =
-        |property: &str| !(known.contains(&property) || is_cut_by_own && names::OPACITY_MAP.contains(&property));
+    let is_left = |property: &str| {
+        let is_scenes = names::SCENE_MAPS.contains(&property);
+        !(is_scenes || known.contains(&property) || is_cut_by_own && names::OPACITY_MAP.contains(&property))
+    };
     left_out.extend(
         maps.iter()
             .filter(|(property, _)| is_left(property))
