@@ -103,7 +103,9 @@ impl Stack {
 
 /// The models whose scale differs by axis at some key.
 pub(super) fn uneven(stacks: &[Stack], nodes: &Nodes, evaluations_left: &Cell<u64>) -> HashSet<u32> {
-    let motions = stacks.iter().filter_map(|stack| Motion::of(stack, nodes, evaluations_left));
+    let motions = stacks
+        .iter()
+        .filter_map(|stack| Motion::of(stack, nodes, evaluations_left));
     motions.flat_map(|motion| motion.uneven()).collect()
 }
 

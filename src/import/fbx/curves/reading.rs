@@ -85,7 +85,8 @@ impl Curve {
                 counted(times.len(), "time", "times"),
                 counted(values.len(), "value", "values"),
             );
-            let message = format!("The curve of \"{of}\" has {times}, but {values}; what has no other half is left out.");
+            let message =
+                format!("The curve of \"{of}\" has {times}, but {values}; what has no other half is left out.");
             file.note_of(record.place, &codes::FBX_RULE_BROKEN, message);
         }
         // Runs of keys have the same attributes.
