@@ -1,5 +1,7 @@
 //! Motions: as the same file in another format has them, and when they join a character.
 
+mod made;
+
 use bindpose::anim::{CompiledClip, PoseBuffers, skin_positions};
 use bindpose::edit::{Edits, apply, common_name};
 use bindpose::export::{MapImages, glb, m3d};
@@ -53,10 +55,12 @@ fn a_motion_of_mixamo_poses_as_its_gltf() {
             .fold(0.0, f32::max)
     };
     let mut worst = 0f32;
+    // Both are in units of their own: one is the other's so many times, all the clip long.
+    let mut scale = None;
     let clips = [&fbx, &glb].map(|model| (model, CompiledClip::new(&model.clips[0])));
     for &secs in &times {
         let [ours, theirs] = clips.each_ref().map(|(model, clip)| posed(model, clip, secs));
-        let scale = reach(&ours) / reach(&theirs);
+        let scale = *scale.get_or_insert(reach(&ours) / reach(&theirs));
         let mut count = 0;
         for (name, joint) in &theirs {
             let Some((_, our)) = ours.iter().find(|(other, _)| common_name(other) == common_name(name)) else {
