@@ -2,7 +2,6 @@
 
 use std::cell::Cell;
 
-use super::document::Value;
 use super::place::Place;
 use crate::diagnostic::Fault;
 use crate::diagnostic::collect::counted;
@@ -53,30 +52,6 @@ impl Content<'_> {
             Self::Packed { count, .. } => *count as usize,
             Self::Integers(integers) => integers.len(),
             Self::Numbers(numbers) => numbers.len(),
-        }
-    }
-
-    /// Adds a number to those of text: they are whole ones as long as all are. Gives whether the value is one.
-    pub(super) fn push(&mut self, value: &Value<'_>) -> bool {
-        match (&mut *self, value) {
-            (Self::Integers(integers), Value::Integer(integer)) => integers.push(*integer),
-            (Self::Integers(integers), Value::Number(number)) => {
-                let numbers = integers.iter().map(|&integer| integer as f64);
-                *self = Self::Numbers(numbers.chain([*number]).collect());
-            }
-            (Self::Numbers(numbers), Value::Integer(integer)) => numbers.push(*integer as f64),
-            (Self::Numbers(numbers), Value::Number(number)) => numbers.push(*number),
-            _ => return false,
-        }
-        true
-    }
-
-    /// The numbers of text as single ones.
-    pub(super) fn into_values<'v>(self) -> Vec<Value<'v>> {
-        match self {
-            Self::Packed { .. } => Vec::new(),
-            Self::Integers(integers) => integers.into_iter().map(Value::Integer).collect(),
-            Self::Numbers(numbers) => numbers.into_iter().map(Value::Number).collect(),
         }
     }
 }

@@ -383,3 +383,29 @@ fn not_finite(word: &[u8]) -> Option<f64> {
         .any(|start| plain.starts_with(start));
     is_nan.then_some(f64::NAN)
 }
+
+impl Content<'_> {
+    /// Adds a number to those of text: they are whole ones as long as all are. Gives whether the value is one.
+    fn push(&mut self, value: &Value<'_>) -> bool {
+        match (&mut *self, value) {
+            (Self::Integers(integers), Value::Integer(integer)) => integers.push(*integer),
+            (Self::Integers(integers), Value::Number(number)) => {
+                let numbers = integers.iter().map(|&integer| integer as f64);
+                *self = Self::Numbers(numbers.chain([*number]).collect());
+            }
+            (Self::Numbers(numbers), Value::Integer(integer)) => numbers.push(*integer as f64),
+            (Self::Numbers(numbers), Value::Number(number)) => numbers.push(*number),
+            _ => return false,
+        }
+        true
+    }
+
+    /// The numbers of text as single ones.
+    fn into_values<'v>(self) -> Vec<Value<'v>> {
+        match self {
+            Self::Packed { .. } => Vec::new(),
+            Self::Integers(integers) => integers.into_iter().map(Value::Integer).collect(),
+            Self::Numbers(numbers) => numbers.into_iter().map(Value::Number).collect(),
+        }
+    }
+}

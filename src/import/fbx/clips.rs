@@ -1,6 +1,6 @@
 //! Animation stacks as clips: layers over each other, Euler angles as rotations, curves as keys of our channels.
 //!
-//! A stack is evaluated as FBX says; from what comes out a channel is made that is off from it by at most [`MOST_OFF`] wherever it is looked at, at three places
+//! A stack is evaluated as FBX says; from what comes out a channel is made that is off from it by at most `MOST_OFF` wherever it is looked at, at three places
 //! from key to key: held or straight between the file's keys where that is enough, else a spline. That has as many keys as it takes, up to 128 ways between two
 //! of the file's, while the file's evaluations last. Channels that stay are at rest.
 
@@ -25,10 +25,6 @@ use crate::fbx::Place;
 use crate::import::scene::Rig;
 use crate::model::{Clip, Track, unique_names};
 use crate::slices::Slices;
-
-/// How far a channel may be off: rotations in radians, scales as they are, translations as a part of the model's size. Off by so much in each joint of
-/// a chain of ten, nothing is off by a ten-thousandth.
-pub(super) const MOST_OFF: f64 = 5e-6;
 
 /// More tracks than this do not come from a file of a character.
 const MOST_TRACKS: usize = 1_000_000;
@@ -106,7 +102,7 @@ impl Stack {
 pub(super) fn uneven(stacks: &[Stack], nodes: &Nodes, evaluations_left: &Cell<u64>) -> HashSet<u32> {
     let motions = stacks
         .iter()
-        .filter_map(|stack| Motion::of(stack, nodes, evaluations_left));
+        .filter_map(|stack| Motion::of(&stack.layers, stack.span(), nodes, evaluations_left));
     motions.flat_map(|motion| motion.uneven()).collect()
 }
 
@@ -143,7 +139,7 @@ pub(super) async fn clips(
     let most = MOST_TRACKS / rig.node_of_joint.len().max(1);
     let mut left_out = stacks.len().saturating_sub(most);
     for stack in stacks.iter().take(most) {
-        let Some(motion) = Motion::of(stack, nodes, &file.evaluations_left) else {
+        let Some(motion) = Motion::of(&stack.layers, stack.span(), nodes, &file.evaluations_left) else {
             left_out += 1;
             continue;
         };

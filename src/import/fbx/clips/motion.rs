@@ -2,14 +2,18 @@
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 use super::fitting::{Fitted, Source};
 use super::layers::{Layer, Moved, Property};
-use super::{MOST_OFF, Stack};
 use crate::diagnostic::Fault;
 use crate::import::fbx::nodes::Nodes;
 use crate::import::fbx::transform::{Parts, is_even};
 use crate::model::{LocalJoint, Track};
+
+/// How far a channel may be off: rotations in radians, scales as they are, translations as a part of the model's size. Off by so much in each joint of
+/// a chain of ten, nothing is off by a ten-thousandth.
+const MOST_OFF: f64 = 5e-6;
 
 /// So often a channel is asked for between two keys at most, as long as nothing is halved.
 const EVALUATIONS_PER_KEY: u64 = 24;
@@ -35,15 +39,20 @@ pub(super) struct Motion<'s> {
 }
 
 impl<'s> Motion<'s> {
-    /// `None` where it has more layers and models than may still be asked for.
-    pub(super) fn of(stack: &'s Stack, nodes: &'s Nodes, evaluations_left: &'s Cell<u64>) -> Option<Self> {
+    /// Of a stack's layers, the lowest first, and where it is in seconds. `None` where they have more models than may still be asked for.
+    pub(super) fn of(
+        layers: &'s [Rc<Layer>],
+        span: Option<[f64; 2]>,
+        nodes: &'s Nodes,
+        evaluations_left: &'s Cell<u64>,
+    ) -> Option<Self> {
         let mut motion = Self {
             nodes,
-            span: stack.span(),
+            span,
             layers: BTreeMap::new(),
             evaluations_left,
         };
-        for (index, layer) in stack.layers.iter().enumerate() {
+        for (index, layer) in layers.iter().enumerate() {
             if !motion.take(layer.moved().len()) {
                 return None;
             }

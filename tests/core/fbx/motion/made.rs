@@ -8,8 +8,8 @@ use bindpose::model::JointIndex;
 
 use crate::fbx::surface;
 
-/// A straight line from key to key.
-const STRAIGHT: &str = "4";
+/// A straight line from key to key: flags, and four numbers that it has no use for.
+const STRAIGHT: &str = "4\n\t\t}\n\t\tKeyAttrDataFloat: *4 {\n\t\t\ta: 0,0,0,0";
 
 /// A file without a mesh: the bone 100, what hangs besides it, and what moves on stack 10.
 struct Made {
