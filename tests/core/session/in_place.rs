@@ -4,7 +4,8 @@ use bindpose::format::AnimationClip;
 use bindpose::import::import;
 use bindpose::model::{Clip, Track};
 use bindpose::session::{
-    Command, CrowdCommand, ExportOptions, File, FileCommand, HistoryCommand, MAX_LINK_LEN, PlayCommand, Session,
+    Command, CrowdCommand, ExportFormat, ExportOptions, File, FileCommand, HistoryCommand, MAX_LINK_LEN, PlayCommand,
+    Session,
 };
 
 use super::models::file;
@@ -156,6 +157,7 @@ fn what_is_in_place_is_written_so_and_told_once() {
     let alone = session.clone();
     for (session, in_place, count) in [(&session, false, 1), (&session, true, 2), (&alone, true, 2)] {
         let options = ExportOptions {
+            format: ExportFormat::D3d12,
             in_place,
             ..ExportOptions::default()
         };
