@@ -44,11 +44,12 @@ struct Layer {
     mapping: Mapping,
     /// Which value each corner, control point or polygon has; empty where they are in that order themselves.
     indices: Vec<i64>,
-    /// Of each value: the first that is the same.
-    firsts: Vec<u32>,
     values: Vec<f64>,
     width: usize,
 }
+
+/// With so many vertices of its control point a corner is compared: in a file made to be slow they all differ.
+const MOST_COMPARED: usize = 64;
 
 /// Where a corner is.
 #[derive(Clone, Copy)]
@@ -111,7 +112,6 @@ impl Layer {
         Ok(Some(Self {
             mapping,
             indices,
-            firsts: firsts(&values, width),
             values,
             width,
         }))
@@ -129,7 +129,19 @@ impl Layer {
             true => place,
             false => usize::try_from(*self.indices.get(place)?).ok()?,
         };
-        self.firsts.get(index).map(|&first| first as usize)
+        (index < self.values.len() / self.width).then_some(index)
+    }
+
+    /// Whether two values are the same as `f32`: many files repeat a value for each corner.
+    fn are_same(&self, values: [Option<usize>; 2]) -> bool {
+        let row = |index: usize| {
+            let row = &self.values[index * self.width..][..self.width];
+            row.iter().map(|&number| (number as f32).to_bits())
+        };
+        match values {
+            [Some(a), Some(b)] => a == b || row(a).eq(row(b)),
+            [a, b] => a == b,
+        }
     }
 
     fn value<const WIDTH: usize>(&self, index: Option<usize>) -> [f32; WIDTH] {
@@ -142,18 +154,6 @@ impl Layer {
         }
         value
     }
-}
-
-/// For each value the index of its first equal one, compared as `f32`: many files repeat a value for each corner.
-fn firsts(values: &[f64], width: usize) -> Vec<u32> {
-    // Hashed with a key: a file could make all rows fall on one place of a quicker map.
-    let mut known = HashMap::new();
-    let rows = (0u32..).zip(values.chunks_exact(width));
-    let row = |row: &[f64]| -> [u32; 4] {
-        std::array::from_fn(|index| row.get(index).map_or(0, |&number| (number as f32).to_bits()))
-    };
-    rows.map(|(index, stored)| *known.entry(row(stored)).or_insert(index))
-        .collect()
 }
 
 /// The polygons of a geometry, each as a range of its corners.
@@ -200,7 +200,9 @@ pub(super) async fn read(
         control_point_count: points.len(),
         ..Geometry::default()
     };
-    let mut known: HashMap<(u32, [Option<usize>; 5]), u32> = HashMap::new();
+    // The last vertex of each control point; of each vertex the one before it there, and its values.
+    let mut last: Vec<Option<u32>> = vec![None; points.len()];
+    let mut before: Vec<(Option<u32>, [Option<usize>; 5])> = Vec::new();
     let mut parts: HashMap<usize, usize> = HashMap::new();
     let mut of_polygon: Vec<u32> = Vec::new();
     let (mut without_values, mut not_whole) = (0, 0);
@@ -228,8 +230,16 @@ pub(super) async fn read(
             let lacks = |(layer, value): (&Option<Layer>, &Option<usize>)| layer.is_some() && value.is_none();
             without_values += usize::from(layers.iter().zip(&values).any(lacks));
             let next = geometry.control_points.len() as u32;
-            let vertex = *known.entry((corner.control_point, values)).or_insert(next);
+            let last = &mut last[corner.control_point as usize];
+            let is_same = |&vertex: &u32| {
+                let stored = before[vertex as usize].1.into_iter().zip(values);
+                let mut pairs = layers.iter().zip(stored);
+                pairs.all(|(layer, (a, b))| layer.as_ref().is_none_or(|layer| layer.are_same([a, b])))
+            };
+            let mut alike = std::iter::successors(*last, |&vertex| before[vertex as usize].0).take(MOST_COMPARED);
+            let vertex = alike.find(is_same).unwrap_or(next);
             if vertex == next {
+                before.push((last.replace(next), values));
                 geometry.control_points.push(corner.control_point);
                 let point = point.map(|number| (number * unit_metres) as f32);
                 push(&mut geometry.vertices, point, &layers, values);
