@@ -9,8 +9,8 @@ use super::edited::{Change, Edited, with_tracks};
 use super::error::EditError;
 use crate::model::{Clip, JointIndex, Model, Track, UpAxis};
 
-/// A way over the ground that is less than this part of the model's reach is none.
-const LEAST_WAY: f64 = 1e-4;
+/// A way over the ground that is less than this part of the model's reach, which is all its bones in a row, is none: hips sway so far on the spot.
+const LEAST_WAY: f64 = 0.02;
 
 /// Keeps the clips of these names in place, each once.
 pub(super) fn keep_in_place(edited: &mut Edited, names: &[String]) -> Result<(), EditError> {
