@@ -62,6 +62,7 @@ const link = keepLink({
   changed: (text) => emit("linkchange", { link: text }),
   // A link's values are not the person's choices.
   follow(view) {
+    clearNotice(); // It may be about the link before.
     keepVisit();
     const leftOut = viewer.followLink(view);
     choices = choicesNow();

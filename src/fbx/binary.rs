@@ -126,6 +126,11 @@ impl<'a> Reader<'a> {
             self.at -= 1;
         }
         let is_within = |end: u64| end > self.at as u64 && end <= limit as u64;
+        if end > limit as u64 && limit == self.bytes.len() {
+            return Err(place.damaged(format!(
+                "The file ends at byte {limit}, within a record that goes on to byte {end}. It may have been cut off on its way here."
+            )));
+        }
         if !is_within(end) || values_len > end - self.at as u64 {
             return Err(place.damaged(format!(
                 "A record says that it ends at byte {end} with {} of values; what it lies in ends at byte {limit}.",

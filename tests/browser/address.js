@@ -45,12 +45,13 @@ test("the address follows what is seen once that rests", OWN, async (page) => {
   await page.waitForTimeout(700);
   assert.equal(await hash(page), "t=1&play=0");
   await page.mouse.up();
-  await page.waitForFunction(() => /&cam=-?[\d.]+,-?[\d.]+$/.test(location.hash), null, { polling: 50 });
+  await page.waitForFunction(() => /&cam=(-?[\d.]+,){6}[\d.]+$/.test(location.hash), null, { polling: 50 });
   assert.equal(await page.evaluate(() => history.length), 2, "no step of the history");
-  const moment = await hash(page);
+  const { camera } = await state(page);
   await page.reload();
   await running(page);
-  await until(page, (now) => now.link === moment);
+  const apart = (one, other) => Math.hypot(one.distance - other.distance, ...one.target.map((at, axis) => at - other.target[axis]));
+  await until(page, ({ timeSecs, playing, camera: now }) => timeSecs === 1 && !playing && now.yawRadians === camera.yawRadians && apart(now, camera) < 1e-4 * camera.distance);
 });
 
 test("back and forward go from link to link, also to the models that were open", OWN, async (page) => {

@@ -8,11 +8,26 @@ use crate::session::Session;
 /// Half the size of what is framed around a vertex, as a fraction of the model's radius: enough to see where on the model it is.
 const VERTEX_ROOM: f32 = 0.15;
 
+/// Cameras that are nearer to each other than this part of their distance are in one place.
+const SAME_PLACE: f32 = 1e-4;
+
 impl Session {
     pub(in crate::session) fn frame_model(&mut self) {
         let points = self.reached_points();
         self.view.frame_points(&points);
         self.view.framed = true;
+    }
+
+    /// Whether the camera is where framing the model would bring it: it may have gone round it since then, or another clip may be seen.
+    pub(in crate::session) fn is_framed_from_here(&self) -> bool {
+        if !self.view.framed {
+            return false;
+        }
+        let mut framed = self.view.clone();
+        framed.frame_points(&self.reached_points());
+        let (now, then) = (&self.view.camera, &framed.camera);
+        let off = now.target.distance(then.target) + (now.distance - then.distance).abs();
+        off <= SAME_PLACE * now.distance
     }
 
     /// Frames the model so that all of it stays in the picture while the camera turns about its middle.

@@ -101,7 +101,14 @@ async fn load_in(
     match import::import_in(&file.bytes, find, slices).await {
         Ok(imported) => Ok(OpenModel::new(file, imported, slices).await),
         Err(refused) => {
-            let diagnostic = refused.error;
+            let mut diagnostic = refused.error;
+            let extension = file.extension();
+            if diagnostic.code == codes::NOT_M3D.name && ["fbx", "glb", "gltf"].contains(&&*extension) {
+                let found = diagnostic.found.as_deref().unwrap_or_default();
+                diagnostic.message =
+                    format!("This is no .{extension} file, whatever its name says: it begins with \"{found}\".");
+                diagnostic.expected = Some(format!("what .{extension} files begin with"));
+            }
             let excerpt = diagnostic
                 .position
                 .map(|at| format::excerpt(&file.bytes, at, diagnostic.length));

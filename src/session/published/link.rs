@@ -114,7 +114,11 @@ impl Session {
             linked.view.playback.time_secs = start_secs;
         }
         if let Some(read) = camera {
-            read.apply(&mut linked.view.camera, self.view.camera.target.to_array());
+            read.apply(
+                &mut linked.view.camera,
+                self.view.camera.target.to_array(),
+                self.view.aspect,
+            );
         }
         (linked, left_out.into_iter().collect())
     }
@@ -159,16 +163,18 @@ impl Session {
         fields
     }
 
-    /// Nothing for the camera of a first visit. A model that is framed is so in any window, so its distance is not written.
+    /// Nothing for the camera of a first visit. A model that is framed is so in any window, so its distance is not written. Where it was framed
+    /// before the camera went round it, the distance is that of this picture, and holds for pictures of its shape.
     fn written_camera(&self) -> Option<String> {
         let (now, first) = (&self.view.camera, Camera::default());
         let [angles, first_angles] = [now, &first].map(|camera| [camera.yaw_radians, camera.pitch_radians]);
         let mut numbers = angles.map(degrees).to_vec();
-        if self.view.framed {
+        if self.is_framed_from_here() {
             return (angles != first_angles).then(|| numbers.join(","));
         }
         let lengths = [now.distance].into_iter().chain(now.target.to_array());
-        numbers.extend(lengths.map(|number| number.to_string()));
+        let shape = self.view.framed.then_some(self.view.aspect);
+        numbers.extend(lengths.chain(shape).map(|number| number.to_string()));
         Some(numbers.join(","))
     }
 
@@ -232,19 +238,27 @@ impl Session {
     }
 }
 
+/// Windows whose shapes differ by less than this part show the same.
+const SAME_ASPECT: f32 = 0.01;
+
 /// What a link says of a camera: yaw and pitch, radians; distance; target.
 #[derive(Clone, Copy)]
 struct LinkedCamera {
     angles_radians: [f32; 2],
     distance: Option<f32>,
     target: Option<[f32; 3]>,
+    /// Width / height of the picture in which the distance shows the model whole.
+    aspect: Option<f32>,
 }
 
 impl LinkedCamera {
-    fn apply(self, camera: &mut CameraState, target_now: [f32; 3]) {
+    /// In a picture of this shape. In one of another than the link's the model is framed anew.
+    fn apply(self, camera: &mut CameraState, target_now: [f32; 3], aspect: f32) {
+        let is_of_shape = |of: f32| (of - aspect).abs() <= SAME_ASPECT * aspect;
+        let distance = self.distance.filter(|_| self.aspect.is_none_or(is_of_shape));
         [camera.yaw_radians, camera.pitch_radians] = self.angles_radians;
-        camera.framed = self.distance.is_none();
-        camera.distance = self.distance.unwrap_or(0.0);
+        camera.framed = distance.is_none();
+        camera.distance = distance.unwrap_or(0.0);
         camera.target = self.target.unwrap_or(target_now);
     }
 }
@@ -255,6 +269,7 @@ fn read_camera(text: &str) -> Option<LinkedCamera> {
             angles_radians: preset.yaw_pitch_radians().into(),
             distance: None,
             target: None,
+            aspect: None,
         });
     }
     let numbers: Vec<&str> = text.split(',').collect();
@@ -262,16 +277,19 @@ fn read_camera(text: &str) -> Option<LinkedCamera> {
         return None;
     };
     let lengths: Vec<f32> = rest.iter().map(|text| read_number(text)).collect::<Option<_>>()?;
-    let (distance, target) = match lengths[..] {
-        [] => (None, None),
-        [distance] => (Some(distance), None),
-        [distance, x, y, z] => (Some(distance), Some([x, y, z])),
+    let (distance, target, aspect) = match lengths[..] {
+        [] => (None, None, None),
+        [distance] => (Some(distance), None, None),
+        [distance, x, y, z] => (Some(distance), Some([x, y, z]), None),
+        [distance, x, y, z, aspect] => (Some(distance), Some([x, y, z]), Some(aspect)),
         _ => return None,
     };
-    (distance.is_none_or(|distance| distance > 0.0)).then_some(LinkedCamera {
+    let are_above_0 = [distance, aspect].into_iter().flatten().all(|number| number > 0.0);
+    are_above_0.then_some(LinkedCamera {
         angles_radians: [read_degrees(yaw)?, read_degrees(pitch)?],
         distance,
         target,
+        aspect,
     })
 }
 

@@ -93,6 +93,7 @@ pub(super) const PLAYING: &str = "play";
 pub(super) const TIME: &str = "/view/playback/timeSecs";
 
 /// A preset's name; or yaw and pitch in degrees, and then, unless the model is framed, the distance and the target. Without a target it stays where it is.
+/// Behind them width / height of the picture, where in one of another shape the model is framed.
 pub(super) const CAMERA: &str = "cam";
 
 /// Names of clips are readable as far as an address may have their characters.

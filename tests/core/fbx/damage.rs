@@ -141,3 +141,36 @@ fn the_card_of_an_error_has_the_byte_or_the_line() {
         assert!(told.starts_with(&place), "{told}");
     }
 }
+
+#[test]
+fn a_file_that_was_cut_off_and_one_of_another_kind_are_told_as_that() {
+    let error = |path: &str, bytes: &[u8]| {
+        let mut session = Session::new(false);
+        session.apply(FileCommand::Drop(vec![File::new(path, bytes.to_vec())]));
+        session.error().expect("it cannot be read").diagnostic.clone()
+    };
+    let whole = binary(&skinned(&[1.0]), "");
+    let cut = error("cut.fbx", &whole[..whole.len() / 2]);
+    let half = whole.len() / 2;
+    assert_eq!(cut.code, "fbx-damaged");
+    assert!(
+        cut.message.starts_with(&format!(
+            "The file ends at byte {half}, within a record that goes on to byte "
+        )),
+        "{}",
+        cut.message
+    );
+    assert!(
+        cut.message.ends_with("It may have been cut off on its way here."),
+        "{}",
+        cut.message
+    );
+    let other = error("notes.fbx", b"hello, this is no model");
+    assert_eq!(
+        (&*other.message, other.expected.as_deref()),
+        (
+            "This is no .fbx file, whatever its name says: it begins with \"hello,\".",
+            Some("what .fbx files begin with")
+        )
+    );
+}

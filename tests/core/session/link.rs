@@ -1,7 +1,7 @@
 //! Links: a view as text in an address, and back.
 
 use bindpose::model::{Handedness, JointIndex, UpAxis};
-use bindpose::scene::{Background, Light, Overlay, ViewMode};
+use bindpose::scene::{Background, Insets, Light, Overlay, ViewMode};
 use bindpose::session::{
     CameraCommand, Command, CrowdCommand, JointCommand, LookCommand, MAX_LINK_LEN, MaterialCommand, NameCommand,
     PlayCommand, QualityCommand, QualityMode, Session, SubmeshCommand,
@@ -107,6 +107,7 @@ fn a_link_is_written_as_a_person_would_write_it() {
     session.apply(Command::SetHandedness(None));
     session.apply(CrowdCommand::Set { count: 3, seed: 7 });
     session.apply(QualityCommand::SetMode(QualityMode::Low));
+    session.apply(CameraCommand::FrameModel);
     let link = text(&session);
     assert_eq!(
         link,
@@ -121,6 +122,48 @@ fn a_link_is_written_as_a_person_would_write_it() {
     // Nothing leads back to the first visit.
     assert_eq!(follow(&mut elsewhere, ""), [""; 0]);
     assert_eq!(text(&elsewhere), "");
+}
+
+#[test]
+fn a_camera_that_went_round_what_it_framed_is_where_it_was_in_windows_of_one_shape() {
+    let shaped = |aspect| {
+        let mut session = opened(moving("a.m3d"));
+        let insets = Insets::default();
+        session.apply(CameraCommand::SetViewport { aspect, insets });
+        for _ in 0..100 {
+            session.advance(0.05);
+        }
+        session.apply(PlayCommand::Pause);
+        session
+    };
+    let orbit = CameraCommand::Orbit {
+        yaw_radians: 0.6,
+        pitch_radians: 0.5,
+    };
+    let mut session = shaped(1.5);
+    session.apply(orbit);
+    let (camera, link) = (*session.camera(), text(&session));
+    let mut same = shaped(1.5);
+    assert_eq!(follow(&mut same, &link), [""; 0]);
+    assert!(
+        (same.camera().distance - camera.distance).abs() < 1e-5 * camera.distance,
+        "{link}"
+    );
+    assert!(
+        same.camera().target.distance(camera.target) < 1e-5 * camera.distance,
+        "{link}"
+    );
+    // In another it is seen whole.
+    let mut narrow = shaped(0.5);
+    assert_eq!(follow(&mut narrow, &link), [""; 0]);
+    assert!(narrow.is_framed());
+    assert!(narrow.camera().distance > 1.5 * camera.distance);
+    session.apply(CameraCommand::FrameModel);
+    assert!(
+        (session.camera().distance - camera.distance).abs() > 1e-3 * camera.distance,
+        "it shows"
+    );
+    assert_eq!(text(&session).split(',').count(), 2, "{}", text(&session));
 }
 
 #[test]
@@ -151,7 +194,8 @@ fn a_camera_is_framed_or_where_its_numbers_say() {
         "1,2,0",
         "1,2,-3",
         "1,2,3,4",
-        "1,2,3,4,5,6,7",
+        "1,2,3,4,5,6,0",
+        "1,2,3,4,5,6,7,8",
         "x,2",
         "1,2,inf",
         "1,NaN",
@@ -251,6 +295,7 @@ fn of_a_long_link_the_longest_fields_are_left_out() {
         visible: false,
     });
     session.apply(LookCommand::SetLight(Light::Book));
+    session.apply(CameraCommand::FrameModel);
     let panels = vec!["skeleton".to_owned(), "keys".to_owned()];
     let whole = session.link(panels.clone(), MAX_LINK_LEN);
     assert_eq!(whole.text, "hide=1&light=book&panel=skeleton,keys");
@@ -312,8 +357,12 @@ proptest! {
         }
         prop_assert_eq!(follow(&mut elsewhere, &link), [""; 0], "{}", link);
         let mut found = elsewhere.view_state();
-        // A model that is framed is so wherever it is looked at.
-        if !state.camera.framed {
+        // A model that is framed is so wherever it is looked at, unless the camera went round it since: then it is where it was.
+        let is_at_a_place = link.split('&').any(|field| field.starts_with("cam=") && field.split(',').count() > 2);
+        if is_at_a_place {
+            found.camera.framed = state.camera.framed;
+        }
+        if !state.camera.framed || is_at_a_place {
             prop_assert_eq!(&found.camera, &state.camera, "{}", link);
         }
         if state.appearance.light == Light::Studio && state.appearance.split.is_none() {
