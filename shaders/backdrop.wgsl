@@ -64,6 +64,7 @@ fn sky_color(ray: vec3<f32>) -> vec3<f32> {
 @fragment
 fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     let ndc = view.ndc - camera.jitter;
+    let pixel = in_picture(view.clip.xy);
     var color = linear_from_srgb(select(ground.background_srgb, backdrop_srgb(ndc), ground.background == 0u));
     let eye = camera.eye + ndc.x * camera.eye_per_x + ndc.y * camera.eye_per_y;
     let ray = camera.forward + ndc.x * camera.forward_per_x + ndc.y * camera.forward_per_y;
@@ -96,16 +97,16 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         }
         // Who looks from below sees through the ground: no shadow lies on that side.
         if ray.y < 0.0 {
-            left = light_left(point, view.clip.xy);
+            left = light_left(point, pixel);
             color *= left;
         }
     }
     if ground.background == 3u {
-        return vec4<f32>(0.0, 0.0, 0.0, dithered(1.0 - left, view.clip.xy, light.noise_turn));
+        return vec4<f32>(0.0, 0.0, 0.0, dithered(1.0 - left, pixel, light.noise_turn));
     }
     // A plain background is stored exactly, without dither.
     if ground.background == 2u && all(color == behind) {
         return vec4<f32>(behind, 1.0);
     }
-    return vec4<f32>(dithered_linear_from_srgb(srgb_from_linear(color), view.clip.xy, light.noise_turn), 1.0);
+    return vec4<f32>(dithered_linear_from_srgb(srgb_from_linear(color), pixel, light.noise_turn), 1.0);
 }

@@ -18,6 +18,8 @@ struct Camera {
     // `scene::ViewMode` by its place in the menu.
     view_mode: u32,
     forward_per_y: vec3<f32>,
+    // The first row that is drawn: a picture may be drawn in bands.
+    first_row: f32,
     viewport_pixels: vec2<f32>,
     // How far the picture is moved, ndc: within its pixels, and back by what the lens moves it. Other than 0 where many are drawn for a mean.
     jitter: vec2<f32>,
@@ -27,9 +29,16 @@ struct Camera {
     sample: f32,
     // Height of the picture in points of the screen.
     points_high: f32,
+    // The first row of the maps in view that is drawn.
+    @size(16) first_map_row: f32,
 }
 
 @group(0) @binding(0) var<uniform> camera: Camera;
+
+// A pixel of a band in the whole picture, which is what all that goes with pixels goes with.
+fn in_picture(pixel: vec2<f32>) -> vec2<f32> {
+    return vec2<f32>(pixel.x, pixel.y + camera.first_row);
+}
 
 // Unit vector from a point of the world towards the viewer.
 fn towards_eye(world_position: vec3<f32>) -> vec3<f32> {

@@ -15,7 +15,9 @@ struct Composite {
     // 1 when the picture is the root of what it shows.
     is_root: f32,
     // 1 when rounding to bytes is dithered.
-    @size(12) dithers: f32,
+    dithers: f32,
+    // The first row that is drawn of the whole picture.
+    @size(8) first_row: f32,
 }
 
 // The sRGB encoding to a tenth of a step of eight bits, so that a colour that comes back from eight bits is rounded to the same step.
@@ -37,7 +39,7 @@ fn composited(ndc: vec2<f32>) -> vec4<f32> {
 
 // Less than in single pictures: a mean is not quite what it was made of, and what needs no rounding is to stay.
 fn rounding_noise(pixel: vec2<f32>) -> f32 {
-    return composite.dithers * dither_noise(pixel) * (0.6 / 255.0);
+    return composite.dithers * dither_noise(pixel + vec2<f32>(0.0, composite.first_row)) * (0.6 / 255.0);
 }
 
 // Encoded, over black: what is transparent shows what lies under it.

@@ -9,7 +9,7 @@ const OPAQUE_ALPHA: f32 = 0.998;
 @fragment
 fn fragment_opaque_part(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
     let point = surface_point(mesh, clockwise);
-    let color = stored(surface_color(point), mesh.clip.xy);
+    let color = stored(surface_color(point), point.pixel);
     if point.substance.diffuse_texel.a < OPAQUE_ALPHA {
         discard;
     }
@@ -20,7 +20,7 @@ fn fragment_opaque_part(mesh: MeshVertex, @builtin(front_facing) clockwise: bool
 fn fragment_blended(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
     let point = surface_point(mesh, clockwise);
     let blended = blended_color(point);
-    let color = stored(blended.rgb, mesh.clip.xy);
+    let color = stored(blended.rgb, point.pixel);
     if point.substance.diffuse_texel.a >= OPAQUE_ALPHA {
         discard;
     }
@@ -33,9 +33,9 @@ fn fragment_blended(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) ->
 fn fragment_stochastic(mesh: MeshVertex, @builtin(front_facing) clockwise: bool) -> @location(0) vec4<f32> {
     let point = surface_point(mesh, clockwise);
     let blended = blended_color(point);
-    let color = stored(blended.rgb, mesh.clip.xy);
+    let color = stored(blended.rgb, point.pixel);
     let turn = fract(camera.sample * fract(material.threshold_step + select(0.0, 0.41421356, clockwise)));
-    if blended.a < OPAQUE_ALPHA * turned_noise(mesh.clip.xy, turn) {
+    if blended.a < OPAQUE_ALPHA * turned_noise(point.pixel, turn) {
         discard;
     }
     return vec4<f32>(color, 1.0);

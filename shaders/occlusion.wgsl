@@ -2,9 +2,20 @@
 
 @group(1) @binding(0) var geometry_map: texture_2d<f32>;
 
+// A pixel of the band that is drawn in the map of the whole picture.
+fn in_map(pixel: vec2<f32>) -> vec2<f32> {
+    return vec2<f32>(pixel.x, pixel.y + camera.first_map_row);
+}
+
+// The pixel of the band that is nearest to one of the whole map.
+fn in_band(pixel: vec2<i32>) -> vec2<i32> {
+    let above = vec2<i32>(0, i32(camera.first_map_row));
+    let size = min(vec2<i32>(camera.map_size) - above, vec2<i32>(textureDimensions(geometry_map)));
+    return clamp(pixel - above, vec2<i32>(0), size - 1);
+}
+
 fn geometry_at(pixel: vec2<i32>) -> vec4<f32> {
-    let last = vec2<i32>(camera.map_size) - 1;
-    return textureLoad(geometry_map, clamp(pixel, vec2<i32>(0), last), 0);
+    return textureLoad(geometry_map, in_band(pixel), 0);
 }
 
 // Distance along the view, world units.

@@ -17,8 +17,7 @@ fn smoothed(pixel: vec2<i32>, step: vec2<i32>) -> vec4<f32> {
     let normal = normal_of(packed);
     let along = distance_of(packed);
     let point = world_at(ndc_of_pixel(vec2<f32>(pixel) + 0.5), along);
-    let last = vec2<i32>(camera.map_size) - 1;
-    var sum = textureLoad(rough_map, pixel, 0).r;
+    var sum = textureLoad(rough_map, in_band(pixel), 0).r;
     var weights = 1.0;
     for (var i = -BLUR_RADIUS; i <= BLUR_RADIUS; i++) {
         let at = pixel + step * i;
@@ -32,7 +31,7 @@ fn smoothed(pixel: vec2<i32>, step: vec2<i32>) -> vec4<f32> {
             && apart <= select(APART, BOOK_APART, light.is_book == 1u) * light.book_unit;
         if i != 0 && is_same_surface {
             let weight = exp(-f32(i * i) / (2.0 * BLUR_SIGMA * BLUR_SIGMA));
-            sum += weight * textureLoad(rough_map, clamp(at, vec2<i32>(0), last), 0).r;
+            sum += weight * textureLoad(rough_map, in_band(at), 0).r;
             weights += weight;
         }
     }
@@ -41,10 +40,10 @@ fn smoothed(pixel: vec2<i32>, step: vec2<i32>) -> vec4<f32> {
 
 @fragment
 fn fragment_rows(view: FullscreenVertex) -> @location(0) vec4<f32> {
-    return smoothed(vec2<i32>(view.clip.xy), vec2<i32>(1, 0));
+    return smoothed(vec2<i32>(in_map(view.clip.xy)), vec2<i32>(1, 0));
 }
 
 @fragment
 fn fragment_columns(view: FullscreenVertex) -> @location(0) vec4<f32> {
-    return smoothed(vec2<i32>(view.clip.xy), vec2<i32>(0, 1));
+    return smoothed(vec2<i32>(in_map(view.clip.xy)), vec2<i32>(0, 1));
 }

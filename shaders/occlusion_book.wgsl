@@ -32,7 +32,8 @@ fn occlusion_of(nearer: f32) -> f32 {
 
 @fragment
 fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
-    let packed = geometry_at(vec2<i32>(view.clip.xy));
+    let pixel = in_map(view.clip.xy);
+    let packed = geometry_at(vec2<i32>(pixel));
     if depth_of(packed) >= 1.0 {
         return vec4<f32>(1.0);
     }
@@ -40,7 +41,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     let along = distance_of(packed);
     let point = world_at(view.ndc - camera.jitter, along);
     // Each pixel mirrors the offsets about its own direction. Its two angles come from one evenly spread noise.
-    let noise = turned_noise(view.clip.xy, light.noise_turn);
+    let noise = turned_noise(pixel, light.noise_turn);
     let turn = noise * 6.2831853;
     let lift = 2.0 * fract(noise * 17.0) - 1.0;
     let mirror = vec3<f32>(sqrt(1.0 - lift * lift) * vec2<f32>(cos(turn), sin(turn)), lift);

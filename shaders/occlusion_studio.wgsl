@@ -37,7 +37,8 @@ fn horizon_cosine(pixel: vec2<f32>, step: vec2<f32>, start: f32, point: vec3<f32
 
 @fragment
 fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
-    let packed = geometry_at(vec2<i32>(view.clip.xy));
+    let pixel = in_map(view.clip.xy);
+    let packed = geometry_at(vec2<i32>(pixel));
     if depth_of(packed) >= 1.0 {
         return vec4<f32>(1.0);
     }
@@ -50,7 +51,7 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
     let reach = min(light.occlusion_radius / world_per_pixel, MOST_REACH * camera.map_size.y);
     let right = normalize(camera.eye_per_x + camera.forward_per_x);
     let up = normalize(camera.eye_per_y + camera.forward_per_y);
-    let noise = turned_noise(view.clip.xy, light.noise_turn);
+    let noise = turned_noise(pixel, light.noise_turn);
     let start = 0.25 + 0.75 * fract(noise * 7.0 + 0.37);
 
     let slices = select(FEW_SLICES, SLICES, light.fine_occlusion == 1u);
@@ -69,8 +70,8 @@ fn fragment(view: FullscreenVertex) -> @location(0) vec4<f32> {
         let step = vec2<f32>(heading.x, -heading.y) * reach;
         let lowest_ahead = cos(min(normal_angle + HALF_PI, 3.14159265));
         let lowest_behind = cos(max(normal_angle - HALF_PI, -3.14159265));
-        let ahead = acos(clamp(horizon_cosine(view.clip.xy, step, start, point, to_eye, lowest_ahead), -1.0, 1.0));
-        let behind = -acos(clamp(horizon_cosine(view.clip.xy, -step, start, point, to_eye, lowest_behind), -1.0, 1.0));
+        let ahead = acos(clamp(horizon_cosine(pixel, step, start, point, to_eye, lowest_ahead), -1.0, 1.0));
+        let behind = -acos(clamp(horizon_cosine(pixel, -step, start, point, to_eye, lowest_behind), -1.0, 1.0));
         let ahead_angle = normal_angle + min(ahead - normal_angle, HALF_PI);
         let behind_angle = normal_angle + max(behind - normal_angle, -HALF_PI);
         open += projected_length * (open_arc(ahead_angle, normal_angle) + open_arc(behind_angle, normal_angle));

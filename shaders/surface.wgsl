@@ -65,9 +65,10 @@ struct SurfacePoint {
 // the next: from the pixels of the smaller map about it that are of the same surface, or else from the one that is nearest to it.
 fn occlusion_at(pixel: vec2<f32>, along: f32, steep: f32) -> f32 {
     // Where none is drawn, there is one white texel.
-    let last = min(vec2<i32>(camera.map_size), vec2<i32>(textureDimensions(occlusion_map))) - 1;
+    let above = vec2<i32>(0, i32(camera.first_map_row));
+    let last = min(vec2<i32>(camera.map_size) - above, vec2<i32>(textureDimensions(occlusion_map))) - 1;
     let place = pixel / camera.viewport_pixels * camera.map_size - 0.5;
-    let first = vec2<i32>(floor(place));
+    let first = vec2<i32>(floor(place)) - above;
     let part = place - floor(place);
     let reach = 0.01 * light.book_unit + 2.0 * steep;
     var sum = 0.0;
@@ -119,6 +120,7 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
     // Seen from behind, a bump is a dent.
     let normal = mapped_normal(of_maps.normal_texel.rgb, of_maps.normal_scale, vertex_normal, mesh.world_tangent) * side;
     let along = dot(mesh.world_position - camera.eye, camera.forward);
+    let pixel = in_picture(mesh.clip.xy);
     return SurfacePoint(
         mesh.world_position,
         to_eye,
@@ -130,8 +132,8 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
         mesh.world_tangent,
         mesh.tex_coord,
         of_maps,
-        occlusion_at(mesh.clip.xy, along, fwidth(along)) * of_maps.occlusion,
-        mesh.clip.xy,
+        occlusion_at(pixel, along, fwidth(along)) * of_maps.occlusion,
+        pixel,
     );
 }
 

@@ -17,7 +17,7 @@ use super::textures::{Folders, Textures, write_missing};
 use crate::contact_sheet::ContactSheet;
 use crate::image::{self, encode_png};
 use crate::render::device::{self, Gpu};
-use crate::render::{PictureTarget, Renderer, watched};
+use crate::render::{MOST_UNDER_LAYER, PictureTarget, Renderer, watched};
 use crate::scene::{Background, FrameOptions, Shot, Theme, ViewPreset};
 use crate::session::{
     CameraCommand, Command, CrowdCommand, CrowdState, File, FileCommand, MAX_CROWD, MOST_SAMPLES, PlayCommand, Series,
@@ -48,7 +48,7 @@ pub(super) struct Arguments {
     clip: Option<String>,
     #[command(flatten)]
     series: SeriesArguments,
-    /// Width and height of each file's picture in pixels.
+    /// Width and height of each file's picture in pixels, each up to what the GPU's textures have: mostly 16384. Large ones are drawn in bands.
     #[arg(long, value_name = "WxH", value_parser = size, default_value = "1280x720")]
     size: [u32; 2],
     /// Where to look from; the model is framed.
@@ -133,6 +133,9 @@ fn aperture(text: &str) -> Result<f32, String> {
     part.ok_or_else(|| format!("an aperture is a number from 0 to {most}"))
 }
 
+/// Rows of a band are a multiple of this: rasterisers draw in tiles, and what they round there is then the same.
+const BAND_STEP: u64 = 64;
+
 /// Of how many pictures each is the mean, where nothing is asked for: one alone, and each of many or where the CPU draws.
 const SAMPLES: [u32; 2] = [64, 16];
 
@@ -168,7 +171,7 @@ pub(super) fn run(arguments: &Arguments, out: &mut dyn Write, err: &mut dyn Writ
     }
     let progress = progress(series.count(), "drawing {pos} of {len} pictures, {eta} left");
     let drawn = (0..series.count()).try_for_each(|index| -> Result<(), Failure> {
-        let pixels = painter.draw(&mut series, index)?;
+        let pixels = painter.draw(&mut series, index, size)?;
         match (&mut sheet, folder) {
             (Some(sheet), _) => sheet.place(index, &pixels, series.caption(index)),
             (None, folder) => {
@@ -347,11 +350,22 @@ impl Painter {
     }
 
     /// The pixels of a picture, as [`encode_png`] takes them.
-    fn draw(&mut self, series: &mut Series, index: usize) -> Result<Vec<u8>, Failure> {
+    fn draw(&mut self, series: &mut Series, index: usize, [width, height]: [u32; 2]) -> Result<Vec<u8>, Failure> {
         let mut frame = series.frame(index);
         frame.options.aperture = self.aperture;
         self.renderer.refine_for(&frame);
-        let picture = self.renderer.picture_into(&frame, &mut self.target)?;
-        Ok(picture.pixels_blocking()?)
+        let mut pixels = Vec::new();
+        // A band needs a part of the memory that all rows would.
+        let steps = MOST_UNDER_LAYER / u64::from(width.max(1)) / BAND_STEP;
+        let rows = (steps.max(1) * BAND_STEP) as u32;
+        for top in (0..height).step_by(rows as usize) {
+            self.target.show(top..(top + rows).min(height));
+            pixels.extend(
+                self.renderer
+                    .picture_into(&frame, &mut self.target)?
+                    .pixels_blocking()?,
+            );
+        }
+        Ok(pixels)
     }
 }

@@ -1,5 +1,6 @@
 //! The mean of many pictures of a scene at rest, each with one sample a pixel.
 
+use super::band::Band;
 use super::buffers::{Queue, uniform_buffer};
 use super::fullscreen::FullscreenPass;
 use super::pipelines::{filtered_texture, uniform};
@@ -16,8 +17,8 @@ pub struct Accumulator {
     means: [wgpu::TextureView; 2],
     /// The picture that is added, and the groups that read each mean with it.
     source: Option<(wgpu::TextureView, [wgpu::BindGroup; 2])>,
-    /// Of the pictures, pixels.
-    size: [u32; 2],
+    /// Of the pictures.
+    band: Band,
     count: u32,
     /// What the GPU took for them, as far as it tells.
     gpu_secs: Option<f32>,
@@ -37,7 +38,7 @@ impl Accumulator {
             uniform: uniform_buffer::<shaders::Accumulation>(device, "accumulation"),
             means: means(device, target),
             source: None,
-            size: target.size(),
+            band: target.band(),
             count: 0,
             gpu_secs: None,
             dithers: false,
@@ -87,7 +88,12 @@ impl Accumulator {
 
     /// See [`Target::filled`].
     pub(super) fn filled(&self) -> [f32; 4] {
-        filled_part(self.size, self.capacity())
+        filled_part(self.band.size(), self.capacity())
+    }
+
+    /// Of the whole picture, the first that the mean has.
+    pub(super) fn first_row(&self) -> f32 {
+        self.band.first_row as f32
     }
 
     /// Whether the mean is rounded to bytes with noise: it has finer steps than they have.
@@ -104,10 +110,11 @@ impl Accumulator {
         target: &Target,
         dithers: bool,
     ) {
-        (self.size, self.dithers) = (target.size(), dithers);
+        (self.band, self.dithers) = (target.band(), dithers);
         let accumulation = shaders::Accumulation {
             share: 1.0 / (self.count + 1) as f32,
             turn: noise_turn(self.count),
+            first_row: self.first_row(),
             ..Default::default()
         };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&accumulation));
@@ -126,7 +133,7 @@ impl Accumulator {
         if let Some((_, groups)) = &self.source {
             let targets = PassTargets {
                 color: Some((&self.means[1 - from], wgpu::Color::TRANSPARENT)),
-                filled: Some(target.size()),
+                filled: Some(Band::all(target.size())),
                 ..PassTargets::default()
             };
             let mut pass = begin_pass(encoder, TimedPass::Picture, targets);

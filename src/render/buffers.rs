@@ -64,10 +64,15 @@ pub(super) fn bind_group<'a>(
 
 /// A buffer for one uniform `T`, to be written before it is read.
 pub(super) fn uniform_buffer<T>(device: &wgpu::Device, label: &str) -> wgpu::Buffer {
+    buffer(device, label, size_of::<T>() as u64, wgpu::BufferUsages::UNIFORM)
+}
+
+/// A buffer of so many bytes, that may also be written to.
+pub(super) fn buffer(device: &wgpu::Device, label: &str, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
     device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(label),
-        size: size_of::<T>() as u64,
-        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        size,
+        usage: usage | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
     })
 }
@@ -116,12 +121,7 @@ impl Uploader<'_> {
                 limit: self.limits.max_buffer_size,
             });
         }
-        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some(stream),
-            size: bytes,
-            usage: usage | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
+        let buffer = buffer(self.device, stream, bytes, usage);
         let mut elements = elements;
         let mut offset = 0;
         loop {

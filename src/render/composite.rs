@@ -66,6 +66,7 @@ impl Compositor {
             layer: filled,
             is_root: f32::from(u8::from(mean.is_some())),
             dithers: f32::from(u8::from(mean.is_some_and(Accumulator::dithers))),
+            first_row: mean.map_or(0.0, Accumulator::first_row),
             ..Default::default()
         };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&composite));

@@ -6,10 +6,11 @@ use std::task::{Context, Poll, Waker};
 
 use glam::{Affine3A, Vec3};
 
-use super::buffers::Queue;
-use super::buffers::bind_group;
+use super::buffers::{Queue, bind_group};
 use super::instances::BoneTexture;
+use super::pipelines::{layout, module};
 use super::read_back::{ReadBackError, read_back};
+use super::recipe::depth;
 use super::target::{COLOR_FORMAT, DEPTH_FORMAT, MEAN_FORMAT, SampleCount, Target};
 use super::timing::FrameEncoder;
 use crate::anim::Palette;
@@ -195,22 +196,16 @@ pub async fn probe(
     let bones_layout = BoneTexture::layout(device);
     let mut bone_texture = BoneTexture::new(device, &bones_layout, bones.0.len());
     bone_texture.write(&Queue::new(queue), [&bones.0[..]]);
-    let nothing_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("nothing"),
-        entries: &[],
-    });
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+    let nothing_layout = layout(device, "nothing", &[]);
+    let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("probe"),
         bind_group_layouts: &[Some(&nothing_layout), Some(&bones_layout)],
         immediate_size: 0,
     });
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(shaders::PROBE.name),
-        source: wgpu::ShaderSource::Wgsl(shaders::PROBE.source().into()),
-    });
+    let module = module(device, &shaders::PROBE);
     let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("probe"),
-        layout: Some(&layout),
+        layout: Some(&pipeline_layout),
         vertex: wgpu::VertexState {
             module: &module,
             entry_point: Some("vertex"),
@@ -218,13 +213,7 @@ pub async fn probe(
             buffers: &[],
         },
         primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH_FORMAT,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Less),
-            stencil: wgpu::StencilState::default(),
-            bias: wgpu::DepthBiasState::default(),
-        }),
+        depth_stencil: Some(depth(true, wgpu::CompareFunction::Less)),
         multisample: wgpu::MultisampleState {
             count: SampleCount::Four.count(),
             ..Default::default()

@@ -4,12 +4,14 @@ use crate::model::Handedness;
 use crate::scene::{FrameCost, Light, Pass, RenderFrame, ViewMode};
 
 use super::Renderer;
+use super::band::Band;
 use super::instances::{InstanceRange, pose_count, poses};
 use super::light_passes::Common;
 use super::model::{GpuModel, Posed};
 use super::recipe::{Cut, Draw, Faces, Maps, ModelDraw, Purpose, Shading};
 use super::target::Target;
 use super::timing::FrameEncoder;
+use super::uniforms::map_band;
 use super::view::View;
 
 /// A range of columns of the picture, pixels, under one light. Two lights are two draws of one frame, each inside its columns: no blending,
@@ -25,14 +27,9 @@ impl Renderer {
         encoder: &mut FrameEncoder,
         scene_stays: bool,
     ) -> FrameCost {
-        let Common {
-            device,
-            queue,
-            environments,
-            ..
-        } = &mut self.common;
-        environments.write(device, queue, frame);
-        let Common { device, queue, .. } = &self.common;
+        let common = &mut self.common;
+        common.environments.write(&common.device, &common.queue, frame);
+        let (device, queue) = (&self.common.device, &self.common.queue);
         let mut posed_anew = false;
         if let Some(model) = &mut self.model {
             if let Some(bones) = &mut model.bones {
@@ -53,14 +50,14 @@ impl Renderer {
         }
         self.overlays.write(device, queue, frame);
         self.shape.update(frame, self.instances.roster(), posed_anew);
-        let parts = parts(frame, target.size());
-        let is_sample = frame.sample.is_some();
+        let (parts, is_sample) = (parts(frame, target.size()), frame.sample.is_some());
+        let (band, map) = (target.band(), map_band(frame, target.band()));
         let view = if is_sample { &mut self.at_rest } else { &mut self.window };
         for (light, _) in &parts {
             view.add_light(&self.common, *light, self.options.shadow_map_side);
         }
         if frame.options.draws(Pass::AmbientOcclusion) {
-            view.make_room(&self.common.device, target, is_sample);
+            view.make_room(device, target, map, is_sample);
         }
         let pipelines = &self.common.pipelines;
         let model = self.model.as_ref().map(|model| {
@@ -80,17 +77,18 @@ impl Renderer {
             if columns_of(passes.light()).is_none() {
                 continue;
             }
-            passes.write(&self.common, frame, target.size());
+            passes.write(&self.common, frame, band);
             let is_read = frame.draws_under(Pass::AmbientOcclusion, passes.light());
-            if let (true, Some(model), Some(map)) = (is_read, model, &mut *geometry) {
+            if let (true, Some(model), Some(geometry)) = (is_read, model, &mut *geometry) {
                 let model = with(model, self.instances.in_sight());
-                passes.draw_geometry(&self.common, encoder, map, (self.shape.revision_in_sight, model));
+                let shape = (self.shape.revision_in_sight, model);
+                passes.draw_geometry(&self.common, encoder, (geometry, map), shape);
             }
         }
         for passes in lights.iter_mut().filter(|_| !scene_stays) {
             if let Some(columns) = columns_of(passes.light()) {
                 let (geometry, shape) = (geometry.as_ref(), (self.shape.revision, model));
-                passes.draw(&self.common, encoder, frame, (columns, geometry), shape);
+                passes.draw(&self.common, encoder, frame, (columns, band, geometry), shape);
             }
         }
         let own = model.map(|model| with(model, self.instances.own()));
@@ -99,9 +97,8 @@ impl Renderer {
         if !scene_stays {
             self.draw_picture(frame, target, &parts, own, encoder);
         }
-        let size = target.size();
         target.draw_layer(&self.common.device, encoder, frame.has_overlays(), |pass, kind| {
-            self.draw_over(frame, size, &parts, own, pass, [kind == 0, kind == 1]);
+            self.draw_over(frame, band, &parts, own, pass, [kind == 0, kind == 1]);
         });
         let [draws, vertices] = model.map_or([0; 2], |(model, _)| model.take_drawn());
         FrameCost {
@@ -176,7 +173,7 @@ impl Renderer {
             }
         }
         if !target.has_layer() {
-            self.draw_over(frame, target.size(), parts, model, &mut pass, [true; 2]);
+            self.draw_over(frame, target.band(), parts, model, &mut pass, [true; 2]);
         }
         // GL resolves the samples by a copy, which the scissor would cut.
         let [width, height] = target.size();
@@ -187,20 +184,16 @@ impl Renderer {
     fn draw_over(
         &self,
         frame: &RenderFrame<'_>,
-        size: [u32; 2],
+        band: Band,
         parts: &[Columns],
         model: Option<(&GpuModel, Posed<'_>)>,
         pass: &mut wgpu::RenderPass<'_>,
         [on_model, seen_through]: [bool; 2],
     ) {
-        let Common {
-            device,
-            pipelines,
-            nothing,
-            ..
-        } = &self.common;
+        let common = &self.common;
+        let (device, pipelines, nothing) = (&common.device, &common.pipelines, &common.nothing);
         for part in parts {
-            if !self.begin_part(pass, frame, part, size[1]) {
+            if !self.begin_part(pass, frame, part, band.rows) {
                 continue;
             }
             if let Some(model) = model.filter(|_| on_model) {
@@ -211,11 +204,11 @@ impl Renderer {
                 .into_iter()
                 .flatten()
             {
-                self.overlays.draw_shapes(pass, pipelines, nothing, size, through);
+                self.overlays.draw_shapes(pass, pipelines, nothing, band, through);
             }
         }
         // As above.
-        pass.set_scissor_rect(0, 0, size[0], size[1]);
+        pass.set_scissor_rect(0, 0, band.whole[0], band.rows);
     }
 
     /// Begins to draw into these columns, under their light. False where that was never drawn.

@@ -8,6 +8,8 @@ use std::borrow::Cow;
 use std::sync::LazyLock;
 
 use super::buffers::{Queue, uniform_buffer};
+use super::maps::texture_of;
+use super::target::UPLOADED_AND_READ;
 use crate::image::{Image, ImageKind, MapKind};
 use crate::light::{BRDF_TABLE_SIDE, BrdfTable, Environment, Prefiltered, Room, SkyLamp, sound_radiance};
 use crate::scene::{Light, Pass, RenderFrame, Theme};
@@ -283,7 +285,7 @@ fn empty_cube(
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        usage: UPLOADED_AND_READ,
         view_formats: &[],
     })
 }
@@ -381,32 +383,14 @@ fn half_floats(texels: &[f32]) -> Vec<u8> {
 
 fn table(device: &wgpu::Device, queue: &Queue) -> wgpu::TextureView {
     static TABLE: LazyLock<BrdfTable> = LazyLock::new(|| BrdfTable::new(BRDF_TABLE_SIDE));
-    let side = TABLE.side() as u32;
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("BRDF table"),
-        size: wgpu::Extent3d {
-            width: side,
-            height: side,
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba16Float,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
-    let layout = wgpu::TexelCopyBufferLayout {
-        offset: 0,
-        bytes_per_row: Some(side * 8),
-        rows_per_image: None,
-    };
     let entries = TABLE.to_rgba16f();
-    queue.write_texture(
-        texture.as_image_copy(),
+    let (size, format) = ([TABLE.side() as u32; 2], wgpu::TextureFormat::Rgba16Float);
+    texture_of(
+        device,
+        queue,
+        "BRDF table",
+        size,
+        format,
         bytemuck::cast_slice(&entries),
-        layout,
-        texture.size(),
-    );
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
+    )
 }

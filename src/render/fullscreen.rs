@@ -1,6 +1,7 @@
 //! A program that fills a picture from textures, in one triangle.
 
 use super::buffers::bind_group;
+use super::pipelines::{layout, module};
 use crate::shaders::Program;
 
 pub(super) struct FullscreenPass {
@@ -18,23 +19,10 @@ impl FullscreenPass {
         bindings: &[wgpu::BindingType],
         format: wgpu::TextureFormat,
     ) -> Self {
-        let entries: Vec<_> = (0..)
-            .zip(bindings)
-            .map(|(binding, &ty)| wgpu::BindGroupLayoutEntry {
-                binding,
-                visibility: wgpu::ShaderStages::FRAGMENT,
-                ty,
-                count: None,
-            })
-            .collect();
-        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some(program.name),
-            entries: &entries,
-        });
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(program.name),
-            source: wgpu::ShaderSource::Wgsl(program.source().into()),
-        });
+        let in_fragment = |&ty| (wgpu::ShaderStages::FRAGMENT, ty);
+        let entries: Vec<_> = bindings.iter().map(in_fragment).collect();
+        let layout = layout(device, program.name, &entries);
+        let module = module(device, program);
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(program.name),
             bind_group_layouts: &[Some(&layout)],

@@ -7,7 +7,9 @@ use std::slice::ChunksExact;
 
 use glam::Affine3A;
 
-use super::buffers::{Queue, bind_group};
+use super::buffers::{Queue, bind_group, buffer};
+use super::pipelines::{flat, layout};
+use super::target::{UPLOADED_AND_READ, flat_texture};
 use super::uniforms::{encoded, theme_colors};
 use crate::scene::RenderFrame;
 use crate::shaders::{Instance, JOINTS_PER_ROW};
@@ -34,19 +36,8 @@ pub struct BoneTexture {
 
 impl BoneTexture {
     pub fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("bones"),
-            entries: &[wgpu::BindGroupLayoutEntry {
-                binding: 0,
-                visibility: wgpu::ShaderStages::VERTEX,
-                ty: wgpu::BindingType::Texture {
-                    sample_type: wgpu::TextureSampleType::Float { filterable: false },
-                    view_dimension: wgpu::TextureViewDimension::D2,
-                    multisampled: false,
-                },
-                count: None,
-            }],
-        })
+        let matrices = wgpu::TextureSampleType::Float { filterable: false };
+        layout(device, "bones", &[(wgpu::ShaderStages::VERTEX, flat(matrices))])
     }
 
     /// The greatest number of joints, of all palettes together, that fits a device.
@@ -139,23 +130,10 @@ fn row_of(texels: &[[f32; 4]], row: u32) -> Option<&[u8]> {
 }
 
 fn texture(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, height: u32) -> (wgpu::Texture, wgpu::BindGroup) {
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("bones"),
-        size: wgpu::Extent3d {
-            width: TEXELS_PER_ROW,
-            height,
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba32Float,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
-    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+    let (size, format) = ([TEXELS_PER_ROW, height], wgpu::TextureFormat::Rgba32Float);
+    let view = flat_texture(device, "bones", size, format, UPLOADED_AND_READ);
     let group = bind_group(device, "bones", layout, [wgpu::BindingResource::TextureView(&view)]);
-    (texture, group)
+    (view.texture().clone(), group)
 }
 
 /// Opacity of the highlight at a surface's edge.
@@ -347,12 +325,8 @@ impl<'a> InstanceRange<'a> {
 }
 
 fn buffer_for(device: &wgpu::Device, count: usize) -> wgpu::Buffer {
-    device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("instances"),
-        size: (count * size_of::<Instance>()) as u64,
-        usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    })
+    let bytes = (count * size_of::<Instance>()) as u64;
+    buffer(device, "instances", bytes, wgpu::BufferUsages::VERTEX)
 }
 
 /// The rows of a matrix as texels or vertex attributes.

@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use super::band::Band;
 use super::buffers::bind_group;
 use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
@@ -86,35 +87,40 @@ const NO_GEOMETRY: wgpu::Color = wgpu::Color {
     a: 1.0,
 };
 
-/// Texels beside a light's columns that its blurs read: one radius for each of the book's four blurs.
-const BLUR_MARGIN: u32 = 4 * 5;
+/// Texels beside a light's columns that its blurs read, and as many above and below: one radius for each of the book's four blurs.
+pub(super) const BLUR_MARGIN: u32 = 4 * 5;
 
 /// Normals and depth of the model in view, at half the picture's resolution; of a sample at rest at all of it. Both lights read it. It may
 /// fill a part of its textures, from the top left.
 pub(super) struct GeometryMap {
-    /// Texels that are filled.
-    size: [u32; 2],
+    /// What is filled.
+    band: Band,
     geometry: wgpu::TextureView,
     depth: wgpu::TextureView,
+    shares_depth: bool,
     is_full_size: bool,
-    /// Revision of the shape, and the camera.
-    drawn_from: DrawnFrom<(u64, shaders::Camera)>,
+    /// Revision of the shape, the camera, and the band.
+    drawn_from: DrawnFrom<(u64, shaders::Camera, Band)>,
     /// Counts how often it was drawn.
     revision: u64,
 }
 
 impl GeometryMap {
-    /// For pictures up to this size, pixels. With the depth of a target of this capacity it has the full size of its picture, which is
-    /// drawn after it.
-    pub(super) fn new(device: &wgpu::Device, capacity: [u32; 2], of_target: Option<&wgpu::TextureView>) -> Self {
-        let capacity = if of_target.is_some() { capacity } else { half(capacity) };
+    /// For bands up to this size. It may share the depth of a target of this capacity, whose picture is drawn after it.
+    pub(super) fn new(
+        device: &wgpu::Device,
+        capacity: [u32; 2],
+        of_target: Option<&wgpu::TextureView>,
+        is_full_size: bool,
+    ) -> Self {
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let own_depth = || flat_texture(device, "geometry depth", capacity, DEPTH_FORMAT, usage);
         Self {
-            size: capacity,
+            band: Band::all(capacity),
             geometry: flat_texture(device, "geometry", capacity, GEOMETRY_FORMAT, DRAWN_AND_READ),
             depth: of_target.cloned().unwrap_or_else(own_depth),
-            is_full_size: of_target.is_some(),
+            shares_depth: of_target.is_some(),
+            is_full_size,
             drawn_from: DrawnFrom(None),
             revision: 0,
         }
@@ -124,23 +130,15 @@ impl GeometryMap {
         [self.geometry.texture().width(), self.geometry.texture().height()]
     }
 
-    /// Whether a picture of this size fits, pixels, of a target with this depth where that is used.
+    /// Whether a band of this size fits, of a target with this depth where that is shared.
     pub(super) fn has_room(&self, size: [u32; 2], of_target: Option<&wgpu::TextureView>) -> bool {
-        of_target.map_or(!self.is_full_size, |depth| self.depth == *depth)
-            && self
-                .capacity()
-                .iter()
-                .zip(self.size_for(size))
-                .all(|(&has, needs)| has >= needs)
+        let has_all = self.capacity().iter().zip(size).all(|(&has, needs)| has >= needs);
+        has_all && of_target.map_or(!self.shares_depth, |depth| self.depth == *depth)
     }
 
-    fn size_for(&self, size: [u32; 2]) -> [u32; 2] {
-        if self.is_full_size { size } else { half(size) }
-    }
-
-    /// Whether it has more than so many times the texels that a picture of this size needs.
+    /// Whether it has more than so many times the texels that a picture of this size needs, at half its resolution.
     pub(super) fn exceeds(&self, times: u64, size: [u32; 2]) -> bool {
-        pixels(self.capacity()) > times * pixels(self.size_for(size))
+        pixels(self.capacity()) > times * pixels(half(size))
     }
 
     pub(super) fn textures(&self) -> [&wgpu::Texture; 2] {
@@ -150,7 +148,7 @@ impl GeometryMap {
     pub(super) fn draw(
         &mut self,
         encoder: &mut FrameEncoder,
-        (frame_group, camera): (&wgpu::BindGroup, &shaders::Camera),
+        (frame_group, camera, band): (&wgpu::BindGroup, &shaders::Camera, Band),
         (shape_revision, (model, posed)): (u64, (&GpuModel, Posed<'_>)),
         nothing: &wgpu::BindGroup,
     ) {
@@ -160,15 +158,15 @@ impl GeometryMap {
             sample: 0.0,
             ..*camera
         };
-        if !self.drawn_from.update((shape_revision, place)) {
+        if !self.drawn_from.update((shape_revision, place, band)) {
             return;
         }
         self.revision += 1;
-        self.size = camera.map_size.map(|side| side as u32);
+        self.band = band;
         let targets = PassTargets {
             color: Some((&self.geometry, NO_GEOMETRY)),
             depth: Some(&self.depth),
-            filled: Some(self.size),
+            filled: Some(band),
             ..PassTargets::default()
         };
         let mut pass = begin_pass(encoder, TimedPass::Geometry, targets);
@@ -183,6 +181,7 @@ impl GeometryMap {
 struct OcclusionSource {
     geometry_revision: u64,
     columns: Range<u32>,
+    band: Band,
     /// Lengths of the light, world units.
     radius: f32,
     book_unit: f32,
@@ -233,18 +232,19 @@ impl OcclusionMap {
         &self.occlusion
     }
 
-    /// `columns` of the picture are this light's.
+    /// `columns` of the picture's band are this light's.
     pub(super) fn draw(
         &mut self,
         encoder: &mut FrameEncoder,
         pipelines: &Pipelines,
         (frame_group, uniform): (&wgpu::BindGroup, &shaders::Light),
-        (light, columns): (Light, &Range<u32>),
+        (light, columns, band): (Light, &Range<u32>, Band),
         map: &GeometryMap,
     ) {
         let source = OcclusionSource {
             geometry_revision: map.revision,
             columns: columns.clone(),
+            band,
             radius: uniform.occlusion_radius,
             book_unit: uniform.book_unit,
             fine: uniform.fine_occlusion,
@@ -253,15 +253,17 @@ impl OcclusionMap {
         if !self.drawn_from.update(source) {
             return;
         }
-        let [width, height] = map.size;
+        let [width, _] = map.band.whole;
         let divisor = if self.is_blurred { 2 } else { 1 };
         let start = (columns.start / divisor).saturating_sub(BLUR_MARGIN);
         let end = (columns.end.div_ceil(divisor) + BLUR_MARGIN).min(width);
+        let drawn = if self.is_blurred { band.half() } else { band }.widened(BLUR_MARGIN);
+        let top = drawn.first_row - map.band.first_row;
         let mut fill = |draw, source: &wgpu::BindGroup, target: &wgpu::TextureView| {
             let targets = PassTargets {
                 color: Some((target, wgpu::Color::WHITE)),
-                filled: Some(map.size),
-                scissor: Some([start, 0, end - start, height]),
+                filled: Some(map.band),
+                scissor: Some([start, top, end - start, drawn.rows]),
                 ..PassTargets::default()
             };
             let mut pass = begin_pass(encoder, TimedPass::AmbientOcclusion, targets);

@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use super::band::Band;
 use super::buffers::{Queue, bind_group, uniform_buffer};
 use super::environment::Environments;
 use super::light_maps::{ContactMap, GeometryMap, OcclusionMap, ShadowMap};
@@ -119,10 +120,10 @@ impl LightPasses {
         self.occlusion.iter().flat_map(OcclusionMap::textures)
     }
 
-    /// Writes the uniforms for a picture of this size, pixels.
-    pub(super) fn write(&mut self, common: &Common, frame: &RenderFrame<'_>, size: [u32; 2]) {
+    /// Writes the uniforms for a band of a picture.
+    pub(super) fn write(&mut self, common: &Common, frame: &RenderFrame<'_>, band: Band) {
         let (queue, lamps) = (&common.queue, common.environments.lamps());
-        let camera = camera_uniform(frame, size);
+        let camera = camera_uniform(frame, band);
         let light = light_uniform(frame, self.light, lamps, self.shadow.side());
         let ground = ground_uniform(frame, self.light, lamps);
         queue.write_buffer(&self.camera, 0, bytemuck::bytes_of(&camera));
@@ -131,34 +132,29 @@ impl LightPasses {
         self.written = (camera, light, ground);
     }
 
-    /// Draws the geometry in view, which both lights read. After [`LightPasses::write`].
+    /// Draws a band of the geometry in view, which both lights read. After [`LightPasses::write`].
     pub(super) fn draw_geometry(
         &self,
         common: &Common,
         encoder: &mut FrameEncoder,
-        map: &mut GeometryMap,
+        (map, band): (&mut GeometryMap, Band),
         model: (u64, (&GpuModel, Posed<'_>)),
     ) {
-        map.draw(encoder, (&self.frame_group, &self.written.0), model, &common.nothing);
+        let frame = (&self.frame_group, &self.written.0, band);
+        map.draw(encoder, frame, model, &common.nothing);
     }
 
-    /// Draws the maps that the picture will read. `columns` of the picture are those of this light; `geometry` is there when
+    /// Draws the maps that the picture's band will read. `columns` of the picture are those of this light; `geometry` is there when
     /// ambient occlusion is wanted, and the same until [`LightPasses::forget_view`]. After [`LightPasses::write`].
     pub(super) fn draw(
         &mut self,
         common: &Common,
         encoder: &mut FrameEncoder,
         frame: &RenderFrame<'_>,
-        (columns, geometry): (&Range<u32>, Option<&GeometryMap>),
+        (columns, band, geometry): (&Range<u32>, Band, Option<&GeometryMap>),
         (shape_revision, model): (u64, Option<(&GpuModel, Posed<'_>)>),
     ) {
-        let Common {
-            device,
-            pipelines,
-            environments,
-            nothing,
-            ..
-        } = common;
+        let (device, pipelines, nothing) = (&common.device, &common.pipelines, &common.nothing);
         let (_, light, ground) = &self.written;
         let group = &self.frame_group;
         let draws = |pass| frame.draws_under(pass, self.light);
@@ -172,7 +168,13 @@ impl LightPasses {
             if let (true, Some(geometry)) = (draws(Pass::AmbientOcclusion), geometry) {
                 let fresh = || OcclusionMap::new(device, pipelines, geometry);
                 let map = self.occlusion.get_or_insert_with(fresh);
-                map.draw(encoder, pipelines, (group, light), (self.light, columns), geometry);
+                map.draw(
+                    encoder,
+                    pipelines,
+                    (group, light),
+                    (self.light, columns, band),
+                    geometry,
+                );
                 occlusion = map.view();
             }
             if draws(Pass::ContactShadow) {
@@ -184,7 +186,7 @@ impl LightPasses {
                 contact = map.view();
             }
         }
-        let (specular, sky) = (environments.specular(), environments.sky(self.light));
+        let (specular, sky) = (common.environments.specular(), common.environments.sky(self.light));
         let views = [self.shadow.view(), occlusion, contact, specular, sky];
         let are_bound = |(bound, _): &(LightingViews<_>, _)| bound.iter().zip(views).all(|(bound, view)| bound == view);
         if !self.lighting.as_ref().is_some_and(are_bound) {

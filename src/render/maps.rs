@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Weak};
 
 use super::buffers::Queue;
+use super::target::{UPLOADED_AND_READ, flat_texture};
 use crate::image::{Image, ImageFormat, MapKind};
 use crate::model::MapSlot;
 use crate::scene::map_kind;
@@ -73,23 +74,26 @@ fn key(image: &Arc<Image>, kind: MapKind) -> Key {
 
 /// A texture of one texel, bound where there is nothing else to bind.
 pub(super) fn one_texel(device: &wgpu::Device, queue: &Queue, label: &str, texel: [u8; 4]) -> wgpu::TextureView {
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some(label),
-        size: wgpu::Extent3d::default(),
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba8Unorm,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
+    texture_of(device, queue, label, [1; 2], wgpu::TextureFormat::Rgba8Unorm, &texel)
+}
+
+/// A flat texture of these texels.
+pub(super) fn texture_of(
+    device: &wgpu::Device,
+    queue: &Queue,
+    label: &str,
+    size: [u32; 2],
+    format: wgpu::TextureFormat,
+    texels: &[u8],
+) -> wgpu::TextureView {
+    let view = flat_texture(device, label, size, format, UPLOADED_AND_READ);
     let layout = wgpu::TexelCopyBufferLayout {
         offset: 0,
-        bytes_per_row: Some(4),
+        bytes_per_row: Some(texels.len() as u32 / size[1]),
         rows_per_image: None,
     };
-    queue.write_texture(texture.as_image_copy(), &texel, layout, texture.size());
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
+    queue.write_texture(view.texture().as_image_copy(), texels, layout, view.texture().size());
+    view
 }
 
 /// The longest side of a map where the device reads no blocks: phones. Decoded, a map takes four to eight times their memory.
@@ -129,7 +133,7 @@ fn upload(device: &wgpu::Device, queue: &Queue, image: &Image, kind: MapKind) ->
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        usage: UPLOADED_AND_READ,
         view_formats: &[],
     });
     for level in first..image.level_count() {

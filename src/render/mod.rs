@@ -9,6 +9,7 @@
 //! into and then read have eight bits a channel, but for the mean of a picture at rest, which is left out where half floats cannot be drawn.
 
 mod accumulator;
+mod band;
 mod blending;
 mod buffers;
 mod composite;
@@ -43,7 +44,7 @@ pub use composite::Compositor;
 pub use device::{GpuAnswer, GpuError, ProbeError, probe, watched};
 pub use instances::BoneTexture;
 pub use maps::MaterialImages;
-pub use picture::{Picture, PictureError, PictureTarget, prove};
+pub use picture::{MOST_UNDER_LAYER, Picture, PictureError, PictureTarget, prove};
 pub use read_back::{ReadBackError, read_back, read_back_blocking};
 pub use target::{SampleCount, Target};
 
@@ -185,13 +186,10 @@ impl Renderer {
 
     /// Uploads a model, which replaces the last one. On an error the last one stays.
     pub fn set_model(&mut self, model: &Model) -> Result<(), UploadError> {
-        let Common {
-            device,
-            queue,
-            pipelines,
-            ..
-        } = &self.common;
-        self.model = Some(GpuModel::upload(device, queue, &pipelines.layouts, &self.maps, model)?);
+        let common = &self.common;
+        let layouts = &common.pipelines.layouts;
+        let uploaded = GpuModel::upload(&common.device, &common.queue, layouts, &self.maps, model)?;
+        self.model = Some(uploaded);
         self.shape.replace();
         Ok(())
     }
@@ -200,29 +198,19 @@ impl Renderer {
     /// All maps are replaced. An image is uploaded once, however many materials have it, and stays in GPU memory until a call lacks
     /// it, even when another model came meanwhile. Returns how many images were uploaded. Does nothing without a model.
     pub fn set_maps(&mut self, maps: &[MaterialImages<'_>]) -> usize {
-        let Common {
-            device,
-            queue,
-            pipelines,
-            ..
-        } = &self.common;
+        let (device, queue) = (&self.common.device, &self.common.queue);
         let Some(model) = &mut self.model else { return 0 };
         self.shape.replace();
         let uploaded = self.maps.update(device, queue, maps);
-        model.set_maps(device, queue, &pipelines.layouts, &self.maps, maps);
+        model.set_maps(device, queue, &self.common.pipelines.layouts, &self.maps, maps);
         uploaded
     }
 
     /// Replaces the values of the model's materials, in their order; their maps stay. Does nothing without a model.
     pub fn set_materials(&mut self, materials: &[Material]) {
-        let Common {
-            device,
-            queue,
-            pipelines,
-            ..
-        } = &self.common;
+        let common = &self.common;
         if let Some(model) = &mut self.model {
-            model.set_materials(device, queue, &pipelines.layouts, materials);
+            model.set_materials(&common.device, &common.queue, &common.pipelines.layouts, materials);
             self.shape.replace();
         }
     }
@@ -230,13 +218,8 @@ impl Renderer {
     /// Sets a cube map as the environment; without one, the project's own comes back. False, and nothing changes, when the image is no
     /// cube map.
     pub fn set_sky(&mut self, image: Option<&Image>) -> bool {
-        let Common {
-            device,
-            queue,
-            environments,
-            ..
-        } = &mut self.common;
-        environments.set_sky(device, queue, image)
+        let common = &mut self.common;
+        common.environments.set_sky(&common.device, &common.queue, image)
     }
 
     /// Whether what lights the model has all the texels that it will have.
@@ -246,24 +229,14 @@ impl Renderer {
 
     /// Works on that in a slice: call it, always with the same slices, while nothing moves. True when the picture is another one for it.
     pub fn refine(&mut self, slices: &Slices) -> bool {
-        let Common {
-            device,
-            queue,
-            environments,
-            ..
-        } = &mut self.common;
-        environments.refine(device, queue, slices)
+        let common = &mut self.common;
+        common.environments.refine(&common.device, &common.queue, slices)
     }
 
     /// All of it at once, for a frame that no one waits for.
     pub fn refine_for(&mut self, frame: &RenderFrame<'_>) {
-        let Common {
-            device,
-            queue,
-            environments,
-            ..
-        } = &mut self.common;
-        environments.write(device, queue, frame);
+        let common = &mut self.common;
+        common.environments.write(&common.device, &common.queue, frame);
         while !self.is_refined() {
             self.refine(&Slices::ENDLESS);
         }
@@ -362,7 +335,7 @@ impl Renderer {
         self.picture_into(frame, &mut PictureTarget::new(size))
     }
 
-    /// The same into a target that is there, for one picture after another. Its pixels stay readable when the next is drawn.
+    /// The same, or a band of it, into a target that is there, for one after another. Its pixels stay readable when the next is drawn.
     ///
     /// # Errors
     /// When the device draws no picture of this size.
@@ -378,7 +351,8 @@ impl Renderer {
         } else {
             self.options.samples
         };
-        Picture::start(&device, &queue, (per_pixel, samples > 1), target, |target, mean| {
+        let bytes = target.bytes(frame, per_pixel);
+        Picture::start(&device, &queue, (per_pixel, bytes), target, |target, mean| {
             if samples > 1 {
                 self.draw_mean(frame, target, mean, [samples, group]);
             } else {
@@ -425,9 +399,10 @@ impl Renderer {
         if !frame.has_overlays().contains(&true) {
             mean.over = layer([1; 2]);
         } else {
-            if mean.over.size() != target.size() {
-                mean.over = layer(target.size());
+            if mean.over.capacity() != target.capacity() {
+                mean.over = layer(target.capacity());
             }
+            mean.over.show(target.band());
             self.draw_alone(frame, &mut mean.over, "layer");
         }
         let queue = &self.common.queue.inner;

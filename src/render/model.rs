@@ -10,7 +10,7 @@ use std::ops::Range;
 use glam::Vec4;
 
 use super::blending::{Center, Run, farthest_first};
-use super::buffers::{Queue, UploadError, Uploader};
+use super::buffers::{Queue, UploadError, Uploader, buffer};
 use super::instances::{BoneTexture, InstanceRange};
 use super::maps::{MapTextures, MaterialImages};
 use super::materials::GpuMaterials;
@@ -169,12 +169,8 @@ impl GpuModel {
             return;
         }
         let buffer = self.colors.take().map(|(_, buffer)| buffer).unwrap_or_else(|| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("vertex colours"),
-                size: (self.vertex_count.max(1) * size_of::<[u8; 4]>()) as u64,
-                usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            })
+            let bytes = (self.vertex_count.max(1) * size_of::<[u8; 4]>()) as u64;
+            buffer(device, "vertex colours", bytes, wgpu::BufferUsages::VERTEX)
         });
         let given = &colors.colors_srgb[..colors.colors_srgb.len().min(self.vertex_count)];
         queue.write_buffer(&buffer, 0, bytemuck::cast_slice(given));

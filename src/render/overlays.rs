@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 
-use super::buffers::{Queue, bind_group, uniform_buffer};
+use super::band::Band;
+use super::buffers::{Queue, bind_group, buffer, uniform_buffer};
 use super::instances::Instances;
 use super::model::{GpuModel, Posed};
 use super::pipelines::{Layouts, Pipelines};
@@ -91,19 +92,19 @@ impl Overlays {
         }
     }
 
-    /// Draws the shapes of the world that the model can hide, or those that are seen `through` it. The caller sets group 0. `size` is the
-    /// target's, pixels.
+    /// Draws the shapes of the world that the model can hide, or those that are seen `through` it. The caller sets group 0. `band` is the
+    /// target's.
     pub(super) fn draw_shapes(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         pipelines: &Pipelines,
         nothing: &wgpu::BindGroup,
-        size: [u32; 2],
+        band: Band,
         through: bool,
     ) {
         // Their vertices have colours of their own, but the lines' layout has a style all the same.
         self.shapes
-            .draw(pass, pipelines, (nothing, &self.wire.group), size, through);
+            .draw(pass, pipelines, (nothing, &self.wire.group), band, through);
     }
 }
 
@@ -148,12 +149,8 @@ impl Shapes {
     }
 
     fn buffer(device: &wgpu::Device, capacity: usize) -> wgpu::Buffer {
-        device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("world shapes"),
-            size: (capacity * size_of::<OverlayVertex>()) as u64,
-            usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        })
+        let bytes = (capacity * size_of::<OverlayVertex>()) as u64;
+        buffer(device, "world shapes", bytes, wgpu::BufferUsages::VERTEX)
     }
 
     fn write(&mut self, device: &wgpu::Device, queue: &Queue, hidden: &[OverlayVertex], through: &[&[OverlayVertex]]) {
@@ -200,7 +197,7 @@ impl WorldShapes {
         pass: &mut wgpu::RenderPass<'_>,
         pipelines: &Pipelines,
         (nothing, line_group): (&wgpu::BindGroup, &wgpu::BindGroup),
-        [width, height]: [u32; 2],
+        band: Band,
         through: bool,
     ) {
         if self.lines.count + self.triangles.count == 0 {
@@ -210,7 +207,7 @@ impl WorldShapes {
         pass.set_bind_group(2, nothing, &[]);
         pass.set_bind_group(3, line_group, &[]);
         let farthest = if through { THROUGH_DEPTH } else { 1.0 };
-        pass.set_viewport(0.0, 0.0, width as f32, height as f32, 0.0, farthest);
+        band.set_viewport(pass, farthest);
         for (shape, shapes) in [
             (WorldShape::Triangles, &self.triangles),
             (WorldShape::Lines, &self.lines),
@@ -226,7 +223,7 @@ impl WorldShapes {
                 pass.draw(vertices, 0..1);
             }
         }
-        pass.set_viewport(0.0, 0.0, width as f32, height as f32, 0.0, 1.0);
+        band.set_viewport(pass, 1.0);
     }
 }
 

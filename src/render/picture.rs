@@ -1,15 +1,18 @@
 //! A picture by itself, of any size that the device can draw: complete, or an error.
 
 use std::future::poll_fn;
+use std::ops::Range;
 use std::task::Poll;
 
 use super::accumulator::Accumulator;
+use super::band::Band;
 use super::buffers::Queue;
 use super::composite::Compositor;
 use super::device::{GpuAnswer, GpuError, answer_at_once, watched};
 use super::read_back::{Pending, ReadBackError};
 use super::target::{BYTES_PER_MEAN_PIXEL, SampleCount, Target, pixels};
 use super::timing::FrameEncoder;
+use super::uniforms::map_band;
 use crate::scene::RenderFrame;
 
 /// Why there is no picture.
@@ -49,12 +52,16 @@ pub enum PictureError {
 const MOST_SAMPLED: u64 = 64 * 3840 * 2160;
 /// Of a large picture the mean is made of so many.
 const LEAST_SAMPLES: u64 = 8;
-/// Pixels of a picture that has a layer over it as well.
-const MOST_UNDER_LAYER: u64 = 4096 * 4096;
+/// Pixels of a picture that has a layer over it as well. A larger one is drawn in bands, by who can wait for them.
+pub const MOST_UNDER_LAYER: u64 = 4096 * 4096;
+/// Of a mean, what each pixel of the maps takes that its band has above and below it: normals, depth, ambient occlusion.
+const BYTES_PER_MAP_PIXEL: u64 = 3 * 4;
 
 /// What pictures of one size are drawn into, one after another: it is allocated once.
 pub struct PictureTarget {
     size: [u32; 2],
+    /// Those that are drawn next.
+    rows: Range<u32>,
     samples: u32,
     waits: bool,
     /// `None` until the first picture.
@@ -76,6 +83,7 @@ impl PictureTarget {
     /// Of a size in pixels.
     pub fn new(size: [u32; 2]) -> Self {
         Self {
+            rows: 0..size[1],
             size,
             samples: 1,
             waits: false,
@@ -100,10 +108,38 @@ impl PictureTarget {
         self
     }
 
+    /// Draws these rows of the picture next, and not all. The first is even.
+    pub fn show(&mut self, rows: Range<u32>) {
+        let has_room = |target: &Target| target.capacity()[1] as usize >= rows.len();
+        if !self.target.as_ref().is_some_and(has_room) {
+            (self.target, self.mean) = (None, None);
+        }
+        self.rows = rows;
+    }
+
+    fn band(&self) -> Band {
+        Band {
+            whole: self.size,
+            first_row: self.rows.start,
+            rows: self.rows.len() as u32,
+        }
+    }
+
+    /// About how much it takes of the GPU's memory.
+    pub(super) fn bytes(&self, frame: &RenderFrame<'_>, per_pixel: SampleCount) -> u64 {
+        let (is_mean, own) = (self.samples_of(frame) > 1, pixels(self.band().size()));
+        let sample = RenderFrame {
+            sample: Some(0),
+            ..frame.clone()
+        };
+        let beside = pixels(map_band(&sample, self.band()).size()) - own;
+        own * bytes_per_pixel(per_pixel, is_mean) + beside * u64::from(is_mean) * BYTES_PER_MAP_PIXEL
+    }
+
     /// How many pictures its next one is the mean of: of a large one fewer, so that the device answers in time,
     /// unless it waits.
     pub fn samples_of(&self, frame: &RenderFrame<'_>) -> u32 {
-        let pixels = pixels(self.size);
+        let pixels = pixels(self.band().size());
         // A layer takes as much memory as the picture.
         let is_too_large = frame.has_overlays().contains(&true) && pixels > MOST_UNDER_LAYER;
         let most = (MOST_SAMPLED / pixels.max(1)).max(LEAST_SAMPLES) as u32;
@@ -116,7 +152,7 @@ impl PictureTarget {
 
     /// After how many of them the device is waited for: as many as are drawn at once of a large one.
     pub(super) fn group(&self) -> u32 {
-        let group = MOST_SAMPLED / LEAST_SAMPLES / pixels(self.size).max(1);
+        let group = MOST_SAMPLED / LEAST_SAMPLES / pixels(self.band().size()).max(1);
         if self.waits { group.max(1) as u32 } else { u32::MAX }
     }
 }
@@ -125,7 +161,7 @@ impl PictureTarget {
 pub struct Picture {
     size: [u32; 2],
     /// What it takes of the GPU's memory.
-    bytes_per_pixel: u64,
+    bytes: u64,
     answer: GpuAnswer,
     /// A pixel of the same target, read after the target was filled with white. GL does not report when it has no memory for a
     /// target: what is drawn into it is lost, and so is the white.
@@ -134,27 +170,28 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Has `draw` draw into a target, watches the device meanwhile, and begins to read the pixels. `is_mean`: it draws the mean of many.
+    /// Has `draw` draw into a target, watches the device meanwhile, and begins to read the pixels. So many `bytes` are needed.
     pub(super) fn start(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        (samples, is_mean): (SampleCount, bool),
+        (samples, bytes): (SampleCount, u64),
         into: &mut PictureTarget,
         draw: impl FnOnce(&mut Target, &mut Option<PictureMean>),
     ) -> Result<Self, PictureError> {
-        let PictureTarget { size, target, mean, .. } = into;
-        let size = *size;
-        fits(&device.limits(), size)?;
+        let (size, band) = (into.size, into.band());
+        fits(&device.limits(), band)?;
+        let PictureTarget { target, mean, .. } = into;
         let ((proof, pixels), answer) = watched(device, || {
-            let target = target.get_or_insert_with(|| Target::with_samples(device, size[0], size[1], samples));
+            let target = target.get_or_insert_with(|| Target::with_samples(device, size[0], band.rows, samples));
+            target.show(band);
             target.fill(device, queue, wgpu::Color::WHITE);
             let proof = Pending::start(device, queue, target, [1, 1]);
             draw(target, mean);
-            (proof, Pending::start(device, queue, target, size))
+            (proof, Pending::start(device, queue, target, band.size()))
         });
         Ok(Self {
             size,
-            bytes_per_pixel: bytes_per_pixel(samples, is_mean),
+            bytes,
             answer,
             proof,
             pixels,
@@ -206,7 +243,7 @@ impl Picture {
         PictureError::OutOfMemory {
             width,
             height,
-            megabytes: (u64::from(width) * u64::from(height) * self.bytes_per_pixel).div_ceil(1_000_000),
+            megabytes: self.bytes.div_ceil(1_000_000),
         }
     }
 }
@@ -246,15 +283,16 @@ fn bytes_per_pixel(samples: SampleCount, is_mean: bool) -> u64 {
     u64::from(samples.count()) * 8 + resolved + read
 }
 
-/// Whether a device can draw a picture of this size and hand it over.
-fn fits(limits: &wgpu::Limits, [width, height]: [u32; 2]) -> Result<(), PictureError> {
+/// Whether a device can draw this band of a picture and hand it over.
+fn fits(limits: &wgpu::Limits, band: Band) -> Result<(), PictureError> {
+    let [width, height] = band.whole;
     let too_large = |largest| PictureError::TooLarge { width, height, largest };
     let side = limits.max_texture_dimension_2d;
     if width.max(height) > side {
         return Err(too_large(format!("at most {side} pixels a side")));
     }
     let row_bytes = (u64::from(width) * 4).next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT));
-    if row_bytes * u64::from(height) > limits.max_buffer_size {
+    if row_bytes * u64::from(band.rows) > limits.max_buffer_size {
         let pixels = limits.max_buffer_size / 4;
         return Err(too_large(format!("at most {pixels} pixels in all")));
     }

@@ -30,24 +30,10 @@ pub(super) struct Layouts {
 
 impl Layouts {
     pub(super) fn new(device: &wgpu::Device) -> Self {
-        let layout = |label, entries: &[(wgpu::ShaderStages, wgpu::BindingType)]| {
-            let entries: Vec<_> = (0..)
-                .zip(entries)
-                .map(|(binding, &(visibility, ty))| wgpu::BindGroupLayoutEntry {
-                    binding,
-                    visibility,
-                    ty,
-                    count: None,
-                })
-                .collect();
-            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                label: Some(label),
-                entries: &entries,
-            })
-        };
+        let layout = |label, entries: &[_]| layout(device, label, entries);
         let (vertex, fragment) = (wgpu::ShaderStages::VERTEX, wgpu::ShaderStages::FRAGMENT);
         let filtered = wgpu::TextureSampleType::Float { filterable: true };
-        let flat = |sample_type| (fragment, texture(sample_type, wgpu::TextureViewDimension::D2));
+        let flat = |sample_type| (fragment, flat(sample_type));
         let cube = (fragment, texture(filtered, wgpu::TextureViewDimension::Cube));
         let sampler = |ty| (fragment, wgpu::BindingType::Sampler(ty));
         let filtering = sampler(wgpu::SamplerBindingType::Filtering);
@@ -122,10 +108,39 @@ pub(super) fn uniform<T>() -> wgpu::BindingType {
 
 /// A flat texture that a sampler may filter.
 pub(super) fn filtered_texture() -> wgpu::BindingType {
-    texture(
-        wgpu::TextureSampleType::Float { filterable: true },
-        wgpu::TextureViewDimension::D2,
-    )
+    flat(wgpu::TextureSampleType::Float { filterable: true })
+}
+
+pub(super) fn flat(sample_type: wgpu::TextureSampleType) -> wgpu::BindingType {
+    texture(sample_type, wgpu::TextureViewDimension::D2)
+}
+
+/// A layout whose entries have the bindings 0, 1, 2…
+pub(super) fn layout(
+    device: &wgpu::Device,
+    label: &str,
+    entries: &[(wgpu::ShaderStages, wgpu::BindingType)],
+) -> wgpu::BindGroupLayout {
+    let entries: Vec<_> = (0..)
+        .zip(entries)
+        .map(|(binding, &(visibility, ty))| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility,
+            ty,
+            count: None,
+        })
+        .collect();
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some(label),
+        entries: &entries,
+    })
+}
+
+pub(super) fn module(device: &wgpu::Device, program: &Program) -> wgpu::ShaderModule {
+    device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(program.name),
+        source: wgpu::ShaderSource::Wgsl(program.source().into()),
+    })
 }
 
 fn texture(sample_type: wgpu::TextureSampleType, view_dimension: wgpu::TextureViewDimension) -> wgpu::BindingType {
@@ -206,13 +221,8 @@ impl Pipelines {
 
     fn module(&self, program: &Program) -> wgpu::ShaderModule {
         let mut modules = self.modules.borrow_mut();
-        let module = modules.entry(program.name).or_insert_with(|| {
-            self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(program.name),
-                source: wgpu::ShaderSource::Wgsl(program.source().into()),
-            })
-        });
-        module.clone()
+        let made = || module(&self.device, program);
+        modules.entry(program.name).or_insert_with(made).clone()
     }
 
     /// Shaders learn the side from `front_facing`, which here says "clockwise on the screen".

@@ -3,6 +3,7 @@
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError, channel};
 use std::time::Duration;
 
+use super::buffers::buffer;
 use super::target::Target;
 use crate::scene::{linear_from_srgb8, srgb8_from_linear};
 
@@ -67,12 +68,8 @@ impl Pending {
     ) -> Self {
         let row_bytes = width * BYTES_PER_PIXEL;
         let padded_row_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("read back"),
-            size: u64::from(padded_row_bytes) * u64::from(height),
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        });
+        let bytes = u64::from(padded_row_bytes) * u64::from(height);
+        let buffer = buffer(device, "read back", bytes, wgpu::BufferUsages::MAP_READ);
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor {
             label: Some("read back"),
         });

@@ -483,7 +483,7 @@ fn hard_fragment(cut: Cut) -> &'static str {
     if cut == Cut::Whole { "fragment" } else { "fragment_cut" }
 }
 
-fn depth(write: bool, compare: wgpu::CompareFunction) -> wgpu::DepthStencilState {
+pub(super) fn depth(write: bool, compare: wgpu::CompareFunction) -> wgpu::DepthStencilState {
     wgpu::DepthStencilState {
         format: DEPTH_FORMAT,
         depth_write_enabled: Some(write),

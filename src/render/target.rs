@@ -1,5 +1,6 @@
 //! What is drawn into: textures, the passes that fill them, and the target of a whole frame.
 
+use super::band::Band;
 use super::timing::FrameEncoder;
 use crate::scene::TimedPass;
 
@@ -31,6 +32,9 @@ pub(super) const MEAN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16F
 pub(super) const GEOMETRY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// One number from 0 to 1 a pixel.
 pub(super) const CONTACT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg8Unorm;
+
+pub(super) const UPLOADED_AND_READ: wgpu::TextureUsages =
+    wgpu::TextureUsages::TEXTURE_BINDING.union(wgpu::TextureUsages::COPY_DST);
 
 /// The view of a texture with one level and one sample a texel.
 pub(super) fn flat_texture(
@@ -83,8 +87,8 @@ pub(super) struct PassTargets<'a> {
     pub(super) depth_is_kept: bool,
     /// Whether the depth is what an earlier pass kept; it is then not cleared.
     pub(super) depth_is_there: bool,
-    /// Width and height of the part that is filled, from the top left; without it, all.
-    pub(super) filled: Option<[u32; 2]>,
+    /// The part that is filled, from the top left; without it, all.
+    pub(super) filled: Option<Band>,
     /// Left, top, width and height of the pixels that are drawn; without it, all.
     pub(super) scissor: Option<[u32; 4]>,
 }
@@ -135,9 +139,9 @@ pub(super) fn begin_pass<'a>(
         ..Default::default()
     };
     let mut pass = encoder.begin_pass(pass, &descriptor);
-    if let Some([width, height]) = targets.filled {
-        pass.set_viewport(0.0, 0.0, width as f32, height as f32, 0.0, 1.0);
-        pass.set_scissor_rect(0, 0, width, height);
+    if let Some(band) = targets.filled {
+        band.set_viewport(&mut pass, 1.0);
+        pass.set_scissor_rect(0, 0, band.whole[0], band.rows);
     }
     if let Some([left, top, width, height]) = targets.scissor {
         pass.set_scissor_rect(left, top, width, height);
@@ -160,13 +164,9 @@ const BYTES_PER_RESOLVED_PIXEL: u64 = 4;
 /// An offscreen picture: multisampled colour and depth, and the resolved picture. It may fill a part of its textures, from the top left.
 pub struct Target {
     samples: SampleCount,
-    /// Of the picture, pixels.
-    size: [u32; 2],
-    resolved: wgpu::Texture,
-    resolved_view: wgpu::TextureView,
-    /// None with one sample: then `resolved` is drawn into.
-    multisampled_view: Option<wgpu::TextureView>,
-    depth_view: wgpu::TextureView,
+    /// Of the picture.
+    band: Band,
+    picture: Attachments,
     over: Over,
 }
 
@@ -178,7 +178,7 @@ enum Over {
     /// Into a layer of its own, so that it can be drawn anew where the model stays.
     Apart {
         /// None until something lies over the model.
-        layer: Option<Layer>,
+        layer: Option<Attachments>,
         /// Whether something lies over the model now.
         is_shown: bool,
         /// Whether the model's depth was kept for it.
@@ -186,61 +186,40 @@ enum Over {
     },
 }
 
-/// A picture of what lies over the model, transparent elsewhere.
-struct Layer {
-    resolved_view: wgpu::TextureView,
-    multisampled_view: Option<wgpu::TextureView>,
-    /// Of what is seen through the model.
-    depth_view: wgpu::TextureView,
+/// Textures of a picture, or of what lies over it: colour and depth of each sample, and what they are resolved to.
+struct Attachments {
+    resolved: wgpu::TextureView,
+    /// None with one sample: then `resolved` is drawn into.
+    multisampled: Option<wgpu::TextureView>,
+    depth: wgpu::TextureView,
 }
 
-impl Layer {
-    fn new(device: &wgpu::Device, size: [u32; 2], samples: SampleCount) -> Self {
+impl Attachments {
+    fn new(device: &wgpu::Device, label: &str, size: [u32; 2], samples: SampleCount) -> Self {
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
-        let view = |label, format, sample_count, usage| {
-            let texture = texture(device, label, size, format, sample_count, usage);
+        let view = |format, samples: SampleCount, usage| {
+            let texture = texture(device, label, size, format, samples.count(), usage);
             texture.create_view(&wgpu::TextureViewDescriptor::default())
         };
-        let read = attachment | wgpu::TextureUsages::TEXTURE_BINDING;
+        let read = attachment | wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC;
         Self {
-            resolved_view: view("layer", COLOR_FORMAT, 1, read),
-            multisampled_view: (samples != SampleCount::One)
-                .then(|| view("layer, multisampled", COLOR_FORMAT, samples.count(), attachment)),
-            depth_view: view("layer, depth", DEPTH_FORMAT, samples.count(), attachment),
+            resolved: view(COLOR_FORMAT, SampleCount::One, read),
+            multisampled: (samples != SampleCount::One).then(|| view(COLOR_FORMAT, samples, attachment)),
+            depth: view(DEPTH_FORMAT, samples, attachment),
         }
     }
 }
 
 impl Target {
-    /// With four samples a pixel. Sizes are in pixels, clamped to 1…the device's limit.
-    pub fn new(device: &wgpu::Device, width: u32, height: u32) -> Self {
-        Self::with_samples(device, width, height, SampleCount::default())
-    }
-
-    /// With so many samples a pixel; see [`device::sample_count`](super::device::sample_count).
+    /// With so many samples a pixel; see [`device::sample_count`](super::device::sample_count). Sizes are in pixels, clamped to 1…the
+    /// device's limit.
     pub fn with_samples(device: &wgpu::Device, width: u32, height: u32, samples: SampleCount) -> Self {
-        let [width, height] = within_limit(device, [width, height]);
-        let texture =
-            |label, format, sample_count, usage| texture(device, label, [width, height], format, sample_count, usage);
-        let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
-        let resolved = texture(
-            "picture",
-            COLOR_FORMAT,
-            1,
-            attachment | wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC,
-        );
-        let multisampled = (samples != SampleCount::One)
-            .then(|| texture("picture, multisampled", COLOR_FORMAT, samples.count(), attachment));
-        let depth = texture("depth", DEPTH_FORMAT, samples.count(), attachment);
-        let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let size = within_limit(device, [width, height]);
         Self {
             samples,
-            size: [width, height],
-            resolved_view: view(&resolved),
-            multisampled_view: multisampled.as_ref().map(view),
-            depth_view: view(&depth),
+            band: Band::all(size),
+            picture: Attachments::new(device, "picture", size, samples),
             over: Over::Together,
-            resolved,
         }
     }
 
@@ -272,13 +251,13 @@ impl Target {
                 layer: Some(layer),
                 is_shown: true,
                 ..
-            } => Some(&layer.resolved_view),
+            } => Some(&layer.resolved),
             _ => None,
         }
     }
 
     pub(super) fn depth_view(&self) -> &wgpu::TextureView {
-        &self.depth_view
+        &self.picture.depth
     }
 
     /// Of each pixel.
@@ -286,19 +265,28 @@ impl Target {
         self.samples
     }
 
-    /// Width and height of the picture in pixels.
+    /// Width and height of the picture in pixels, or of the band of it that is drawn.
     pub fn size(&self) -> [u32; 2] {
-        self.size
+        self.band.size()
+    }
+
+    pub(super) fn band(&self) -> Band {
+        self.band
+    }
+
+    /// Shows a band of a larger picture next, for which there is room.
+    pub(super) fn show(&mut self, band: Band) {
+        self.band = band;
     }
 
     /// Width and height of the textures in pixels.
     pub(super) fn capacity(&self) -> [u32; 2] {
-        [self.resolved.width(), self.resolved.height()]
+        [self.texture().width(), self.texture().height()]
     }
 
     /// The picture as fractions of the width and height of [`Target::texture`], and the centre of its last texel.
     pub(super) fn filled(&self) -> [f32; 4] {
-        filled_part(self.size, self.capacity())
+        filled_part(self.size(), self.capacity())
     }
 
     /// Changes the size and loses the picture. Textures with room for the `largest` picture that is to come stay, unless they are more
@@ -315,7 +303,7 @@ impl Target {
         } else if let Over::Apart { has_depth, .. } = &mut self.over {
             *has_depth = false;
         }
-        self.size = within_limit(device, size);
+        self.band = Band::all(within_limit(device, size));
         stays
     }
 
@@ -335,12 +323,12 @@ impl Target {
     /// The picture: one sample a pixel, sRGB, premultiplied alpha. A resize may replace the texture, and may leave more room in it
     /// than the picture needs.
     pub fn texture(&self) -> &wgpu::Texture {
-        &self.resolved
+        self.picture.resolved.texture()
     }
 
     /// View of [`Target::texture`] for compositing.
     pub fn view(&self) -> &wgpu::TextureView {
-        &self.resolved_view
+        &self.picture.resolved
     }
 
     /// Fills the picture with a colour, through the same pass that a frame is drawn with.
@@ -363,20 +351,20 @@ impl Target {
         let Over::Apart { layer, .. } = &mut self.over else {
             return;
         };
-        let layer = layer.get_or_insert_with(|| Layer::new(device, size, samples));
+        let layer = layer.get_or_insert_with(|| Attachments::new(device, "layer", size, samples));
         let last = are_there.iter().rposition(|&is_there| is_there);
         for kind in (0..2).filter(|&kind| are_there[kind]) {
-            let view = layer.multisampled_view.as_ref().unwrap_or(&layer.resolved_view);
-            let is_resolved = layer.multisampled_view.is_some() && last == Some(kind);
+            let view = layer.multisampled.as_ref().unwrap_or(&layer.resolved);
+            let is_resolved = layer.multisampled.is_some() && last == Some(kind);
             let on_model = kind == 0;
             let targets = PassTargets {
                 color: Some((view, wgpu::Color::TRANSPARENT)),
                 color_is_there: kind == 1 && are_there[0],
-                resolved: is_resolved.then_some(&layer.resolved_view),
-                depth: Some(if on_model { &self.depth_view } else { &layer.depth_view }),
+                resolved: is_resolved.then_some(&layer.resolved),
+                depth: Some(if on_model { &self.picture.depth } else { &layer.depth }),
                 depth_is_kept: on_model,
                 depth_is_there: on_model,
-                filled: Some(self.size),
+                filled: Some(self.band),
                 ..PassTargets::default()
             };
             draw(&mut begin_pass(encoder, TimedPass::Picture, targets), kind);
@@ -399,8 +387,8 @@ impl Target {
     /// A pass over the picture alone, which has one sample a pixel.
     pub(super) fn begin_picture<'a>(&self, encoder: &'a mut FrameEncoder) -> wgpu::RenderPass<'a> {
         let targets = PassTargets {
-            color: Some((&self.resolved_view, wgpu::Color::TRANSPARENT)),
-            filled: Some(self.size),
+            color: Some((&self.picture.resolved, wgpu::Color::TRANSPARENT)),
+            filled: Some(Band::all(self.size())),
             ..PassTargets::default()
         };
         begin_pass(encoder, TimedPass::Picture, targets)
@@ -408,16 +396,17 @@ impl Target {
 
     /// A pass over a picture of this colour.
     pub(super) fn begin_pass<'a>(&self, encoder: &'a mut FrameEncoder, color: wgpu::Color) -> wgpu::RenderPass<'a> {
-        let (view, resolved) = match &self.multisampled_view {
-            Some(samples) => (samples, Some(&self.resolved_view)),
-            None => (&self.resolved_view, None),
-        };
-        let targets = PassTargets {
-            color: Some((view, color)),
+        let Attachments {
             resolved,
-            depth: Some(&self.depth_view),
+            multisampled,
+            depth,
+        } = &self.picture;
+        let targets = PassTargets {
+            color: Some((multisampled.as_ref().unwrap_or(resolved), color)),
+            resolved: multisampled.is_some().then_some(resolved),
+            depth: Some(depth),
             depth_is_kept: matches!(self.over, Over::Apart { has_depth: true, .. }),
-            filled: Some(self.size),
+            filled: Some(self.band),
             ..PassTargets::default()
         };
         begin_pass(encoder, TimedPass::Picture, targets)

@@ -3,6 +3,7 @@
 
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
+use super::buffers::buffer;
 use crate::scene::TimedPass;
 
 /// Seconds for each of [`TimedPass::ALL`].
@@ -103,30 +104,20 @@ impl FrameTimer {
         if !device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
             return None;
         }
-        let buffer = |label, usage| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size: BYTES,
-                usage,
-                mapped_at_creation: false,
-            })
-        };
+        let of_times = |label, usage| buffer(device, label, BYTES, usage);
         Some(Self {
             queries: device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some("times of passes"),
                 ty: wgpu::QueryType::Timestamp,
                 count: MOST_PASSES as u32 * STAMPS_PER_PASS,
             }),
-            resolved: buffer(
+            resolved: of_times(
                 "times of passes",
                 wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
             ),
             secs_per_tick: f64::from(queue.get_timestamp_period()) * 1e-9,
             answers: std::array::from_fn(|_| Answer {
-                buffer: buffer(
-                    "times of passes, read back",
-                    wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-                ),
+                buffer: of_times("times of passes, read back", wgpu::BufferUsages::MAP_READ),
                 pending: None,
             }),
             latest: None,

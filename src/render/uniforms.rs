@@ -2,10 +2,11 @@
 
 use glam::{Mat4, Quat, Vec3};
 
+use super::band::Band;
 use super::environment::{Lamps, room};
 use super::light_fit::{ContactFit, ShadowFit, StudioLights, light_axes, to_book_lights};
+use super::light_maps::BLUR_MARGIN;
 use super::samples::{lamp_offset, lens_offset, noise_turn, pixel_offset};
-use super::target::half;
 use crate::light::{LAMP_RADIUS_RADIANS, RoomLights};
 use crate::scene::{
     Aabb, Background, Camera, Detail, Light, Overlay, Pass, Projection, RenderFrame, Theme, ViewMode, linear_from_srgb8,
@@ -77,10 +78,31 @@ pub const SHADOW_TAPS: u32 = 16;
 const STRATUM: f32 = 0.25;
 /// How far occluders reach under the studio light, in units of the books' demo.
 const STUDIO_OCCLUSION_RADIUS: f32 = 0.6;
+/// How far they reach at most in the picture, parts of its height: as `occlusion_studio.wgsl` has it, and of the book's, which reach less far
+/// in the world, where the model is seen from nearby.
+const STUDIO_MOST_REACH: f32 = 0.12;
+const BOOK_MOST_REACH: f32 = 0.25;
 
-/// The view of a picture of this size, pixels.
-pub(super) fn camera_uniform(frame: &RenderFrame<'_>, size: [u32; 2]) -> shaders::Camera {
-    let [width, height] = size.map(|side| side as f32);
+/// The band of the maps in view that a picture's band reads: at half the picture's resolution, of a sample at rest at all of it. Ambient
+/// occlusion looks about as far as occluders reach.
+pub(super) fn map_band(frame: &RenderFrame<'_>, band: Band) -> Band {
+    let camera = &frame.camera;
+    let nearest = match camera.projection {
+        Projection::Perspective { .. } => seen_depths(frame).0 / camera.distance,
+        Projection::Orthographic => 1.0,
+    };
+    let is_studio = frame.options.light == Light::Studio && frame.options.split.is_none();
+    let most = if is_studio { STUDIO_MOST_REACH } else { BOOK_MOST_REACH };
+    let reach = STUDIO_OCCLUSION_RADIUS * book_unit(frame) / (camera.height_in_view() * nearest);
+    let rows = (reach.min(most) * band.whole[1] as f32) as u32 + 2 * BLUR_MARGIN;
+    let band = band.widened(rows.next_multiple_of(2));
+    if frame.sample.is_some() { band } else { band.half() }
+}
+
+/// The view of a picture, of which this band is drawn.
+pub(super) fn camera_uniform(frame: &RenderFrame<'_>, band: Band) -> shaders::Camera {
+    let [width, height] = band.whole.map(|side| side as f32);
+    let map = map_band(frame, band);
     let aspect = width / height;
     let (camera, lens_shift) = through_lens(frame, aspect);
     let [right, up] = frame.sample.map_or([0.0; 2], pixel_offset);
@@ -107,11 +129,13 @@ pub(super) fn camera_uniform(frame: &RenderFrame<'_>, size: [u32; 2]) -> shaders
         forward_per_x: (per_x * forward_scale).to_array(),
         view_mode: frame.options.view_mode as u32,
         forward_per_y: (per_y * forward_scale).to_array(),
+        first_row: band.first_row as f32,
         viewport_pixels: [width, height],
         jitter,
         sample: frame.sample.unwrap_or_default() as f32,
         points_high: frame.options.points_high.unwrap_or(POINTS_HIGH),
-        map_size: if frame.sample.is_some() { size } else { half(size) }.map(|side| side as f32),
+        map_size: map.whole.map(|side| side as f32),
+        first_map_row: map.first_row as f32,
         ..Default::default()
     }
 }

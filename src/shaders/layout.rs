@@ -19,12 +19,14 @@ pub struct Camera {
     pub forward_per_x: [f32; 3],
     pub view_mode: u32,
     pub forward_per_y: [f32; 3],
-    pub unused: f32,
+    pub first_row: f32,
     pub viewport_pixels: [f32; 2],
     pub jitter: [f32; 2],
     pub map_size: [f32; 2],
     pub sample: f32,
     pub points_high: f32,
+    pub first_map_row: f32,
+    pub unused: [f32; 3],
 }
 
 /// Twin of `Light` in `light.wgsl`, which says what each member means. Matrices are column by column, as in glam.
@@ -156,7 +158,8 @@ pub struct Environment {
 pub struct Accumulation {
     pub share: f32,
     pub turn: f32,
-    pub unused: [f32; 2],
+    pub first_row: f32,
+    pub unused: f32,
 }
 
 /// Twin of `Composite` in `composite.wgsl`, which says what each member means.
@@ -168,7 +171,8 @@ pub struct Composite {
     pub layer: [f32; 4],
     pub is_root: f32,
     pub dithers: f32,
-    pub unused: [f32; 2],
+    pub first_row: f32,
+    pub unused: f32,
 }
 
 /// Twin of `Line` in `lines.wgsl`.

@@ -185,7 +185,7 @@ fn any_model_is_drawn() {
 
 #[test]
 fn a_picture_that_no_gpu_draws_is_refused() {
-    for (size, why) in [("100000x10", "pixels a side"), ("16000x16000", "pixels")] {
+    for (size, why) in [("100000x10", "pixels a side"), ("10x100000", "pixels a side")] {
         let path = scratch(&format!("large-{size}.png"));
         let run = run(["render", FIGURE, "-o", path.to_str().expect("UTF-8"), "--size", size]);
         run.refused(2);

@@ -121,11 +121,13 @@ fn twins() -> BTreeMap<String, Layout> {
             forward_per_x,
             view_mode,
             forward_per_y,
+            first_row,
             viewport_pixels,
             jitter,
             map_size,
             sample,
             points_high,
+            first_map_row,
         }),
         twin!(Light {
             shadow_clip_from_world,
@@ -216,9 +218,10 @@ fn twins() -> BTreeMap<String, Layout> {
             picture,
             layer,
             is_root,
-            dithers
+            dithers,
+            first_row
         }),
-        twin!(Accumulation { share, turn }),
+        twin!(Accumulation { share, turn, first_row }),
     ])
 }
 

@@ -1,10 +1,12 @@
 //! Pictures by themselves: all of it, or an error in words.
 
 use bindpose::render::{PictureTarget, Renderer};
-use bindpose::scene::{Background, Theme};
+use bindpose::scene::{Background, Light, Overlay, Theme};
+use glam::Vec3;
 
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, Picture};
 use crate::scenes::{FRONT, Scene, bent_tube, card};
+use crate::still_life::{StillLifeMaps, still_life};
 
 fn refusal(gpu: &Gpu, size: [u32; 2]) -> String {
     let scene = Scene::of(card(FRONT));
@@ -12,7 +14,57 @@ fn refusal(gpu: &Gpu, size: [u32; 2]) -> String {
     refused.map_or_else(String::new, |error| error.to_string())
 }
 
+/// The still life on its grid, in shadow and in ambient occlusion; with lines on it and through it where it `has_lines`.
+fn still_life_on_grid(light: Light, has_lines: bool) -> Scene {
+    let mut scene = still_life().three_quarter(Theme::Light);
+    scene.options.light = light;
+    if has_lines {
+        for overlay in [Overlay::Bounds, Overlay::Axes, Overlay::Normals] {
+            scene.options.overlays.set(overlay, true);
+        }
+        scene.options.overlays.line_length = 0.1;
+        let bones = &mut scene.seen_through;
+        bones.line(Vec3::new(-1.9, 0.1, 0.0), Vec3::new(1.8, 1.3, 0.4), [255, 200, 40, 255]);
+        bones.line(Vec3::new(0.0, 0.0, -1.8), Vec3::new(0.3, 1.6, 1.8), [40, 200, 255, 160]);
+    }
+    scene
+}
+
 on_both_backends! {
+    /// All pixels, but for the last step of their rounding, and for three in which an edge falls on a sample, whose place rounding decides.
+    /// Where a line crosses a border of the 64 × 64 tiles in which Mesa draws with the CPU, it may lack a pixel or have one more: with lines,
+    /// bands begin where tiles do, as those of the command line.
+    fn a_picture_in_bands_is_the_whole_one(gpu) {
+        let ([width, height], maps) = ([640, 480], StillLifeMaps::new());
+        for (light, samples, rows, has_lines) in [
+            (Light::Studio, 1, 100, false),
+            (Light::Studio, 5, 100, false),
+            (Light::Book, 1, 100, false),
+            (Light::Book, 2, 100, false),
+            (Light::Studio, 1, 128, true),
+            (Light::Studio, 3, 128, true),
+        ] {
+            let scene = still_life_on_grid(light, has_lines);
+            let mut renderer = gpu.renderer();
+            renderer.set_model(&scene.model).expect("small");
+            renderer.set_maps(&maps.images());
+            let mut pixels = |target: &mut PictureTarget| {
+                let picture = renderer.picture_into(&scene.frame(), target).expect("small");
+                picture.pixels_blocking().expect("small")
+            };
+            let target = || PictureTarget::new([width, height]).with_mean_of(samples);
+            let whole = pixels(&mut target());
+            let (mut band, mut banded) = (target(), Vec::new());
+            for top in (0..height).step_by(rows) {
+                band.show(top..(top + rows as u32).min(height));
+                banded.extend(pixels(&mut band));
+            }
+            let [whole, banded] = [whole, banded].map(|rgba| Picture { width, height, rgba });
+            let [most, any] = [1, 0].map(|most| whole.share_that_differs(&banded, most));
+            assert!(most < 1e-5 && any < 0.002, "{light:?}, {samples} samples: {most} by more than 1, {any} by any");
+        }
+    }
+
     fn a_picture_by_itself_is_what_a_target_shows(gpu) {
         let mut scene = bent_tube(0.5);
         for background in [Background::Backdrop, Background::None] {
