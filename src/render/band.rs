@@ -1,6 +1,7 @@
 //! Which rows of a picture are drawn.
 
-use super::target::half;
+/// Texels beside a light's columns that its blurs read, and as many above and below: one radius for each of the book's four blurs.
+pub(super) const BLUR_MARGIN: u32 = 4 * 5;
 
 /// Rows of a picture that are drawn together: all of them, or some of one that is too large for the device's memory. Maps of what is in
 /// view have bands too.
@@ -49,4 +50,9 @@ impl Band {
         let [width, height] = self.whole.map(|side| side as f32);
         pass.set_viewport(0.0, -(self.first_row as f32), width, height, 0.0, farthest);
     }
+}
+
+/// Size of the maps of half the resolution for a picture of this size.
+pub fn half(size: [u32; 2]) -> [u32; 2] {
+    size.map(|side| side.div_ceil(2))
 }

@@ -3,14 +3,12 @@
 
 use std::ops::Range;
 
-use super::band::Band;
+use super::band::{BLUR_MARGIN, Band, half};
 use super::buffers::bind_group;
 use super::model::{GpuModel, Posed};
 use super::pipelines::Pipelines;
 use super::recipe::{Draw, Purpose};
-use super::target::{
-    CONTACT_FORMAT, DEPTH_FORMAT, GEOMETRY_FORMAT, PassTargets, begin_pass, flat_texture, half, pixels,
-};
+use super::target::{CONTACT_FORMAT, DEPTH_FORMAT, GEOMETRY_FORMAT, PassTargets, begin_pass, flat_texture, pixels};
 use super::timing::FrameEncoder;
 use crate::scene::{Light, TimedPass};
 use crate::shaders;
@@ -86,9 +84,6 @@ const NO_GEOMETRY: wgpu::Color = wgpu::Color {
     b: 1.0,
     a: 1.0,
 };
-
-/// Texels beside a light's columns that its blurs read, and as many above and below: one radius for each of the book's four blurs.
-pub(super) const BLUR_MARGIN: u32 = 4 * 5;
 
 /// Normals and depth of the model in view, at half the picture's resolution; of a sample at rest at all of it. Both lights read it. It may
 /// fill a part of its textures, from the top left.

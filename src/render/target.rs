@@ -420,11 +420,6 @@ pub(super) fn filled_part(size: [u32; 2], capacity: [u32; 2]) -> [f32; 4] {
     [width, height, width - half_texel[0], height - half_texel[1]]
 }
 
-/// Size of the maps of half the resolution for a picture of this size.
-pub fn half(size: [u32; 2]) -> [u32; 2] {
-    size.map(|side| side.div_ceil(2))
-}
-
 /// How many pixels a picture of this size has.
 pub(super) fn pixels([width, height]: [u32; 2]) -> u64 {
     u64::from(width) * u64::from(height)

@@ -2,10 +2,9 @@
 
 use glam::{Mat4, Quat, Vec3};
 
-use super::band::Band;
+use super::band::{BLUR_MARGIN, Band};
 use super::environment::{Lamps, room};
 use super::light_fit::{ContactFit, ShadowFit, StudioLights, light_axes, to_book_lights};
-use super::light_maps::BLUR_MARGIN;
 use super::samples::{lamp_offset, lens_offset, noise_turn, pixel_offset};
 use crate::light::{LAMP_RADIUS_RADIANS, RoomLights};
 use crate::scene::{

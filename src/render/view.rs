@@ -2,9 +2,10 @@
 //! of a picture at rest, which see the model from elsewhere within the pixel and under other points of the lamp.
 
 use super::band::Band;
+use super::band::half;
 use super::light_maps::GeometryMap;
 use super::light_passes::{Common, LightPasses};
-use super::target::{Target, half};
+use super::target::Target;
 use crate::scene::Light;
 
 /// Textures of ambient occlusion are kept for a window that is so many times smaller: a picture that moves may have a quarter of the

@@ -146,7 +146,7 @@ fn the_card_of_an_error_has_the_byte_or_the_line() {
 fn a_file_that_was_cut_off_and_one_of_another_kind_are_told_as_that() {
     let error = |path: &str, bytes: &[u8]| {
         let mut session = Session::new(false);
-        session.apply(FileCommand::Drop(vec![File::new(path, bytes.to_vec())]));
+        session.apply(FileCommand::Add(vec![File::new(path, bytes.to_vec())]));
         session.error().expect("it cannot be read").diagnostic.clone()
     };
     let whole = binary(&skinned(&[1.0]), "");

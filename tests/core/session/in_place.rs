@@ -4,8 +4,8 @@ use bindpose::format::AnimationClip;
 use bindpose::import::import;
 use bindpose::model::{Clip, Track};
 use bindpose::session::{
-    Command, CrowdCommand, ExportFormat, ExportOptions, File, FileCommand, HistoryCommand, MAX_LINK_LEN, PlayCommand,
-    Session,
+    CameraCommand, Command, CrowdCommand, ExportFormat, ExportOptions, File, FileCommand, HistoryCommand, MAX_LINK_LEN,
+    PlayCommand, Session,
 };
 
 use super::models::file;
@@ -107,6 +107,7 @@ fn a_link_names_clips_that_are_there_even_those_called_a_number() {
     let mut session = opened(hero());
     switch(&mut session, 0, true);
     switch(&mut session, 2, true);
+    session.apply(CameraCommand::FrameModel); // It needs less room.
     let link = session.link(Vec::new(), MAX_LINK_LEN).text;
     assert_eq!(link, "inplace=walk,1");
     let mut elsewhere = opened(hero());
