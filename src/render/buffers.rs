@@ -135,3 +135,39 @@ impl Uploader<'_> {
         }
     }
 }
+
+pub(super) fn flat(sample_type: wgpu::TextureSampleType) -> wgpu::BindingType {
+    texture(sample_type, wgpu::TextureViewDimension::D2)
+}
+
+pub(super) fn texture(
+    sample_type: wgpu::TextureSampleType,
+    view_dimension: wgpu::TextureViewDimension,
+) -> wgpu::BindingType {
+    wgpu::BindingType::Texture {
+        sample_type,
+        view_dimension,
+        multisampled: false,
+    }
+}
+
+/// A layout whose entries have the bindings 0, 1, 2…
+pub(super) fn layout(
+    device: &wgpu::Device,
+    label: &str,
+    entries: &[(wgpu::ShaderStages, wgpu::BindingType)],
+) -> wgpu::BindGroupLayout {
+    let entries: Vec<_> = (0..)
+        .zip(entries)
+        .map(|(binding, &(visibility, ty))| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility,
+            ty,
+            count: None,
+        })
+        .collect();
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some(label),
+        entries: &entries,
+    })
+}

@@ -6,9 +6,9 @@ use std::task::{Context, Poll, Waker};
 
 use glam::{Affine3A, Vec3};
 
-use super::buffers::{Queue, bind_group};
+use super::buffers::{Queue, bind_group, layout};
 use super::instances::BoneTexture;
-use super::pipelines::{layout, module};
+use super::pipelines::module;
 use super::read_back::{ReadBackError, read_back};
 use super::recipe::depth;
 use super::target::{COLOR_FORMAT, DEPTH_FORMAT, MEAN_FORMAT, SampleCount, Target};

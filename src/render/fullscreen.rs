@@ -1,7 +1,7 @@
 //! A program that fills a picture from textures, in one triangle.
 
-use super::buffers::bind_group;
-use super::pipelines::{layout, module};
+use super::buffers::{bind_group, layout};
+use super::pipelines::module;
 use crate::shaders::Program;
 
 pub(super) struct FullscreenPass {

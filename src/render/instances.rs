@@ -7,8 +7,7 @@ use std::slice::ChunksExact;
 
 use glam::Affine3A;
 
-use super::buffers::{Queue, bind_group, buffer};
-use super::pipelines::{flat, layout};
+use super::buffers::{Queue, bind_group, buffer, flat, layout};
 use super::target::{UPLOADED_AND_READ, flat_texture};
 use super::uniforms::{encoded, theme_colors};
 use crate::scene::RenderFrame;

@@ -4,6 +4,7 @@
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 
+use super::buffers::{flat, layout, texture};
 use super::instances::BoneTexture;
 use super::recipe::{Draw, Faces, Maps, ModelDraw, Recipe};
 use super::target::SampleCount;
@@ -111,44 +112,11 @@ pub(super) fn filtered_texture() -> wgpu::BindingType {
     flat(wgpu::TextureSampleType::Float { filterable: true })
 }
 
-pub(super) fn flat(sample_type: wgpu::TextureSampleType) -> wgpu::BindingType {
-    texture(sample_type, wgpu::TextureViewDimension::D2)
-}
-
-/// A layout whose entries have the bindings 0, 1, 2…
-pub(super) fn layout(
-    device: &wgpu::Device,
-    label: &str,
-    entries: &[(wgpu::ShaderStages, wgpu::BindingType)],
-) -> wgpu::BindGroupLayout {
-    let entries: Vec<_> = (0..)
-        .zip(entries)
-        .map(|(binding, &(visibility, ty))| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility,
-            ty,
-            count: None,
-        })
-        .collect();
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some(label),
-        entries: &entries,
-    })
-}
-
 pub(super) fn module(device: &wgpu::Device, program: &Program) -> wgpu::ShaderModule {
     device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(program.name),
         source: wgpu::ShaderSource::Wgsl(program.source().into()),
     })
-}
-
-fn texture(sample_type: wgpu::TextureSampleType, view_dimension: wgpu::TextureViewDimension) -> wgpu::BindingType {
-    wgpu::BindingType::Texture {
-        sample_type,
-        view_dimension,
-        multisampled: false,
-    }
 }
 
 pub(super) struct Pipelines {
