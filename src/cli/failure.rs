@@ -76,6 +76,10 @@ pub(super) enum Failure {
     ContactSheet(#[from] ContactSheetError),
     #[error("{0}")]
     NoDevice(#[from] DeviceError),
+    #[error(
+        "a picture of {width} × {height} pixels takes {megabytes} MB of memory, and less is free: a smaller one may be drawn"
+    )]
+    NoRoomForPicture { width: u32, height: u32, megabytes: u64 },
     #[error("{vulkan}\n       {gl}")]
     NoDeviceAtAll { vulkan: DeviceError, gl: DeviceError },
     #[error("{0}")]

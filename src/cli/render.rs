@@ -355,6 +355,15 @@ impl Painter {
         frame.options.aperture = self.aperture;
         self.renderer.refine_for(&frame);
         let mut pixels = Vec::new();
+        let len = u64::from(width) * u64::from(height) * 4;
+        usize::try_from(len)
+            .ok()
+            .and_then(|len| pixels.try_reserve_exact(len).ok())
+            .ok_or(Failure::NoRoomForPicture {
+                width,
+                height,
+                megabytes: len / 1_000_000,
+            })?;
         // A band needs a part of the memory that all rows would.
         let steps = MOST_UNDER_LAYER / u64::from(width.max(1)) / BAND_STEP;
         let rows = (steps.max(1) * BAND_STEP) as u32;
