@@ -199,7 +199,7 @@ fn a_picture_that_no_gpu_draws_is_refused() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_picture_that_the_gpu_has_no_memory_for_is_refused_and_never_empty() {
-    const MOST_KILOBYTES: &str = "1000000";
+    const MOST_KILOBYTES: &str = "1400000";
     let path = scratch("no-memory.png");
     let mut command = std::process::Command::new("sh");
     command
