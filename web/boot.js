@@ -74,7 +74,7 @@ const link = keepLink({
     if (words) say(words);
   },
   tell: (words) => tellOf(words),
-  refuse: (names) => showNotice("The link is not shown in full", `Left out, since they are damaged, newer than this page or not of this model: ${names.map((name) => name || "a field without a name").join(", ")}`),
+  refuse: (names, words) => showNotice("The link is not shown in full", `${words ? `${words}. ` : ""}Left out, since they are damaged, newer than this page or not of this model: ${names.map((name) => name || "a field without a name").join(", ")}`),
 });
 
 /** A link to what is seen: the whole address. */

@@ -33,9 +33,6 @@ function parsed(text) {
   return { ...found, view: found.view.join("&") };
 }
 
-/** A text as browsers have it behind `#` in an address: quotes, spaces and others in their codes. */
-const hashOf = (text) => new URL(`#${text}`, "about:blank").hash.slice(1);
-
 const asking = (name) => `This link is about ${baseName(name)}: open or drop it to see the same moment.`;
 
 /** The first digits of the SHA-256 of bytes; nothing where the page may not know it: it came without `https:`. */
@@ -46,7 +43,7 @@ async function digestOf(bytes) {
 
 /**
  * Keeps the address and what is seen together. The page gives what it does otherwise: `viewer()`, or null while there is none; `changed(link)`
- * hears of another link, `follow(view)` shows one and names what is left out, `ask(words)` asks for a file, `tell(words)` says what was opened in its place and `refuse(names)` what was left out.
+ * hears of another link, `follow(view)` shows one and names what is left out, `ask(words)` asks for a file, `tell(words)` says what was opened in its place and `refuse(names, words)` what was left out too.
  */
 export function keepLink({ viewer, changed, follow, ask, tell, refuse }) {
   let own = null; // What the page opened by itself: its opening and path.
@@ -70,7 +67,7 @@ export function keepLink({ viewer, changed, follow, ask, tell, refuse }) {
     const start = address.length + whole.length < MOST_CHARACTERS ? whole : "";
     const { text, leftOut } = viewer()?.link(address.length + start.length + 2) ?? { text: "", leftOut: [] };
     if (start !== whole) leftOut.unshift("model");
-    return { address, text: hashOf([start, text].filter(Boolean).join("&")), leftOut };
+    return { address, text: [start, text].filter(Boolean).join("&"), leftOut };
   };
 
   /** Nothing is written until what is seen rests. */
@@ -106,8 +103,8 @@ export function keepLink({ viewer, changed, follow, ask, tell, refuse }) {
     wanted = null;
     ask(null);
     const leftOut = follow(view);
-    if (words) tell(words);
-    if (leftOut.length) refuse(leftOut);
+    if (leftOut.length) refuse(leftOut, words);
+    else if (words) tell(words);
   };
 
   /** Shows the moment of the link that waits, if it is about the model on screen. */

@@ -24,7 +24,7 @@ addEventListener("activate", (event) => event.waitUntil(Promise.all([clients.cla
 addEventListener("message", (event) => {
   event.source.postMessage({ build: BUILD });
   // Where there is no room for it, visits go on as they did.
-  // The page has its lock by now, and one that was closed has none any more.
+  // Other builds are forgotten now: this page holds its lock, and pages that were closed hold none.
   event.waitUntil(keep(filesOf(event.data.programs)).catch(() => {}).then(forgetOthers));
 });
 addEventListener("fetch", (event) => {

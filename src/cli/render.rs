@@ -355,7 +355,7 @@ impl Painter {
         frame.options.aperture = self.aperture;
         self.renderer.refine_for(&frame);
         let mut pixels = Vec::new();
-        let len = u64::from(width) * u64::from(height) * 4;
+        let len = (u64::from(width) * u64::from(height)).saturating_mul(4);
         usize::try_from(len)
             .ok()
             .and_then(|len| pixels.try_reserve_exact(len).ok())

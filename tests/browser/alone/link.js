@@ -49,11 +49,11 @@ async function pageOf() {
     changed: (text) => page.told.push(text),
     follow(view) {
       page.view = view;
-      return [];
+      return page.leavesOut ?? [];
     },
     ask: (words) => page.asked.push(words),
     tell() {},
-    refuse() {},
+    refuse: (...told) => (page.refused = told),
   });
   mock.method(performance, "now", () => now);
   mock.timers.enable({ apis: ["setTimeout"] });
@@ -164,21 +164,12 @@ testOf("a link without a model is about the page's own, one with a model of its 
   assert.deepEqual([page.shown.path, page.view], ["own.m3d", "t=4"]);
 });
 
-testOf("what browsers write in codes is written once, and what comes after it too", async () => {
+testOf("what is left out and which file is shown are told together", async () => {
   const page = await pageOf();
-  const [view, written] = ['clip=a "b" <c> `d` é&t=1', "clip=a%20%22b%22%20%3Cc%3E%20%60d%60%20%C3%A9&t=1"];
-  page.after(0, view);
-  page.after(1000);
-  page.after(0, `${view}&back=1`);
-  page.after(100, view);
-  page.after(1000);
-  assert.deepEqual(page.writes.map(([, hash]) => hash), [written]);
-  assert.deepEqual([page.link.text(), page.link.whole().address, page.told], [written, `https://host/#${written}`, [written]]);
-  page.link.hashChanged();
-  assert.equal(page.view, view, "its own writing is no link that was clicked");
-  page.after(0, "t=2");
-  page.after(1000);
-  assert.deepEqual([page.hash, page.told], ["t=2", [written, "t=2"]]);
+  await page.opens({ path: "hero.m3d", opening: 2 });
+  page.leavesOut = ["bone"];
+  await page.click("model=hero.m3d&sha=0123456789ab&bone=99");
+  assert.deepEqual(page.refused, [["bone"], "hero.m3d has other bytes than the file that the link was made of"]);
 });
 
 for (const [characters, isNamed] of [[2_000, true], [2_001, false]]) {
