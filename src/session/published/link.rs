@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 
 use super::link_fields::{CAMERA, FIELDS, PLAYING, TIME, degrees, read_degrees, read_number};
 use super::view_state::{CameraState, ViewState};
+use crate::model::Clip;
 use crate::scene::{Camera, Light, ViewPreset};
 use crate::session::Session;
 use crate::session::look::quality::QualityMode;
@@ -123,10 +124,15 @@ impl Session {
         (linked, left_out.into_iter().collect())
     }
 
+    fn first_clip(&self) -> Option<&Clip> {
+        let open = self.open_model()?;
+        open.model.clips.get(open.first_clip()?)
+    }
+
     /// What somebody sees who opens this model with nothing chosen before.
     fn first_visit(&self) -> Linked {
         let mut view = ViewState::default();
-        if let Some(clip) = self.content.clips().first() {
+        if let Some(clip) = self.first_clip() {
             view.playback.clip = Some(clip.name.clone());
             view.playback.playing = !self.reduced_motion;
             view.playback.time_secs = clip.start_secs;
@@ -190,7 +196,7 @@ impl Session {
         let clips = self.content.clips();
         let has_clip = |name: &String| clips.iter().any(|clip| clip.name == *name);
         let submesh_count = self.submeshes().count();
-        let (open, first) = (self.open_model(), clips.first());
+        let (open, first) = (self.open_model(), self.first_clip());
         let bone_count = open.map_or(0, |open| open.model.skeleton.joint_of_bone().len());
         let vertex_count = open.map_or(0, |open| open.model.mesh.vertex_count());
         let has_bone = |bone: &u32| (*bone as usize) < bone_count;
