@@ -211,7 +211,7 @@ fn the_clip_of_the_demo_is_told_before_what_was_mended_on_reading() {
     let mut window = window(WIDE, findings::files());
     window.press(Modifiers::NONE, Key::E);
     window.click("Format: .m3d D3D12");
-    assert!(window.shows("The demo plays one clip, Take1: the first one that is kept. Maps come along as DDS."));
+    assert!(window.shows("The demo plays \u{201c}Bend\u{201d}, as Take1. Maps come along as DDS."));
     window.click_anywhere("What changes: show all");
     let top = |words: &str| {
         let named = window.named(|name| name.contains(words));

@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 
 use egui::{Align, Color32, Label, Layout, ProgressBar, Rangef, RichText, Sense, Ui, vec2};
 
+use crate::check::book::DEMO_CLIP;
 use crate::session::{Command, Export, ExportCommand, ExportFormat, ExportOptions, ExportRange, Session};
 use crate::ui::cx::Cx;
 use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};
@@ -206,6 +207,7 @@ fn demo(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
         (false, _) => "A demo of the books reads .m3d only: the switch chooses that.".into(),
         (true, true) => match session.demo_clip(options) {
             None => "No clip is kept: the demo shows the model standing still.".into(),
+            Some(DEMO_CLIP) => "The demo plays one clip, Take1. Maps come along as DDS.".into(),
             Some(name) => format!("The demo plays \u{201c}{name}\u{201d}, as Take1. Maps come along as DDS.").into(),
         },
         (true, false) => {
