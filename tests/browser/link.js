@@ -8,7 +8,7 @@ export const QUERY = `?backend=${BACKEND}&scale=0.2`;
 export const OWN = { own: true, query: QUERY, passes: true };
 
 /** As people would write them, in the order in which the page writes. Each field of a view at rest stands in one. */
-const LINKS = [
+export const LINKS = [
   "t=0.5&play=0",
   "clip=Walk&play=0",
   "clip=Run&t=0.25&play=0&back=1",
