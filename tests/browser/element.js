@@ -451,6 +451,12 @@ for (const ui of ["transport", "full"]) {
     ...loses,
     prepare: async (page) => {
       await pretendGpu()(page);
+      // The checks have one small program at both addresses: here that of the one for WebGPU alone says what it would.
+      await withViewer(`
+        start(...values) {
+          if (globalThis.adapters === "none" && import.meta.url.includes("/webgpu/")) throw Object.assign(new Error("no WebGL2"), { name: "WebGl2Missing" });
+          return super.start(...values);
+        }`)(page);
       await loses.prepare(page);
     },
   }, async (page) => {
