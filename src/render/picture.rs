@@ -10,7 +10,7 @@ use super::buffers::Queue;
 use super::composite::Compositor;
 use super::device::{GpuAnswer, GpuError, answer_at_once, watched};
 use super::read_back::{Pending, ReadBackError};
-use super::target::{BYTES_PER_MEAN_PIXEL, SampleCount, Target, pixels};
+use super::target::{SampleCount, Target, bytes_of_mean, pixels};
 use super::timing::FrameEncoder;
 use super::uniforms::map_band;
 use crate::scene::RenderFrame;
@@ -277,7 +277,7 @@ pub fn prove(device: &wgpu::Device, queue: &wgpu::Queue, target: &Target, mean: 
 fn bytes_per_pixel(samples: SampleCount, is_mean: bool) -> u64 {
     let read = 4;
     if is_mean {
-        return BYTES_PER_MEAN_PIXEL + read;
+        return bytes_of_mean() + read;
     }
     let resolved = if samples == SampleCount::One { 0 } else { 4 };
     u64::from(samples.count()) * 8 + resolved + read
