@@ -108,6 +108,14 @@ impl PictureTarget {
         self
     }
 
+    /// Whether a device can draw the rows that come next, and hand them over.
+    ///
+    /// # Errors
+    /// When it can not.
+    pub fn check(&self, device: &wgpu::Device) -> Result<(), PictureError> {
+        fits(&device.limits(), self.band())
+    }
+
     /// Draws these rows of the picture next, and not all. The first is even.
     pub fn show(&mut self, rows: Range<u32>) {
         let has_room = |target: &Target| target.capacity()[1] as usize >= rows.len();
@@ -179,7 +187,7 @@ impl Picture {
         draw: impl FnOnce(&mut Target, &mut Option<PictureMean>),
     ) -> Result<Self, PictureError> {
         let (size, band) = (into.size, into.band());
-        fits(&device.limits(), band)?;
+        into.check(device)?;
         let PictureTarget { target, mean, .. } = into;
         let ((proof, pixels), answer) = watched(device, || {
             let target = target.get_or_insert_with(|| Target::with_samples(device, size[0], band.rows, samples));

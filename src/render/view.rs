@@ -49,7 +49,7 @@ impl View {
     /// where that is as large.
     pub(super) fn make_room(&mut self, device: &wgpu::Device, target: &mut Target, band: Band, is_sample: bool) {
         let of_target = target.capacity();
-        let depth = (is_sample && band == target.band()).then(|| &*target.depth_beside(device));
+        let depth = (is_sample && band == target.band()).then(|| target.depth_beside(device));
         if !self
             .geometry
             .as_ref()
