@@ -4,7 +4,7 @@ struct MeshVertex {
     // As in `mesh_two_maps.wgsl`.
     @invariant @builtin(position) clip: vec4<f32>,
     @location(0) world_position: vec3<f32>,
-    // At an edge the pixel's middle may lie beside the triangle, where normals turn away from the viewer.
+    // At centroids, and maps at pixels' middles: as in `mesh_two_maps.wgsl`.
     @location(1) @interpolate(perspective, centroid) world_normal: vec3<f32>,
     @location(2) @interpolate(perspective, centroid) world_tangent: vec4<f32>,
     @location(3) tex_coord: vec2<f32>,

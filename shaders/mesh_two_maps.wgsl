@@ -4,7 +4,8 @@ struct MeshVertex {
     // Every program computes the same bits, so that what is drawn over the model meets its depth.
     @invariant @builtin(position) clip: vec4<f32>,
     @location(0) world_position: vec3<f32>,
-    // At an edge the pixel's middle may lie beside the triangle, where normals turn away from the viewer.
+    // At an edge the pixel's middle may lie beside the triangle, where normals turn away from the viewer. Maps are read at the middle all the
+    // same: centroids of neighbours are unevenly far apart, and the level of a map, which goes with that, would jump where triangles meet.
     @location(1) @interpolate(perspective, centroid) world_normal: vec3<f32>,
     @location(2) @interpolate(perspective, centroid) world_tangent: vec4<f32>,
     @location(3) tex_coord: vec2<f32>,

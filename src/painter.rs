@@ -191,11 +191,18 @@ impl SessionPainter {
         let mut frame = session.frame();
         frame.options.points_high = self.points_high;
         if target.size() == sizes.now {
-            cost = if scene_stays && target.can_draw_over(frame.has_overlays()) {
-                self.renderer.render_over(&frame, target)
+            let over_mean = if scene_stays {
+                self.at_rest.draw_over(&mut self.renderer, &frame, sizes.now)
             } else {
-                self.renderer.render(&frame, target)
+                None
             };
+            cost = over_mean.unwrap_or_else(|| {
+                if scene_stays && target.can_draw_over(frame.has_overlays()) {
+                    self.renderer.render_over(&frame, target)
+                } else {
+                    self.renderer.render(&frame, target)
+                }
+            });
         } else {
             let device = self.device.clone();
             let stayed;
@@ -210,7 +217,8 @@ impl SessionPainter {
             }
         }
         cost.cpu_secs = Some(((self.now_secs)() - start_secs) as f32);
-        compositor.prepare(&self.device, &self.queue, target, self.at_rest.shown());
+        let (shown, mean) = self.at_rest.shown_over(target);
+        compositor.prepare(&self.device, &self.queue, shown, mean);
         self.poll_target(session);
         self.drawn = Some(wanted);
         self.frames_rendered += 1;
@@ -238,14 +246,16 @@ impl SessionPainter {
             return;
         }
         let (gpu, now_secs) = ((&self.device, &self.queue, &mut self.renderer), (self.now_secs)());
-        self.at_rest
-            .draw(gpu, session, (size, self.points_high), now_secs, &self.waker);
         let drawn = if session.quality().smooths_edges_now() {
             &self.target
         } else {
             &self.plain_target
         };
-        compositor.prepare(&self.device, &self.queue, drawn, self.at_rest.shown());
+        let sizes = [size, drawn.size()];
+        self.at_rest
+            .draw(gpu, session, (sizes, self.points_high), now_secs, &self.waker);
+        let (shown, mean) = self.at_rest.shown_over(drawn);
+        compositor.prepare(&self.device, &self.queue, shown, mean);
     }
 
     /// Shows the GPU's error about a resized target in the session, if there is one.

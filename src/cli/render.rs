@@ -320,6 +320,7 @@ fn open_gpu(backend: Option<Backend>) -> Result<(Gpu, device::Backend), Failure>
 
 /// Draws pictures of one model: it is brought to the GPU once, and all pictures are drawn into one target.
 struct Painter {
+    device: wgpu::Device,
     renderer: Renderer,
     target: PictureTarget,
     aperture: f32,
@@ -343,6 +344,7 @@ impl Painter {
         uploaded?;
         pollster::block_on(answer)?;
         Ok(Self {
+            device: device.clone(),
             renderer,
             target,
             aperture,
@@ -353,6 +355,11 @@ impl Painter {
     fn draw(&mut self, series: &mut Series, index: usize, [width, height]: [u32; 2]) -> Result<Vec<u8>, Failure> {
         let mut frame = series.frame(index);
         frame.options.aperture = self.aperture;
+        // A band needs a part of the memory that all rows would.
+        let steps = MOST_UNDER_LAYER / u64::from(width.max(1)) / BAND_STEP;
+        let rows = (steps.max(1) * BAND_STEP) as u32;
+        self.target.show(0..rows.min(height));
+        self.target.check(&self.device)?;
         self.renderer.refine_for(&frame);
         let mut pixels = Vec::new();
         let len = (u64::from(width) * u64::from(height)).saturating_mul(4);
@@ -364,9 +371,6 @@ impl Painter {
                 height,
                 megabytes: len / 1_000_000,
             })?;
-        // A band needs a part of the memory that all rows would.
-        let steps = MOST_UNDER_LAYER / u64::from(width.max(1)) / BAND_STEP;
-        let rows = (steps.max(1) * BAND_STEP) as u32;
         for top in (0..height).step_by(rows as usize) {
             self.target.show(top..(top + rows).min(height));
             pixels.extend(

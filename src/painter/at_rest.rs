@@ -3,6 +3,7 @@
 use std::task::{Context, Poll, Waker};
 
 use crate::render::{Accumulator, GpuAnswer, Renderer, SampleCount, Target, prove, watched};
+use crate::scene::{FrameCost, RenderFrame};
 use crate::session::Session;
 
 /// The mean is of as many samples as a second has room for, by the GPU's time where it tells any, but of so many at
@@ -39,7 +40,7 @@ struct Mean {
 impl Mean {
     fn new(device: &wgpu::Device, queue: &wgpu::Queue, [width, height]: [u32; 2]) -> Self {
         let ((accumulator, target, proof), answer) = watched(device, || {
-            let target = Target::with_samples(device, width, height, SampleCount::One);
+            let target = Target::with_samples(device, width, height, SampleCount::One).with_layer();
             let mut accumulator = Accumulator::new(device, &target);
             let proof = prove(device, queue, &target, &mut accumulator);
             (accumulator, target, proof)
@@ -104,6 +105,28 @@ impl AtRest {
         Some(&mean.accumulator)
     }
 
+    /// The target whose layer lies over what is shown, and the mean in place of its picture, if it is shown. The picture that was drawn by
+    /// itself has a layer with smoother shapes, but in a large window its pixels are coarser.
+    pub(super) fn shown_over<'a>(&'a self, drawn: &'a Target) -> (&'a Target, Option<&'a Accumulator>) {
+        let shown = self.shown();
+        match &self.mean {
+            Some(mean) if shown.is_some() && mean.target.size() != drawn.size() => (&mean.target, shown),
+            _ => (drawn, shown),
+        }
+    }
+
+    /// Draws what lies over the model over the mean, if the mean is shown and the picture that was drawn by itself has another size.
+    pub(super) fn draw_over(
+        &mut self,
+        renderer: &mut Renderer,
+        frame: &RenderFrame<'_>,
+        drawn: [u32; 2],
+    ) -> Option<FrameCost> {
+        let is_shown = self.shown().is_some();
+        let mean = self.mean.as_mut()?;
+        (is_shown && mean.target.size() != drawn).then(|| renderer.render_over_mean(frame, &mut mean.target))
+    }
+
     /// Whether the session's picture rests, and the mean is not of enough samples yet, or the GPU has not confirmed it.
     pub(super) fn lacks_samples(&self, session: &Session, now_secs: f64) -> bool {
         let quality = session.quality();
@@ -123,13 +146,13 @@ impl AtRest {
         mean.answer.is_some() || (count < quality.samples() && (count < least || !is_late))
     }
 
-    /// Adds some samples of the session's picture, in this size in pixels, of a window so high in points. The waker
-    /// is woken when the GPU has answered.
+    /// Adds some samples of the session's picture, in this size in pixels where the picture by itself has the other, of a window so high in
+    /// points. The waker is woken when the GPU has answered.
     pub(super) fn draw(
         &mut self,
         (device, queue, renderer): (&wgpu::Device, &wgpu::Queue, &mut Renderer),
         session: &mut Session,
-        (size, points_high): ([u32; 2], Option<f32>),
+        ([size, drawn], points_high): ([[u32; 2]; 2], Option<f32>),
         now_secs: f64,
         waker: &Waker,
     ) {
@@ -159,6 +182,9 @@ impl AtRest {
         frame.options.points_high = points_high;
         for _ in 0..SAMPLES_A_PASS.min(samples.saturating_sub(mean.accumulator.count())) {
             renderer.accumulate(&frame, &mut mean.target, &mut mean.accumulator);
+        }
+        if mean.target.lacks_layer(frame.has_overlays()) {
+            self.draw_over(renderer, &frame, drawn);
         }
     }
 }

@@ -59,6 +59,12 @@ impl Accumulator {
         [texture.width(), texture.height()]
     }
 
+    /// All its textures.
+    #[doc(hidden)]
+    pub fn textures(&self) -> [&wgpu::Texture; 2] {
+        self.means.each_ref().map(wgpu::TextureView::texture)
+    }
+
     /// How many pictures the mean is of.
     pub fn count(&self) -> u32 {
         self.count

@@ -230,7 +230,7 @@ pub async fn probe(
     let target = Target::with_samples(device, PROBE_SIDE, PROBE_SIDE, SampleCount::Four);
     let mut encoder = FrameEncoder::new(device, "probe");
     {
-        let mut pass = target.begin_pass(&mut encoder, wgpu::Color::TRANSPARENT);
+        let mut pass = target.begin_pass(&mut encoder, wgpu::Color::TRANSPARENT, None);
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &bind_group(device, "nothing", &nothing_layout, []), &[]);
         pass.set_bind_group(1, bone_texture.group(), &[]);

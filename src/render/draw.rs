@@ -73,11 +73,14 @@ impl Renderer {
         });
         let columns_of = |light| parts.iter().find(|part| part.0 == light).map(|(_, columns)| columns);
         let View { lights, geometry } = view;
-        for passes in lights.iter_mut().filter(|_| !scene_stays) {
+        for passes in lights.iter_mut() {
             if columns_of(passes.light()).is_none() {
                 continue;
             }
             passes.write(&self.common, frame, band);
+            if scene_stays {
+                continue;
+            }
             let is_read = frame.draws_under(Pass::AmbientOcclusion, passes.light());
             if let (true, Some(model), Some(geometry)) = (is_read, model, &mut *geometry) {
                 let model = with(model, self.instances.in_sight());
@@ -93,7 +96,7 @@ impl Renderer {
         }
         let own = model.map(|model| with(model, self.instances.own()));
         pipelines.set_samples(target.samples());
-        target.set_overlays(frame.has_overlays(), !scene_stays);
+        target.set_overlays(frame.has_overlays(), !scene_stays, frame.sample);
         if !scene_stays {
             self.draw_picture(frame, target, &parts, own, encoder);
         }
@@ -124,7 +127,7 @@ impl Renderer {
         // Colours of the skin are the own instance's alone.
         let colored = frame.vertex_colors.is_some();
         // The backdrop replaces all that the model leaves, alpha too. Smooth edges store no alpha: it is there from the beginning.
-        let mut pass = target.begin_pass(encoder, wgpu::Color::BLACK);
+        let mut pass = target.begin_pass(encoder, wgpu::Color::BLACK, frame.sample);
         let begin_part = |pass: &mut wgpu::RenderPass<'_>, part: &Columns| self.begin_part(pass, frame, part, height);
         for part in parts {
             if let Some((model, own)) = model
@@ -191,14 +194,14 @@ impl Renderer {
         [on_model, seen_through]: [bool; 2],
     ) {
         let common = &self.common;
-        let (device, pipelines, nothing) = (&common.device, &common.pipelines, &common.nothing);
+        let Common { pipelines, nothing, .. } = common;
         for part in parts {
             if !self.begin_part(pass, frame, part, band.rows) {
                 continue;
             }
             if let Some(model) = model.filter(|_| on_model) {
                 pass.set_bind_group(2, nothing, &[]);
-                self.overlays.draw_on_model(device, pass, frame, model, &self.instances);
+                self.overlays.draw_on_model(common, pass, frame, model, &self.instances);
             }
             for through in [on_model.then_some(false), seen_through.then_some(true)]
                 .into_iter()

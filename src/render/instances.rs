@@ -104,22 +104,27 @@ impl BoneTexture {
 
     fn upload(&self, queue: &Queue, rows: Range<u32>) {
         let texels = &self.texels[(rows.start * TEXELS_PER_ROW) as usize..(rows.end * TEXELS_PER_ROW) as usize];
-        let mut place = self.texture.as_image_copy();
-        place.origin.y = rows.start;
-        queue.write_texture(
-            place,
-            bytemuck::cast_slice(texels),
-            wgpu::TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row: Some(TEXELS_PER_ROW * BYTES_PER_TEXEL),
-                rows_per_image: None,
-            },
-            wgpu::Extent3d {
-                height: rows.len() as u32,
-                ..self.texture.size()
-            },
-        );
+        write_rows(queue, &self.texture, rows.start, texels);
     }
+}
+
+/// Uploads whole rows.
+fn write_rows(queue: &Queue, texture: &wgpu::Texture, first: u32, texels: &[[f32; 4]]) {
+    let mut place = texture.as_image_copy();
+    place.origin.y = first;
+    queue.write_texture(
+        place,
+        bytemuck::cast_slice(texels),
+        wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(TEXELS_PER_ROW * BYTES_PER_TEXEL),
+            rows_per_image: None,
+        },
+        wgpu::Extent3d {
+            height: texels.len() as u32 / TEXELS_PER_ROW,
+            ..texture.size()
+        },
+    );
 }
 
 /// The bytes of a row of the bone texture, which are compared sooner than its numbers; none beyond the last.
@@ -133,6 +138,28 @@ fn texture(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, height: u32) -
     let view = flat_texture(device, "bones", size, format, UPLOADED_AND_READ);
     let group = bind_group(device, "bones", layout, [wgpu::BindingResource::TextureView(&view)]);
     (view.texture().clone(), group)
+}
+
+/// Anything else of three texels, [`JOINTS_PER_ROW`] of it a row. None where a texture has too few rows.
+pub(super) fn texels_in_rows(
+    device: &wgpu::Device,
+    queue: &Queue,
+    layout: &wgpu::BindGroupLayout,
+    elements: impl ExactSizeIterator<Item = [[f32; 4]; 3]>,
+) -> Option<wgpu::BindGroup> {
+    let rows = (elements.len() as u32).div_ceil(JOINTS_PER_ROW).max(1);
+    if rows > device.limits().max_texture_dimension_2d {
+        return None;
+    }
+    let (texture, group) = texture(device, layout, rows);
+    let (mut row, mut elements) = (0, elements.peekable());
+    while elements.peek().is_some() {
+        let mut texels: Vec<_> = elements.by_ref().take(JOINTS_PER_ROW as usize).flatten().collect();
+        texels.resize(TEXELS_PER_ROW as usize, [0.0; 4]);
+        write_rows(queue, &texture, row, &texels);
+        row += 1;
+    }
+    Some(group)
 }
 
 /// Opacity of the highlight at a surface's edge.
@@ -155,9 +182,9 @@ fn crowd_palettes<'a>(frame: &RenderFrame<'a>) -> ChunksExact<'a, Affine3A> {
     palettes.chunks_exact(joints.max(1))
 }
 
-/// The instances of a frame, as a vertex stream: the frame's own instance twice, the crowd, those in sight before the others, so that
-/// one draw has all of them; the own instance again in the colour of the highlight; the ghosts. A line at a vertex reads both of the
-/// first, one for each end, since there the mesh's vertices are the instances.
+/// The instances of a frame, as a vertex stream: the frame's own instance four times, the crowd, those in sight before the others, so that
+/// one draw has all of them; the own instance again in the colour of the highlight; the ghosts. A line reads all of the first, one for
+/// each corner of its strip, since there the mesh's vertices or edges are the instances.
 pub(super) struct Instances {
     buffer: wgpu::Buffer,
     /// As they were uploaded last.
@@ -166,6 +193,9 @@ pub(super) struct Instances {
     stream_before: Vec<Instance>,
     roster: Roster,
 }
+
+/// The last of the frame's own instances, which is drawn with the crowd.
+const OWN: u32 = 3;
 
 /// Which instances a frame has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -196,7 +226,7 @@ pub(super) struct InstanceRange<'a> {
 impl Instances {
     pub(super) fn new(device: &wgpu::Device) -> Self {
         Self {
-            buffer: buffer_for(device, 2),
+            buffer: buffer_for(device, OWN as usize + 1),
             stream: Vec::new(),
             stream_before: Vec::new(),
             roster: Roster::default(),
@@ -237,7 +267,8 @@ impl Instances {
             ..own
         };
         let ghosts = (poses..palettes).zip(frame.ghosts.colors_srgb).map(ghost);
-        let all = [own, own].into_iter().chain(crowd).chain([highlight]).chain(ghosts);
+        let all = [own; OWN as usize + 1].into_iter().chain(crowd);
+        let all = all.chain([highlight]).chain(ghosts);
         std::mem::swap(&mut self.stream, &mut self.stream_before);
         self.stream.clear();
         self.stream.extend(all);
@@ -246,7 +277,7 @@ impl Instances {
         let (in_sight, count) = (in_sight.min(count) as u32 + 1, count as u32 + 1);
         let differs = self.stream != self.stream_before;
         if differs || (self.roster.in_sight, self.roster.count) != (in_sight, count) {
-            let (seen, others) = self.stream[1..=count as usize].split_at(in_sight as usize);
+            let (seen, others) = self.stream[OWN as usize..(OWN + count) as usize].split_at(in_sight as usize);
             let hash_in_sight = hash_of(seen);
             self.roster = Roster {
                 in_sight,
@@ -273,27 +304,27 @@ impl Instances {
 
     /// The crowd, as far as it is in sight.
     pub(super) fn crowd_in_sight(&self) -> InstanceRange<'_> {
-        self.range(2..self.roster.in_sight + 1)
+        self.range(OWN + 1..OWN + self.roster.in_sight)
     }
 
     /// The frame's own instance and the crowd, as far as it is in sight.
     pub(super) fn in_sight(&self) -> InstanceRange<'_> {
-        self.range(1..self.roster.in_sight + 1)
+        self.range(OWN..OWN + self.roster.in_sight)
     }
 
     /// The frame's own instance and the whole crowd.
     pub(super) fn all(&self) -> InstanceRange<'_> {
-        self.range(1..self.roster.count + 1)
+        self.range(OWN..OWN + self.roster.count)
     }
 
     /// The frame's own instance in the colour of the highlight.
     pub(super) fn highlight(&self) -> InstanceRange<'_> {
-        self.range(self.roster.count + 1..self.roster.count + 2)
+        self.range(OWN + self.roster.count..OWN + self.roster.count + 1)
     }
 
     /// The frame's own instance in other poses, each by itself.
     pub(super) fn ghosts(&self) -> impl Iterator<Item = InstanceRange<'_>> {
-        (self.roster.count + 2..self.stream.len() as u32).map(|ghost| self.range(ghost..ghost + 1))
+        (OWN + self.roster.count + 1..self.stream.len() as u32).map(|ghost| self.range(ghost..ghost + 1))
     }
 
     fn range(&self, range: Range<u32>) -> InstanceRange<'_> {

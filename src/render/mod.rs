@@ -302,8 +302,10 @@ impl Renderer {
     }
 
     fn render_window(&mut self, frame: &RenderFrame<'_>, target: &mut Target, scene_stays: bool) -> FrameCost {
-        self.window_capacity = Some(target.capacity());
-        self.window.drop_textures(MOST_TIMES, target.capacity());
+        if frame.sample.is_none() {
+            self.window_capacity = Some(target.capacity());
+            self.window.drop_textures(MOST_TIMES, target.capacity());
+        }
         let mut encoder = FrameEncoder::timed(&self.common.device, "frame", &mut self.timer);
         let cost = self.draw(frame, target, &mut encoder, scene_stays);
         FrameCost {
@@ -312,14 +314,25 @@ impl Renderer {
         }
     }
 
-    /// Adds one more picture of a frame at rest to a mean, by a target with one sample a pixel and no layer. What lies over the model is
-    /// left out.
+    /// Draws what lies over the model into the layer of a target that [`Renderer::accumulate`] drew samples of this frame with: over their
+    /// mean.
+    pub fn render_over_mean(&mut self, frame: &RenderFrame<'_>, target: &mut Target) -> FrameCost {
+        // The first sample lies in the middle of the pixels, and its depth is kept.
+        let frame = RenderFrame {
+            sample: Some(0),
+            ..frame.clone()
+        };
+        self.render_window(&frame, target, true)
+    }
+
+    /// Adds one more picture of a frame at rest to a mean, by a target with one sample a pixel. What lies over the model is left out.
     pub fn accumulate(&mut self, frame: &RenderFrame<'_>, target: &mut Target, accumulator: &mut Accumulator) {
         let sample = RenderFrame {
             sample: Some(accumulator.count()),
             ..frame.without_overlays()
         };
         let mut encoder = FrameEncoder::timed(&self.common.device, "sample", &mut self.sample_timer);
+        target.depth_beside(&self.common.device);
         self.draw(&sample, target, &mut encoder, false);
         let dithers = frame.options.view_mode == ViewMode::Lit;
         accumulator.add(&self.common.device, &self.common.queue, &mut encoder, target, dithers);

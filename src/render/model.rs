@@ -12,6 +12,7 @@ use glam::Vec4;
 use super::blending::{Center, Run, farthest_first};
 use super::buffers::{Queue, UploadError, Uploader, buffer};
 use super::instances::{BoneTexture, InstanceRange};
+use super::light_passes::Common;
 use super::maps::{MapTextures, MaterialImages};
 use super::materials::GpuMaterials;
 use super::pipelines::{
@@ -47,9 +48,8 @@ pub(super) struct GpuModel {
     ranges: Vec<DrawRange>,
     /// Of each range.
     centers: Vec<Center>,
-    /// The indices, kept for the edges.
-    triangles: Vec<u32>,
-    edges: OnceCell<Edges>,
+    /// None where the device has no room for them.
+    edges: OnceCell<Option<Edges>>,
     vertex_count: usize,
     colors: Option<(u64, wgpu::Buffer)>,
     /// None for a static model.
@@ -118,7 +118,6 @@ impl GpuModel {
             materials,
             centers: Center::of(mesh, &ranges, joints),
             ranges,
-            triangles: indices,
             edges: OnceCell::new(),
             vertex_count: mesh.vertex_count(),
             colors: None,
@@ -301,19 +300,28 @@ impl GpuModel {
         }
     }
 
-    /// Draws the edges of all visible triangles. The caller sets groups 0 and 3.
-    pub(super) fn draw_edges(&self, device: &wgpu::Device, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>) {
+    /// Draws the edges of all visible triangles of the frame's own instance. The caller sets groups 0 and 3.
+    pub(super) fn draw_edges(&self, common: &Common, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, mesh: &Mesh) {
         let edges = self.edges.get_or_init(|| {
             let ranges = self.ranges.iter().map(|range| range.indices.clone());
-            Edges::new(device, &self.triangles, ranges)
+            Edges::new((&common.device, &common.queue), &common.pipelines.layouts, mesh, ranges)
         });
+        let Some(edges) = edges else { return };
         self.bind(pass, posed, ModelDraw::Edges, Faces::All);
-        pass.set_index_buffer(edges.buffer.slice(..), wgpu::IndexFormat::Uint32);
-        for (range, edges) in self.ranges.iter().zip(&edges.ranges) {
-            if !is_hidden(posed.hidden, range.submesh) {
-                self.draw_indices(pass, edges.clone(), posed.instances.count);
+        pass.set_bind_group(2, &edges.vertices, &[]);
+        for (range, lines) in self.ranges.iter().zip(&edges.ranges) {
+            if !is_hidden(posed.hidden, range.submesh) && !lines.is_empty() {
+                let start = u64::from(lines.start) * size_of::<[u32; 2]>() as u64;
+                pass.set_vertex_buffer(POSITION_SLOT, edges.buffer.slice(start..));
+                self.draw_lines(pass, lines.len() as u32);
             }
         }
+        pass.set_bind_group(2, &common.nothing, &[]);
+    }
+
+    fn draw_lines(&self, pass: &mut wgpu::RenderPass<'_>, lines: u32) {
+        pass.draw(0..4, 0..lines);
+        self.count(4 * u64::from(lines));
     }
 
     /// Draws a line at each visible vertex of the frame's own instance. The caller sets groups 0 and 3.
@@ -330,9 +338,7 @@ impl GpuModel {
                 let influences = influences.slice(start(size_of::<shaders::InfluenceVertex>())..);
                 pass.set_vertex_buffer(INFLUENCE_SLOT, influences);
             }
-            let lines = range.vertices.len() as u32;
-            pass.draw(0..2, 0..lines);
-            self.count(2 * u64::from(lines));
+            self.draw_lines(pass, range.vertices.len() as u32);
         }
     }
 

@@ -5,6 +5,7 @@ use glam::Vec3;
 use super::band::Band;
 use super::buffers::{Queue, bind_group, buffer, uniform_buffer};
 use super::instances::Instances;
+use super::light_passes::Common;
 use super::model::{GpuModel, Posed};
 use super::pipelines::{Layouts, Pipelines};
 use super::recipe::{Draw, ModelDraw, WorldShape};
@@ -61,7 +62,7 @@ impl Overlays {
     /// Draws what lies on the finished model: ghosts, highlight, its edges and normals. The caller sets group 0, and an empty group 2.
     pub(super) fn draw_on_model(
         &self,
-        device: &wgpu::Device,
+        common: &Common,
         pass: &mut wgpu::RenderPass<'_>,
         frame: &RenderFrame<'_>,
         (model, posed): (&GpuModel, Posed<'_>),
@@ -77,9 +78,9 @@ impl Overlays {
             let instances = instances.highlight();
             model.draw_submesh(pass, Posed { instances, ..posed }, ModelDraw::Highlight, submesh);
         }
-        if has(Overlay::Wireframe) {
+        if let (true, Some(mesh)) = (has(Overlay::Wireframe), frame.mesh) {
             pass.set_bind_group(3, &self.wire.group, &[]);
-            model.draw_edges(device, pass, posed);
+            model.draw_edges(common, pass, posed, mesh);
         }
         for (overlay, draw, style) in [
             (Overlay::Normals, ModelDraw::Normals, &self.normals),
@@ -219,8 +220,13 @@ impl WorldShapes {
             };
             if !vertices.is_empty() {
                 pass.set_pipeline(&pipelines.get(Draw::World { shape, through }));
-                pass.set_vertex_buffer(0, shapes.buffer.slice(..));
-                pass.draw(vertices, 0..1);
+                let start = u64::from(vertices.start) * size_of::<OverlayVertex>() as u64;
+                pass.set_vertex_buffer(0, shapes.buffer.slice(start..));
+                let count = vertices.len() as u32;
+                match shape {
+                    WorldShape::Lines => pass.draw(0..4, 0..count / 2),
+                    WorldShape::Triangles => pass.draw(0..count, 0..1),
+                }
             }
         }
         band.set_viewport(pass, 1.0);

@@ -10,7 +10,7 @@ use super::buffers::Queue;
 use super::composite::Compositor;
 use super::device::{GpuAnswer, GpuError, answer_at_once, watched};
 use super::read_back::{Pending, ReadBackError};
-use super::target::{BYTES_PER_MEAN_PIXEL, SampleCount, Target, pixels};
+use super::target::{SampleCount, Target, bytes_of_mean, pixels};
 use super::timing::FrameEncoder;
 use super::uniforms::map_band;
 use crate::scene::RenderFrame;
@@ -108,6 +108,14 @@ impl PictureTarget {
         self
     }
 
+    /// Whether a device can draw the rows that come next, and hand them over.
+    ///
+    /// # Errors
+    /// When it can not.
+    pub fn check(&self, device: &wgpu::Device) -> Result<(), PictureError> {
+        fits(&device.limits(), self.band())
+    }
+
     /// Draws these rows of the picture next, and not all. The first is even.
     pub fn show(&mut self, rows: Range<u32>) {
         let has_room = |target: &Target| target.capacity()[1] as usize >= rows.len();
@@ -179,7 +187,7 @@ impl Picture {
         draw: impl FnOnce(&mut Target, &mut Option<PictureMean>),
     ) -> Result<Self, PictureError> {
         let (size, band) = (into.size, into.band());
-        fits(&device.limits(), band)?;
+        into.check(device)?;
         let PictureTarget { target, mean, .. } = into;
         let ((proof, pixels), answer) = watched(device, || {
             let target = target.get_or_insert_with(|| Target::with_samples(device, size[0], band.rows, samples));
@@ -277,7 +285,7 @@ pub fn prove(device: &wgpu::Device, queue: &wgpu::Queue, target: &Target, mean: 
 fn bytes_per_pixel(samples: SampleCount, is_mean: bool) -> u64 {
     let read = 4;
     if is_mean {
-        return BYTES_PER_MEAN_PIXEL + read;
+        return bytes_of_mean() + read;
     }
     let resolved = if samples == SampleCount::One { 0 } else { 4 };
     u64::from(samples.count()) * 8 + resolved + read

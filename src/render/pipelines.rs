@@ -6,7 +6,7 @@ use std::collections::HashMap;
 
 use super::buffers::{flat, layout, texture};
 use super::instances::BoneTexture;
-use super::recipe::{Draw, Faces, Maps, ModelDraw, Recipe};
+use super::recipe::{Draw, Faces, Maps, ModelDraw, Recipe, WorldShape};
 use super::target::SampleCount;
 use crate::model::MapSlot;
 use crate::scene::OverlayVertex;
@@ -144,6 +144,10 @@ const INSTANCE: [wgpu::VertexAttribute; 6] = wgpu::vertex_attr_array![
     7 => Float32x4, 8 => Float32x4, 9 => Float32x4, 10 => Float32x4, 11 => Uint32, 12 => Float32
 ];
 const WORLD_VERTEX: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![0 => Float32x3, 1 => Unorm8x4];
+/// Two of them; the colour is the first one's.
+const WORLD_LINE: [wgpu::VertexAttribute; 3] = wgpu::vertex_attr_array![0 => Float32x3, 1 => Unorm8x4, 2 => Float32x3];
+/// Which vertices an edge joins.
+const EDGE: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![0 => Uint32x2];
 const VERTEX_COLOR: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![6 => Unorm8x4];
 
 impl Pipelines {
@@ -222,6 +226,9 @@ impl Pipelines {
         let colors = buffer(size_of::<[u8; 4]>(), step, &VERTEX_COLOR);
         let more_maps = buffer(size_of::<MoreMapsVertex>(), step, &MORE_MAPS);
         let buffers = match draw {
+            Draw::Model {
+                draw: ModelDraw::Edges, ..
+            } => vec![instances, buffer(size_of::<[u32; 2]>(), step, &EDGE)],
             Draw::Model { draw, skinned, .. } => vec![
                 instances,
                 positions,
@@ -230,7 +237,10 @@ impl Pipelines {
                 colors.filter(|_| draw.reads_colors()),
                 more_maps.filter(|_| draw.maps() == Some(Maps::All)),
             ],
-            Draw::World { .. } => vec![buffer(size_of::<OverlayVertex>(), step, &WORLD_VERTEX)],
+            Draw::World { shape, .. } => vec![match shape {
+                WorldShape::Lines => buffer(2 * size_of::<OverlayVertex>(), step, &WORLD_LINE),
+                WorldShape::Triangles => buffer(size_of::<OverlayVertex>(), step, &WORLD_VERTEX),
+            }],
             _ => Vec::new(),
         };
         let faces = match draw {
@@ -295,9 +305,9 @@ impl Pipelines {
                 match (draw, material) {
                     (ModelDraw::Mesh(..), Some(material)) => vec![frame, bones, lighting, material],
                     (_, Some(material)) => vec![frame, bones, nothing, material],
-                    (ModelDraw::Edges | ModelDraw::Normals | ModelDraw::Tangents, None) => {
-                        vec![frame, bones, nothing, line]
-                    }
+                    // Their vertices lie in a texture as bones do.
+                    (ModelDraw::Edges, None) => vec![frame, bones, bones, line],
+                    (ModelDraw::Normals | ModelDraw::Tangents, None) => vec![frame, bones, nothing, line],
                     (_, None) => vec![frame, bones],
                 }
             }

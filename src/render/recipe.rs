@@ -307,18 +307,14 @@ impl Recipe {
                 samples: samples.count(),
                 ..fullscreen(shaders::BACKDROP, "fragment")
             },
-            Draw::World { shape, through } => {
-                let topology = match shape {
-                    WorldShape::Lines => wgpu::PrimitiveTopology::LineList,
-                    WorldShape::Triangles => wgpu::PrimitiveTopology::TriangleList,
-                };
-                Recipe {
-                    vertex: "world_vertex".into(),
-                    // Shapes that are seen through the model have a depth range of their own and hide each other in it.
+            Draw::World { shape, through } => match shape {
+                WorldShape::Lines => Self::lines("world_line".into(), samples),
+                WorldShape::Triangles => Recipe {
+                    // Those that are seen through the model have a depth range of their own and hide in it what is behind them.
                     depth: Some(depth(through, wgpu::CompareFunction::LessEqual)),
-                    ..Self::lines_on_model(samples, shaders::LINES, topology)
-                }
-            }
+                    ..Self::on_model(samples, shaders::LINES, "world_vertex".into())
+                },
+            },
             Draw::Occlusion(Light::Book) => fullscreen(shaders::OCCLUSION_BOOK, "fragment"),
             Draw::Occlusion(Light::Studio) => fullscreen(shaders::OCCLUSION_STUDIO, "fragment"),
             Draw::OcclusionBlurRows => fullscreen(shaders::OCCLUSION_BLUR, "fragment_rows"),
@@ -438,34 +434,29 @@ impl Recipe {
                     ..solid(program, Some(hard_fragment(cut)), Some(color), 1)
                 }
             }
-            ModelDraw::Edges => Recipe {
-                vertex: entry("edge"),
-                ..Self::lines_on_model(picture, shaders::LINES, wgpu::PrimitiveTopology::LineList)
-            },
-            ModelDraw::Normals | ModelDraw::Tangents => Recipe {
-                vertex: entry(if draw == ModelDraw::Normals {
-                    "normal"
-                } else {
-                    "tangent"
-                }),
-                // A line a vertex: the mesh's vertices are instances of one line.
-                step_mode: wgpu::VertexStepMode::Instance,
-                ..Self::lines_on_model(picture, shaders::LINES, wgpu::PrimitiveTopology::LineList)
-            },
-            ModelDraw::Highlight => Recipe {
-                vertex: entry("vertex"),
-                ..Self::lines_on_model(picture, shaders::HIGHLIGHT, wgpu::PrimitiveTopology::TriangleList)
-            },
+            ModelDraw::Edges => Self::lines(entry("edge"), picture),
+            ModelDraw::Normals => Self::lines(entry("normal"), picture),
+            ModelDraw::Tangents => Self::lines(entry("tangent"), picture),
+            ModelDraw::Highlight => Self::on_model(picture, shaders::HIGHLIGHT, entry("vertex")),
+        }
+    }
+
+    /// Lines on the model and beside it: the edges, the mesh's vertices or the pairs of points are instances of one strip.
+    fn lines(vertex: String, samples: SampleCount) -> Self {
+        Recipe {
+            topology: wgpu::PrimitiveTopology::TriangleStrip,
+            step_mode: wgpu::VertexStepMode::Instance,
+            ..Self::on_model(samples, shaders::LINES, vertex)
         }
     }
 
     /// Blended over the finished model, and hidden by what is nearer.
-    fn lines_on_model(samples: SampleCount, program: Program, topology: wgpu::PrimitiveTopology) -> Self {
+    fn on_model(samples: SampleCount, program: Program, vertex: String) -> Self {
         Recipe {
             program,
-            vertex: String::new(),
+            vertex,
             fragment: Some("fragment"),
-            topology,
+            topology: wgpu::PrimitiveTopology::TriangleList,
             step_mode: wgpu::VertexStepMode::Vertex,
             color: Some(wgpu::ColorTargetState {
                 blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),

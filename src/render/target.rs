@@ -156,10 +156,34 @@ const CAPACITY_STEP: u32 = 128;
 const MOST_BYTES: u64 = 192 << 20;
 /// The most that those of the mean of one at rest may take: 5120 × 2880 fit.
 const MOST_BYTES_AT_REST: u64 = 576 << 20;
-/// Colour, depth, two means, normals with depth, ambient occlusion.
-pub const BYTES_PER_MEAN_PIXEL: u64 = 4 + 4 + 2 * 8 + 4 + 4;
+/// Textures of a mean, one texel a pixel each: colour, depth, two means, normals with depth, ambient occlusion.
+const OF_MEAN: [wgpu::TextureFormat; 6] = [
+    COLOR_FORMAT,
+    DEPTH_FORMAT,
+    MEAN_FORMAT,
+    MEAN_FORMAT,
+    GEOMETRY_FORMAT,
+    GEOMETRY_FORMAT,
+];
+/// Those of what lies over it: colour and depth.
+const OF_LAYER: [wgpu::TextureFormat; 2] = [COLOR_FORMAT, DEPTH_FORMAT];
 const BYTES_PER_SAMPLE: u64 = 8;
 const BYTES_PER_RESOLVED_PIXEL: u64 = 4;
+
+fn texel_bytes(formats: &[wgpu::TextureFormat]) -> u64 {
+    let of = |format: &wgpu::TextureFormat| u64::from(format.block_copy_size(None).unwrap_or_default());
+    formats.iter().map(of).sum()
+}
+
+/// What the mean of a picture takes for each of its pixels.
+pub(super) fn bytes_of_mean() -> u64 {
+    texel_bytes(&OF_MEAN)
+}
+
+/// The same with the layer over it, as in a window.
+pub fn bytes_at_rest() -> u64 {
+    bytes_of_mean() + texel_bytes(&OF_LAYER)
+}
 
 /// An offscreen picture: multisampled colour and depth, and the resolved picture. It may fill a part of its textures, from the top left.
 pub struct Target {
@@ -179,6 +203,9 @@ enum Over {
     Apart {
         /// None until something lies over the model.
         layer: Option<Attachments>,
+        /// Depth of what is seen through the model, and of all samples at rest but the first: the first one's depth is kept, so that a
+        /// layer can be drawn over their mean. None until it is needed.
+        spare_depth: Option<wgpu::TextureView>,
         /// Whether something lies over the model now.
         is_shown: bool,
         /// Whether the model's depth was kept for it.
@@ -195,19 +222,33 @@ struct Attachments {
 }
 
 impl Attachments {
-    fn new(device: &wgpu::Device, label: &str, size: [u32; 2], samples: SampleCount) -> Self {
+    fn new(device: &wgpu::Device, label: &str, size: [u32; 2], samples: SampleCount, depth: wgpu::TextureView) -> Self {
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
-        let view = |format, samples: SampleCount, usage| {
-            let texture = texture(device, label, size, format, samples.count(), usage);
-            texture.create_view(&wgpu::TextureViewDescriptor::default())
-        };
         let read = attachment | wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC;
+        let view = |samples, usage| attachment_view(device, label, size, COLOR_FORMAT, samples, usage);
         Self {
-            resolved: view(COLOR_FORMAT, SampleCount::One, read),
-            multisampled: (samples != SampleCount::One).then(|| view(COLOR_FORMAT, samples, attachment)),
-            depth: view(DEPTH_FORMAT, samples, attachment),
+            resolved: view(SampleCount::One, read),
+            multisampled: (samples != SampleCount::One).then(|| view(samples, attachment)),
+            depth,
         }
     }
+}
+
+fn attachment_view(
+    device: &wgpu::Device,
+    label: &str,
+    size: [u32; 2],
+    format: wgpu::TextureFormat,
+    samples: SampleCount,
+    usage: wgpu::TextureUsages,
+) -> wgpu::TextureView {
+    let texture = texture(device, label, size, format, samples.count(), usage);
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+fn depth_view(device: &wgpu::Device, size: [u32; 2], samples: SampleCount) -> wgpu::TextureView {
+    let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
+    attachment_view(device, "depth", size, DEPTH_FORMAT, samples, usage)
 }
 
 impl Target {
@@ -218,7 +259,7 @@ impl Target {
         Self {
             samples,
             band: Band::all(size),
-            picture: Attachments::new(device, "picture", size, samples),
+            picture: Attachments::new(device, "picture", size, samples, depth_view(device, size, samples)),
             over: Over::Together,
         }
     }
@@ -228,6 +269,7 @@ impl Target {
     pub fn with_layer(mut self) -> Self {
         self.over = Over::Apart {
             layer: None,
+            spare_depth: None,
             is_shown: false,
             has_depth: false,
         };
@@ -244,6 +286,11 @@ impl Target {
         matches!(self.over, Over::Apart { has_depth, .. } if has_depth || !needs_depth)
     }
 
+    /// Whether something lies over the model, and is not drawn yet.
+    pub fn lacks_layer(&self, are_there: [bool; 2]) -> bool {
+        are_there.contains(&true) && self.over().is_none()
+    }
+
     /// What lies over the model, to be laid over the picture; none where nothing does.
     pub(super) fn over(&self) -> Option<&wgpu::TextureView> {
         match &self.over {
@@ -256,8 +303,37 @@ impl Target {
         }
     }
 
-    pub(super) fn depth_view(&self) -> &wgpu::TextureView {
-        &self.picture.depth
+    /// The depth that this sample at rest, or a picture by itself, is drawn with.
+    fn depth_of(&self, sample: Option<u32>) -> &wgpu::TextureView {
+        match &self.over {
+            Over::Apart {
+                spare_depth: Some(spare),
+                ..
+            } if sample.is_some_and(|sample| sample > 0) => spare,
+            _ => &self.picture.depth,
+        }
+    }
+
+    /// A depth that keeps nothing while samples at rest are drawn, made where there is none: the picture's own, but where a layer reads it.
+    pub(super) fn depth_beside(&mut self, device: &wgpu::Device) -> &wgpu::TextureView {
+        let (size, samples) = (self.capacity(), self.samples);
+        match &mut self.over {
+            Over::Together => &self.picture.depth,
+            Over::Apart { spare_depth, .. } => spare_depth.get_or_insert_with(|| depth_view(device, size, samples)),
+        }
+    }
+
+    /// All its textures.
+    #[doc(hidden)]
+    pub fn textures(&self) -> Vec<&wgpu::Texture> {
+        let (layer, spare_depth) = match &self.over {
+            Over::Together => (None, None),
+            Over::Apart { layer, spare_depth, .. } => (layer.as_ref(), spare_depth.as_ref()),
+        };
+        let drawn = std::iter::once(&self.picture).chain(layer);
+        let colors = drawn.flat_map(|drawn| std::iter::once(&drawn.resolved).chain(&drawn.multisampled));
+        let depths = std::iter::once(&self.picture.depth).chain(spare_depth);
+        colors.chain(depths).map(wgpu::TextureView::texture).collect()
     }
 
     /// Of each pixel.
@@ -316,7 +392,7 @@ impl Target {
 
     /// The same of the mean of a picture at rest.
     pub fn affordable_mean_scale(size: [u32; 2]) -> f32 {
-        let bytes = pixels(size) * BYTES_PER_MEAN_PIXEL;
+        let bytes = pixels(size) * bytes_at_rest();
         (MOST_BYTES_AT_REST as f32 / bytes.max(1) as f32).sqrt().min(1.0)
     }
 
@@ -334,7 +410,7 @@ impl Target {
     /// Fills the picture with a colour, through the same pass that a frame is drawn with.
     pub(super) fn fill(&self, device: &wgpu::Device, queue: &wgpu::Queue, color: wgpu::Color) {
         let mut encoder = FrameEncoder::new(device, "fill");
-        drop(self.begin_pass(&mut encoder, color));
+        drop(self.begin_pass(&mut encoder, color, None));
         queue.submit([encoder.commands.finish()]);
     }
 
@@ -347,11 +423,14 @@ impl Target {
         are_there: [bool; 2],
         draw: impl Fn(&mut wgpu::RenderPass<'_>, usize),
     ) {
-        let (size, samples) = (self.capacity(), self.samples);
+        if !are_there.contains(&true) {
+            return;
+        }
+        let (size, samples, depth) = (self.capacity(), self.samples, self.depth_beside(device).clone());
         let Over::Apart { layer, .. } = &mut self.over else {
             return;
         };
-        let layer = layer.get_or_insert_with(|| Attachments::new(device, "layer", size, samples));
+        let layer = layer.get_or_insert_with(|| Attachments::new(device, "layer", size, samples, depth));
         let last = are_there.iter().rposition(|&is_there| is_there);
         for kind in (0..2).filter(|&kind| are_there[kind]) {
             let view = layer.multisampled.as_ref().unwrap_or(&layer.resolved);
@@ -371,15 +450,17 @@ impl Target {
         }
     }
 
-    /// Says what lies over the model in the next picture, whose depth is kept where it can hide something.
-    pub(super) fn set_overlays(&mut self, are_there: [bool; 2], scene_is_drawn: bool) {
+    /// Says what lies over the model in the next picture, whose depth is kept where it can hide something, and of samples at rest
+    /// the first one's, which lies where pictures by themselves do.
+    pub(super) fn set_overlays(&mut self, are_there: [bool; 2], scene_is_drawn: bool, sample: Option<u32>) {
         if let Over::Apart {
             is_shown, has_depth, ..
         } = &mut self.over
+            && sample.is_none_or(|sample| sample == 0)
         {
             *is_shown = are_there.contains(&true);
             if scene_is_drawn {
-                [*has_depth, _] = are_there;
+                *has_depth = are_there[0] || sample.is_some();
             }
         }
     }
@@ -394,18 +475,22 @@ impl Target {
         begin_pass(encoder, TimedPass::Picture, targets)
     }
 
-    /// A pass over a picture of this colour.
-    pub(super) fn begin_pass<'a>(&self, encoder: &'a mut FrameEncoder, color: wgpu::Color) -> wgpu::RenderPass<'a> {
+    /// A pass over a picture of this colour, or over a sample of one at rest.
+    pub(super) fn begin_pass<'a>(
+        &self,
+        encoder: &'a mut FrameEncoder,
+        color: wgpu::Color,
+        sample: Option<u32>,
+    ) -> wgpu::RenderPass<'a> {
         let Attachments {
-            resolved,
-            multisampled,
-            depth,
+            resolved, multisampled, ..
         } = &self.picture;
+        let depth = self.depth_of(sample);
         let targets = PassTargets {
             color: Some((multisampled.as_ref().unwrap_or(resolved), color)),
             resolved: multisampled.is_some().then_some(resolved),
             depth: Some(depth),
-            depth_is_kept: matches!(self.over, Over::Apart { has_depth: true, .. }),
+            depth_is_kept: depth == &self.picture.depth && matches!(self.over, Over::Apart { has_depth: true, .. }),
             filled: Some(self.band),
             ..PassTargets::default()
         };

@@ -6,8 +6,9 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use wgpu::util::DeviceExt as _;
-
+use super::buffers::{Queue, Uploader};
+use super::instances::texels_in_rows;
+use super::pipelines::Layouts;
 use crate::model::{Mesh, Model};
 
 /// A submesh: a range of indices with one material.
@@ -109,35 +110,53 @@ impl Drawn {
 pub(super) struct Edges {
     /// Pairs of vertex indices.
     pub(super) buffer: wgpu::Buffer,
-    /// The range of each submesh in `buffer`, in the order in which they were passed.
+    /// The pairs of each submesh in `buffer`, in the order in which they were passed.
     pub(super) ranges: Vec<Range<u32>>,
+    /// The vertices that they join, as `lines.wgsl` reads them: an edge has two, and a shader only those that it looks up.
+    pub(super) vertices: wgpu::BindGroup,
 }
 
 impl Edges {
-    pub(super) fn new(device: &wgpu::Device, triangles: &[u32], submeshes: impl Iterator<Item = Range<u32>>) -> Self {
-        let mut indices: Vec<u32> = Vec::new();
+    /// None where a texture has too few rows for the vertices.
+    pub(super) fn new(
+        (device, queue): (&wgpu::Device, &Queue),
+        layouts: &Layouts,
+        mesh: &Mesh,
+        submeshes: impl Iterator<Item = Range<u32>>,
+    ) -> Option<Self> {
+        let mut pairs: Vec<[u32; 2]> = Vec::new();
         let ranges = submeshes
             .map(|submesh| {
-                let start = indices.len() as u32;
-                indices.extend(edges(&triangles[submesh.start as usize..submesh.end as usize]));
-                start..indices.len() as u32
+                let start = pairs.len() as u32;
+                let triangles = mesh.indices.get(submesh.start as usize..submesh.end as usize);
+                pairs.extend(edges(triangles.unwrap_or_default()));
+                start..pairs.len() as u32
             })
             .collect();
-        // An empty buffer cannot be bound.
-        if indices.is_empty() {
-            indices.extend([0, 0]);
-        }
-        let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("edges"),
-            contents: bytemuck::cast_slice(&indices),
-            usage: wgpu::BufferUsages::INDEX,
+        let vertices = (0..mesh.vertex_count()).map(|vertex| {
+            let influences = mesh.influences.get(vertex).copied().unwrap_or_default();
+            let position = mesh.positions[vertex].extend(0.0).to_array();
+            [
+                position,
+                influences.joints.map(|joint| joint as f32),
+                influences.weights,
+            ]
         });
-        Self { buffer, ranges }
+        let limits = device.limits();
+        let texture = texels_in_rows(device, queue, &layouts.bones, vertices)?;
+        let uploader = Uploader { device, queue, limits };
+        let usage = wgpu::BufferUsages::VERTEX;
+        let buffer = uploader.upload("edges", usage, pairs.len(), pairs.into_iter()).ok()?;
+        Some(Self {
+            buffer,
+            ranges,
+            vertices: texture,
+        })
     }
 }
 
 /// The edges of some triangles, each once, whichever way its triangles go round.
-pub fn edges(triangles: &[u32]) -> impl Iterator<Item = u32> {
+pub fn edges(triangles: &[u32]) -> impl Iterator<Item = [u32; 2]> {
     let mut edges: Vec<[u32; 2]> = triangles
         .chunks_exact(3)
         .flat_map(|corner| [[corner[0], corner[1]], [corner[1], corner[2]], [corner[2], corner[0]]])
@@ -145,5 +164,5 @@ pub fn edges(triangles: &[u32]) -> impl Iterator<Item = u32> {
         .collect();
     edges.sort_unstable();
     edges.dedup();
-    edges.into_iter().flatten()
+    edges.into_iter()
 }

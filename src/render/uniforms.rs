@@ -77,13 +77,19 @@ pub const SHADOW_TAPS: u32 = 16;
 const STRATUM: f32 = 0.25;
 /// How far occluders reach under the studio light, in units of the books' demo.
 const STUDIO_OCCLUSION_RADIUS: f32 = 0.6;
-/// How far they reach at most in the picture, parts of its height: as `occlusion_studio.wgsl` has it, and of the book's, which reach less far
-/// in the world, where the model is seen from nearby.
+/// The most that ambient occlusion looks away from a pixel, parts of the picture's height. Under the studio light `occlusion_studio.wgsl`
+/// has the same limit.
 const STUDIO_MOST_REACH: f32 = 0.12;
+/// `occlusion_book.wgsl` has no limit: occluders that lie farther off in the picture than this, as where the model is seen from nearby, are not
+/// found from within a band.
 const BOOK_MOST_REACH: f32 = 0.25;
 
-/// The band of the maps in view that a picture's band reads: at half the picture's resolution, of a sample at rest at all of it. Ambient
-/// occlusion looks about as far as occluders reach.
+/// The band of the maps in view that a band of the picture reads: at half the picture's resolution, of a sample at rest at all of it.
+///
+/// A pixel's ambient occlusion reads the geometry around it, as far as occluders reach, and the blurs read what lies beside it; so the
+/// maps have more rows than the picture's band, above and below. How many: the length that occluders reach in the world (the studio's, the
+/// book's is shorter), as the nearest point of the model shows it in the picture, but no more than the limit of the light. In a picture
+/// divided between two lights both read one map, so the larger limit holds.
 pub(super) fn map_band(frame: &RenderFrame<'_>, band: Band) -> Band {
     let camera = &frame.camera;
     let nearest = match camera.projection {

@@ -1,8 +1,7 @@
 //! The maps that a picture reads, of all lights that it shows: one set for the window and for pictures by themselves, one for the samples
 //! of a picture at rest, which see the model from elsewhere within the pixel and under other points of the lamp.
 
-use super::band::Band;
-use super::band::half;
+use super::band::{Band, half};
 use super::light_maps::GeometryMap;
 use super::light_passes::{Common, LightPasses};
 use super::target::Target;
@@ -46,17 +45,17 @@ impl View {
         }
     }
 
-    /// Makes room for ambient occlusion of this band of the maps of a target's picture; of a sample at full size, in the target's own
-    /// depth where that is as large.
-    pub(super) fn make_room(&mut self, device: &wgpu::Device, target: &Target, band: Band, is_sample: bool) {
-        let depth = (is_sample && band == target.band()).then(|| target.depth_view());
+    /// Makes room for ambient occlusion of this band of the maps of a target's picture; of a sample at full size, in a depth of the target
+    /// where that is as large.
+    pub(super) fn make_room(&mut self, device: &wgpu::Device, target: &mut Target, band: Band, is_sample: bool) {
+        let of_target = target.capacity();
+        let depth = (is_sample && band == target.band()).then(|| target.depth_beside(device));
         if !self
             .geometry
             .as_ref()
             .is_some_and(|map| map.has_room(band.size(), depth))
         {
             self.forget_geometry();
-            let of_target = target.capacity();
             let room = if is_sample { of_target } else { half(of_target) };
             let capacity = std::array::from_fn(|axis| room[axis].max(band.size()[axis]));
             self.geometry = Some(GeometryMap::new(device, capacity, depth, is_sample));

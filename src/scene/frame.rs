@@ -8,6 +8,7 @@ use glam::{Affine3A, Quat, Vec3};
 use super::appearance::{Background, Detail, Light, Overlay, Overlays, Pass, Passes, Theme, ViewMode};
 use super::{Aabb, Camera, Ground};
 use crate::anim::Palette;
+use crate::model::Mesh;
 
 /// How the model is drawn, and what is drawn beside it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -77,6 +78,8 @@ pub struct RenderFrame<'a> {
     pub world_bounds: Aabb,
     /// Where the model stands.
     pub ground: Ground,
+    /// The mesh that the renderer has, for its edges; without it none are drawn.
+    pub mesh: Option<&'a Mesh>,
     /// Joint matrices; empty for a static model.
     pub palette: &'a Palette,
     /// The model's other instances.

@@ -185,7 +185,8 @@ fn any_model_is_drawn() {
 
 #[test]
 fn a_picture_that_no_gpu_draws_is_refused() {
-    for (size, why) in [("100000x10", "pixels a side"), ("10x100000", "pixels a side")] {
+    // No process has the memory of the last, but the GPU is asked first.
+    for (size, why) in ["100000x10", "10x100000", "4000000000x4000000000"].map(|size| (size, "pixels a side")) {
         let path = scratch(&format!("large-{size}.png"));
         let run = run(["render", FIGURE, "-o", path.to_str().expect("UTF-8"), "--size", size]);
         run.refused(2);
@@ -193,6 +194,46 @@ fn a_picture_that_no_gpu_draws_is_refused() {
         assert!(run.err.contains(&told) && run.err.contains(why), "{}", run.err);
         assert!(!path.exists());
     }
+}
+
+/// What is drawn again and again beside the model is not seen: rows of which the first is the first of a band.
+#[test]
+fn a_large_picture_is_drawn_in_bands_without_seams() {
+    const FIRST_OF_BAND: u32 = 1024;
+    let more = [
+        "--size",
+        "16384x1216",
+        "--samples",
+        "1",
+        "--view",
+        "front",
+        "--transparent",
+        "--no-grid",
+    ];
+    let (picture, said) = draw("bands.png", FIGURE, &more);
+    assert_eq!(picture.dimensions(), (16384, 1216), "{said}");
+    let [left, right, _, bottom] = extent(&picture).expect("something is drawn");
+    assert!(bottom > FIRST_OF_BAND + 20, "the feet are in the second band: {bottom}");
+    let steps = |row: u32| -> u32 {
+        let step = |x| {
+            picture
+                .get_pixel(x, row - 1)
+                .0
+                .into_iter()
+                .zip(picture.get_pixel(x, row).0)
+                .map(|(a, b)| u32::from(a.abs_diff(b)))
+                .sum::<u32>()
+        };
+        (left..right).map(step).sum()
+    };
+    let around = (2..10)
+        .map(|away| steps(FIRST_OF_BAND - away).max(steps(FIRST_OF_BAND + away)))
+        .max();
+    assert!(
+        steps(FIRST_OF_BAND) <= around.unwrap_or_default() * 3 / 2,
+        "{} beside {around:?}",
+        steps(FIRST_OF_BAND)
+    );
 }
 
 /// A software GPU has the memory that the process may have.

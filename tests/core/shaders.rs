@@ -73,7 +73,7 @@ fn every_entry_point_is_valid_and_translates_to_glsl_es_300() {
         "contact-cut-all: vertex_static vertex_skinned fragment cut_static cut_skinned fragment_cut",
         "contact-blur: vertex fragment_rows fragment_columns",
         "backdrop: vertex fragment",
-        "lines: edge_static edge_skinned normal_static normal_skinned tangent_static tangent_skinned world_vertex \
+        "lines: edge_static edge_skinned normal_static normal_skinned tangent_static tangent_skinned world_line world_vertex \
             fragment",
         "highlight: vertex_static vertex_skinned fragment",
         "accumulate: vertex fragment",

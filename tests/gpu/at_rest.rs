@@ -2,12 +2,16 @@
 //! of the lens.
 
 use bindpose::model::{AlphaMode, MapSlot};
-use bindpose::render::{MaterialImages, PictureTarget};
-use bindpose::scene::{Light, Projection, Theme, ViewMode, linear_from_srgb8, srgb8_from_linear};
+use bindpose::render::for_tests::bytes_at_rest;
+use bindpose::render::{Accumulator, Compositor, MaterialImages, PictureTarget, Renderer, SampleCount, Target};
+use bindpose::scene::{
+    Background, Light, Overlay, Overlays, Projection, Theme, ViewMode, linear_from_srgb8, srgb8_from_linear,
+};
 use glam::Vec3;
 
 use crate::gltf_materials::{blended, over, unlit};
 use crate::gpu::{Gpu, Picture, difference};
+use crate::picture::{SURFACE_FORMAT, on_surface};
 use crate::scenes::Scene;
 use crate::sets::{Plate, floor, plates};
 use crate::still_life::{StillLifeMaps, add_ball, still_life};
@@ -145,6 +149,37 @@ fn panes(colors: &[([u8; 3], f32)]) -> Scene {
 
 const WALL: [u8; 3] = [200, 200, 40];
 
+/// Samples of a scene at rest, as a window has them, and what lies over their mean.
+struct Rest<'a> {
+    gpu: &'a Gpu,
+    renderer: Renderer,
+    target: Target,
+    mean: Accumulator,
+}
+
+impl<'a> Rest<'a> {
+    fn new(gpu: &'a Gpu, scene: &Scene, [width, height]: [u32; 2]) -> Self {
+        let device = &gpu.open.device;
+        let mut renderer = Renderer::with_samples(device, &gpu.open.queue, SampleCount::One);
+        renderer.set_model(&scene.model).expect("small");
+        let target = Target::with_samples(device, width, height, SampleCount::One).with_layer();
+        let mean = Accumulator::new(device, &target);
+        Self {
+            gpu,
+            renderer,
+            target,
+            mean,
+        }
+    }
+
+    fn shown(&self, is_mean: bool) -> Picture {
+        let (device, queue) = (&self.gpu.open.device, &self.gpu.open.queue);
+        let mut compositor = Compositor::new(device, SURFACE_FORMAT);
+        compositor.prepare(device, queue, &self.target, is_mean.then_some(&self.mean));
+        on_surface(self.gpu, &compositor, self.target.size())
+    }
+}
+
 /// So many steps from pixel to pixel on each side tell the slope of a profile.
 const STEPS_BESIDE: usize = 8;
 
@@ -252,6 +287,72 @@ on_both_backends! {
         let greens: Vec<_> = (24..40).map(|x| shown.pixel(x, 24)[1]).collect();
         assert!(greens[0] < 40 && greens[15] > 190 && greens.is_sorted_by(|a, b| *a <= b.saturating_add(2)), "{greens:?}");
         assert!(greens.iter().any(|green| (60..180).contains(green)), "{greens:?}");
+    }
+
+    /// Which pixels of a line are seen is decided by the depth of the first sample, wherever the others lie within their pixels.
+    fn lines_over_a_mean_are_those_over_a_single_picture(gpu) {
+        let mut scene = still_life().three_quarter(Theme::Light);
+        let mut rest = Rest::new(gpu, &scene, SIZE);
+        scene.options.background = Background::Color([128; 3]);
+        scene.options.overlays = Overlays::none();
+        let changed = |[before, after]: [Picture; 2]| -> Vec<bool> {
+            let pixels = before.rgba.chunks(4).zip(after.rgba.chunks(4));
+            pixels.map(|(before, after)| before[..3].iter().zip(after).any(|(a, b)| a.abs_diff(*b) > 12)).collect()
+        };
+        let draw_single = |rest: &mut Rest<'_>, scene: &Scene| {
+            rest.renderer.render(&scene.frame(), &mut rest.target);
+            rest.shown(false)
+        };
+        let mut with_lines = scene.frame();
+        for overlay in [Overlay::Wireframe, Overlay::Bounds] {
+            with_lines.options.overlays.set(overlay, true);
+        }
+        let single = [draw_single(&mut rest, &scene), {
+            rest.renderer.render(&with_lines, &mut rest.target);
+            rest.shown(false)
+        }];
+        for _ in 0..7 {
+            rest.renderer.accumulate(&with_lines, &mut rest.target, &mut rest.mean);
+        }
+        assert!(rest.target.lacks_layer(with_lines.has_overlays()) && rest.target.can_draw_over([true; 2]));
+        let before = rest.shown(true);
+        let draws = rest.renderer.render_over_mean(&with_lines, &mut rest.target).draws;
+        assert!(draws > 0 && draws < 8, "the model stays: {draws}");
+        let over = rest.shown(true);
+        rest.renderer.accumulate(&with_lines, &mut rest.target, &mut rest.mean);
+        assert!(!rest.target.lacks_layer(with_lines.has_overlays()), "it lies over the next samples too");
+        let (single, over) = (changed(single), changed([before, over]));
+        let count = single.iter().filter(|is_changed| **is_changed).count();
+        let other = single.iter().zip(&over).filter(|(a, b)| a != b).count();
+        assert!(count > 1000 && other < count / 20, "{other} of {count} pixels of lines are others");
+    }
+
+    fn all_textures_of_a_picture_at_rest_are_in_the_sum_that_says_how_large_it_may_be(gpu) {
+        let mut scene = still_life().three_quarter(Theme::Light);
+        for overlay in Overlay::ALL {
+            scene.options.overlays.set(overlay, true);
+        }
+        for light in Light::ALL {
+            scene.options.light = light;
+            let mut rest = Rest::new(gpu, &scene, SIZE);
+            for _ in 0..2 {
+                rest.renderer.accumulate(&scene.frame(), &mut rest.target, &mut rest.mean);
+            }
+            rest.renderer.render_over_mean(&scene.frame(), &mut rest.target);
+            let mut textures = rest.target.textures();
+            textures.extend(rest.mean.textures());
+            // Ambient occlusion is drawn with a depth of the target.
+            let of_view = rest.renderer.view_textures().into_iter();
+            let others: Vec<_> = of_view.filter(|texture| !textures.contains(texture)).collect();
+            textures.extend(others);
+            let bytes = |texture: &&wgpu::Texture| {
+                let texel = texture.format().block_copy_size(None).expect("whole texels");
+                u64::from(texture.width() * texture.height() * texture.sample_count() * texel)
+            };
+            let (sum, pixels) = (textures.iter().map(bytes).sum::<u64>(), u64::from(SIZE[0] * SIZE[1]));
+            // One of a single texel may stand for what is not there.
+            assert!((0..8).contains(&sum.wrapping_sub(pixels * bytes_at_rest())), "{light:?}: {sum} of {textures:?}");
+        }
     }
 
     /// Three balls in a row that goes away from the viewer.

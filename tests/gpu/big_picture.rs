@@ -1,7 +1,7 @@
 //! Pictures by themselves: all of it, or an error in words.
 
 use bindpose::render::{PictureTarget, Renderer};
-use bindpose::scene::{Background, Light, Overlay, Theme};
+use bindpose::scene::{Background, FrameOptions, Light, Overlay, Theme};
 use glam::Vec3;
 
 use crate::gpu::{Gpu, Picture};
@@ -14,19 +14,11 @@ fn refusal(gpu: &Gpu, size: [u32; 2]) -> String {
     refused.map_or_else(String::new, |error| error.to_string())
 }
 
-/// The still life on its grid, in shadow and in ambient occlusion; with lines on it and through it where it `has_lines`.
-fn still_life_on_grid(light: Light, has_lines: bool) -> Scene {
+/// The still life on its grid, in shadow and in ambient occlusion.
+fn still_life_on_grid(light: Light) -> Scene {
     let mut scene = still_life().three_quarter(Theme::Light);
     scene.options.light = light;
-    if has_lines {
-        for overlay in [Overlay::Bounds, Overlay::Axes, Overlay::Normals] {
-            scene.options.overlays.set(overlay, true);
-        }
-        scene.options.overlays.line_length = 0.1;
-        let bones = &mut scene.seen_through;
-        bones.line(Vec3::new(-1.9, 0.1, 0.0), Vec3::new(1.8, 1.3, 0.4), [255, 200, 40, 255]);
-        bones.line(Vec3::new(0.0, 0.0, -1.8), Vec3::new(0.3, 1.6, 1.8), [40, 200, 255, 160]);
-    }
+    scene.options.overlays.line_length = 0.1;
     scene
 }
 
@@ -36,15 +28,33 @@ on_both_backends! {
     /// bands begin where tiles do, as those of the command line.
     fn a_picture_in_bands_is_the_whole_one(gpu) {
         let ([width, height], maps) = ([640, 480], StillLifeMaps::new());
-        for (light, samples, rows, has_lines) in [
-            (Light::Studio, 1, 100, false),
-            (Light::Studio, 5, 100, false),
-            (Light::Book, 1, 100, false),
-            (Light::Book, 2, 100, false),
-            (Light::Studio, 1, 128, true),
-            (Light::Studio, 3, 128, true),
+        let (plain, lines): (fn(&mut FrameOptions), _) = (|_| (), |options: &mut FrameOptions| {
+            for overlay in [Overlay::Bounds, Overlay::Axes, Overlay::Normals] {
+                options.overlays.set(overlay, true);
+            }
+        });
+        let divided: fn(&mut FrameOptions) = |options| options.split = Some(0.4);
+        let before_sky: fn(&mut FrameOptions) = |options| options.background = Background::Sky;
+        let through_lens: fn(&mut FrameOptions) = |options| options.aperture = 0.1;
+        for (light, samples, rows, looks) in [
+            (Light::Studio, 1, 100, plain),
+            (Light::Studio, 5, 100, plain),
+            (Light::Book, 1, 100, plain),
+            (Light::Book, 2, 100, plain),
+            (Light::Studio, 1, 100, divided),
+            (Light::Studio, 3, 100, divided),
+            (Light::Studio, 1, 100, before_sky),
+            (Light::Studio, 3, 100, through_lens),
+            (Light::Studio, 1, 128, lines),
+            (Light::Studio, 3, 128, lines),
         ] {
-            let scene = still_life_on_grid(light, has_lines);
+            let mut scene = still_life_on_grid(light);
+            looks(&mut scene.options);
+            if scene.options.overlays.has(Overlay::Bounds) {
+                let bones = &mut scene.seen_through;
+                bones.line(Vec3::new(-1.9, 0.1, 0.0), Vec3::new(1.8, 1.3, 0.4), [255, 200, 40, 255]);
+                bones.line(Vec3::new(0.0, 0.0, -1.8), Vec3::new(0.3, 1.6, 1.8), [40, 200, 255, 160]);
+            }
             let mut renderer = gpu.renderer();
             renderer.set_model(&scene.model).expect("small");
             renderer.set_maps(&maps.images());
@@ -61,7 +71,7 @@ on_both_backends! {
             }
             let [whole, banded] = [whole, banded].map(|rgba| Picture { width, height, rgba });
             let [most, any] = [1, 0].map(|most| whole.share_that_differs(&banded, most));
-            assert!(most < 1e-5 && any < 0.002, "{light:?}, {samples} samples: {most} by more than 1, {any} by any");
+            assert!(most < 1e-5 && any < 0.002, "{light:?}, {samples} samples, {:?}: {most} by more than 1, {any} by any", scene.options);
         }
     }
 

@@ -6,8 +6,8 @@ use std::task::Waker;
 
 use bindpose::model::JointIndex;
 use bindpose::painter::{PainterOptions, SessionPainter};
-use bindpose::render::Compositor;
-use bindpose::scene::{FrameCost, Overlay};
+use bindpose::render::{Compositor, Renderer, SampleCount, Target};
+use bindpose::scene::{Background, FrameCost, Overlay};
 use bindpose::session::{
     CameraCommand, Command, File, FileCommand, JointCommand, LookCommand, QualityCommand, Session, SubmeshCommand,
 };
@@ -205,6 +205,41 @@ on_both_backends! {
         let mut saved = || easel.painter.draw_snapshot(&mut session, size, None, |_| ()).expect("small").pixels_blocking().expect("small");
         let (saved, again) = (saved(), saved());
         assert!(saved == again, "the same bytes every time");
+    }
+
+    /// While it moves such a window has fewer pixels. Where nothing is but bones, no sample differs from another.
+    fn lines_over_a_mean_have_all_pixels_of_a_large_window(gpu) {
+        let mut session = opened();
+        session.apply(QualityCommand::SetSamples(Some(2)));
+        session.apply(LookCommand::SetBackground(Background::Color([40, 60, 80])));
+        session.apply(SubmeshCommand::SetVisible { submesh: 0, visible: false });
+        session.apply(LookCommand::SetOverlay(Overlay::Grid, false));
+        session.apply(LookCommand::SetBonesVisible(true));
+        let size = [2600, 2200];
+        let mut easel = Easel::new(gpu);
+        let (moving, _) = easel.show(&mut session, size);
+        while easel.painter.is_sampling(&session) {
+            easel.show(&mut session, size);
+        }
+        let mut differs_from_own = |session: &mut Session| {
+            let (rested, _) = easel.show(session, size);
+            assert_eq!(easel.painter.samples(), 2);
+            let open = &easel.gpu.open;
+            let mut renderer = Renderer::with_samples(&open.device, &open.queue, SampleCount::One);
+            let mut target = Target::with_samples(&open.device, size[0], size[1], SampleCount::One).with_layer();
+            renderer.set_model(&session.open_model().expect("it is open").model).expect("small");
+            let mut frame = session.frame();
+            frame.options.points_high = Some(size[1] as f32);
+            renderer.render(&frame, &mut target);
+            let mut own = Compositor::new(&open.device, SURFACE_FORMAT);
+            own.prepare(&open.device, &open.queue, &target, None);
+            let own = on_surface(&easel.gpu, &own, size);
+            assert!(own.share_that_differs(&moving, 2) > 1e-4);
+            rested.share_that_differs(&own, 2)
+        };
+        assert!(differs_from_own(&mut session) == 0.0);
+        session.apply(JointCommand::Hover(Some(JointIndex(0))));
+        assert!(differs_from_own(&mut session) == 0.0);
     }
 
     /// Of a clock that goes on by a millisecond whenever it is looked at, no slice takes 8.

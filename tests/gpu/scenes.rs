@@ -106,6 +106,7 @@ impl Scene {
             world_from_model: self.world_from_model,
             world_bounds: self.world_bounds,
             ground: Ground::under(&self.world_bounds, &mut []),
+            mesh: Some(&self.model.mesh),
             palette: &self.palette,
             crowd: Crowd {
                 instances: &self.crowd,

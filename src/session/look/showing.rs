@@ -47,6 +47,7 @@ impl Session {
             world_from_model: self.world_from_model(),
             world_bounds: self.world_bounds(),
             ground: self.ground(),
+            mesh: self.content.open.as_deref().map(|open| &open.model.mesh),
             palette: &self.actor.pose.palette,
             crowd: if self.instances.are_many() {
                 self.caches.crowd.crowd()

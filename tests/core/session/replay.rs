@@ -100,6 +100,7 @@ fn told_to_renderer(session: &mut Session) -> [String; 2] {
         world_from_model,
         world_bounds,
         ground,
+        mesh: _,
         palette,
         crowd,
         hidden_submeshes,

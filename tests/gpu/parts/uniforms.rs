@@ -34,6 +34,7 @@ fn lengths_of_the_light_are_the_same_in_a_crowd() {
             max: Vec3::new(1.0 + 3.0 * count as f32, 4.0, 0.5),
         },
         ground: Ground { height: 0.0, cell: 1.0 },
+        mesh: None,
         palette: &palette,
         crowd: Crowd {
             instances: &instances[..count],
