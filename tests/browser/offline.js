@@ -2,7 +2,10 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { BACKEND, FIXTURES, SAMPLE, dropAndWait, keep, state, test as eachTest, until } from "./harness.js";
+import { mkdtemp, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { BACKEND, FIXTURES, SAMPLE, dropAndWait, keep, launchAtHome, state, test as eachTest, until } from "./harness.js";
 import { hostOf } from "./host.js";
 import { pretendGpu } from "./programs.js";
 import { KINDS } from "../../web/files.js";
@@ -286,6 +289,36 @@ test("the manifest is sound, what it names is there, and models and archives ope
   }, addressOf(maskable[0]));
   assert.deepEqual([high, opaque, cut], [side, true, 0], "square, opaque, and nothing drawn outside the circle");
   assert.ok(drawn > 0.02 * side * side, "and something in it");
+});
+
+test("installed, it opens in a window of its own, and with the files that the system knows it for", {
+  only: "webgl2",
+  skip: process.platform !== "linux" && "elsewhere a system takes it for one of the person's programs",
+}, async (_, host) => {
+  const home = await mkdtemp(join(tmpdir(), "bindpose-"));
+  const context = await launchAtHome(home);
+  try {
+    const [page] = context.pages();
+    await page.goto(host.address);
+    const { appId: manifestId } = await (await context.newCDPSession(page)).send("Page.getAppId");
+    const devtools = await context.browser().newBrowserCDPSession();
+    await devtools.send("PWA.install", { manifestId, installUrlOrBundleUrl: host.address });
+    await devtools.send("PWA.changeAppUserSettings", { manifestId, displayMode: "standalone" });
+    const { fileHandlers } = await devtools.send("PWA.getOsAppState", { manifestId });
+    const endings = fileHandlers.flatMap(({ accepts }) => accepts).flatMap(({ fileExtensions }) => fileExtensions);
+    assert.deepEqual(endings.sort(), [...KINDS.model, ...KINDS.archive].map((ending) => `.${ending}`).sort());
+    const opens = context.waitForEvent("page");
+    await page.goto("about:blank");
+    await devtools.send("PWA.launch", { manifestId });
+    const app = await opens;
+    await shows(app);
+    assert.equal(await app.evaluate(() => matchMedia("(display-mode: standalone)").matches), true);
+    await devtools.send("PWA.launchFilesInApp", { manifestId, files: [OTHER] });
+    await shows(app, "d3d12_skinned.m3d");
+  } finally {
+    await context.close();
+    await rm(home, { recursive: true, force: true });
+  }
 });
 
 test("what another program shares goes through the worker, opens as a drop and is kept no longer", {
