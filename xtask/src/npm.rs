@@ -119,7 +119,10 @@ mod tests {
         let visits = limits.lines().filter(|line| line.contains(" web/element/*.js web/"));
         let (page, mut count) = (dist::page(), 0);
         for visit in visits {
-            for address in loaded_by(ELEMENT, &page).into_iter().filter(|address| address.ends_with(".js")) {
+            for address in loaded_by(ELEMENT, &page)
+                .into_iter()
+                .filter(|address| address.ends_with(".js"))
+            {
                 let is_there = address.starts_with("web/element/") || visit.split(' ').any(|part| part == address);
                 assert!(is_there || address.starts_with("pkg/"), "{address} is not in: {visit}");
             }
