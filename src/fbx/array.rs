@@ -1,10 +1,18 @@
 //! Arrays: numbers of one kind, as they are or deflated.
 
+use std::borrow::Cow;
 use std::cell::Cell;
+
+use miniz_oxide::inflate::TINFLStatus;
+use miniz_oxide::inflate::core::inflate_flags::{
+    TINFL_FLAG_PARSE_ZLIB_HEADER, TINFL_FLAG_USING_NON_WRAPPING_OUTPUT_BUF,
+};
+use miniz_oxide::inflate::core::{DecompressorOxide, decompress_with_limit};
 
 use super::place::Place;
 use crate::diagnostic::Fault;
 use crate::diagnostic::collect::counted;
+use crate::slices::Slices;
 
 /// What deflate makes of a byte at most: <https://zlib.net/zlib_tech.html>.
 const MOST_GROWTH: u64 = 1032;
@@ -109,8 +117,8 @@ impl Array<'_> {
         self.len() == 0
     }
 
-    /// Its numbers; `place` is that of its record.
-    pub(super) fn numbers(&self, budget: &Budget, place: Place) -> Result<Vec<f64>, Fault> {
+    /// Its numbers, in slices; `place` is that of its record.
+    pub(super) async fn numbers(&self, budget: &Budget, place: Place, slices: &Slices) -> Result<Vec<f64>, Fault> {
         match &self.0 {
             Content::Numbers(numbers) => {
                 budget.unpack(8 * numbers.len() as u64, place)?;
@@ -121,7 +129,7 @@ impl Array<'_> {
                 Ok(integers.iter().map(|&integer| integer as f64).collect())
             }
             Content::Packed { element, .. } => {
-                let bytes = self.unpacked(budget, place)?;
+                let bytes = self.unpacked(budget, place, slices).await?;
                 Ok(match element {
                     Element::U8 => bytes.iter().map(|&byte| f64::from(byte)).collect(),
                     Element::I32 => each(&bytes, |bytes| f64::from(i32::from_le_bytes(bytes))),
@@ -134,7 +142,7 @@ impl Array<'_> {
     }
 
     /// Its numbers as whole ones; what follows the point is cut off.
-    pub(super) fn integers(&self, budget: &Budget, place: Place) -> Result<Vec<i64>, Fault> {
+    pub(super) async fn integers(&self, budget: &Budget, place: Place, slices: &Slices) -> Result<Vec<i64>, Fault> {
         match &self.0 {
             Content::Integers(integers) => {
                 budget.unpack(8 * integers.len() as u64, place)?;
@@ -144,7 +152,7 @@ impl Array<'_> {
                 element: element @ (Element::U8 | Element::I32 | Element::I64),
                 ..
             } => {
-                let bytes = self.unpacked(budget, place)?;
+                let bytes = self.unpacked(budget, place, slices).await?;
                 Ok(match element {
                     Element::I32 => each(&bytes, |bytes| i64::from(i32::from_le_bytes(bytes))),
                     Element::I64 => each(&bytes, i64::from_le_bytes),
@@ -152,13 +160,13 @@ impl Array<'_> {
                 })
             }
             _ => {
-                let numbers = self.numbers(budget, place)?;
+                let numbers = self.numbers(budget, place, slices).await?;
                 Ok(numbers.into_iter().map(|number| number as i64).collect())
             }
         }
     }
 
-    fn unpacked(&self, budget: &Budget, place: Place) -> Result<std::borrow::Cow<'_, [u8]>, Fault> {
+    async fn unpacked(&self, budget: &Budget, place: Place, slices: &Slices) -> Result<Cow<'_, [u8]>, Fault> {
         let Content::Packed {
             count,
             element,
@@ -186,12 +194,40 @@ impl Array<'_> {
         if len > MOST_GROWTH * bytes.len() as u64 {
             return Err(wrong(format!("{} deflated ones cannot become so many", bytes.len())));
         }
-        let unpacked = miniz_oxide::inflate::decompress_to_vec_zlib_with_limit(bytes, len as usize);
-        let unpacked = unpacked.map_err(|error| wrong(format!("what is deflated is damaged ({:?})", error.status)))?;
+        let unpacked = inflate(bytes, len as usize, slices).await;
+        let unpacked = unpacked.map_err(|status| wrong(format!("what is deflated is damaged ({status:?})")))?;
+        slices.pause().await;
         if unpacked.len() as u64 != len {
             return Err(wrong(format!("{} come out", unpacked.len())));
         }
         Ok(unpacked.into())
+    }
+}
+
+/// Inflates a stream of zlib to `most` bytes at most, with a pause before each piece. Room grows with what comes out.
+async fn inflate(bytes: &[u8], most: usize, slices: &Slices) -> Result<Vec<u8>, TINFLStatus> {
+    /// Less than five milliseconds of work.
+    const PIECE: usize = 1 << 20;
+    let flags = TINFL_FLAG_PARSE_ZLIB_HEADER | TINFL_FLAG_USING_NON_WRAPPING_OUTPUT_BUF;
+    let mut state = Box::<DecompressorOxide>::default();
+    let mut room = vec![0; bytes.len().saturating_mul(2).min(most)];
+    let (mut read, mut made) = (0, 0);
+    loop {
+        slices.pause().await;
+        let rest = bytes.get(read..).unwrap_or_default();
+        let (status, taken, written) = decompress_with_limit(&mut state, rest, &mut room, made, PIECE, flags);
+        (read, made) = (read + taken, made + written);
+        match status {
+            TINFLStatus::Done => {
+                room.truncate(made);
+                return Ok(room);
+            }
+            TINFLStatus::HasMoreOutput if made < room.len() && written > 0 => {}
+            TINFLStatus::HasMoreOutput if made == room.len() && made < most => {
+                room.resize(made.saturating_mul(2).min(most), 0);
+            }
+            _ => return Err(status),
+        }
     }
 }
 

@@ -4,7 +4,9 @@ use std::borrow::Cow;
 
 use super::array::{Array, Budget};
 use super::place::Place;
+use crate::diagnostic::collect::quoted;
 use crate::diagnostic::{Fault, codes};
+use crate::slices::{Slices, at_once};
 
 /// What no file of people has more of, one in the other.
 const MOST_DEPTH: usize = 64;
@@ -93,8 +95,19 @@ impl<'a> Record<'a> {
     /// # Errors
     /// When the array is damaged, or `budget` has no room for it.
     pub fn numbers(&self, budget: &Budget) -> Result<Vec<f64>, Fault> {
+        at_once(self.numbers_in(budget, &Slices::ENDLESS))
+    }
+
+    /// [`numbers`](Self::numbers) in slices.
+    ///
+    /// # Errors
+    /// As [`numbers`](Self::numbers).
+    pub async fn numbers_in(&self, budget: &Budget, slices: &Slices) -> Result<Vec<f64>, Fault> {
         match self.values.as_slice() {
-            [Value::Array(array)] => array.numbers(budget, self.place).map_err(|fault| self.named(fault)),
+            [Value::Array(array)] => {
+                let numbers = array.numbers(budget, self.place, slices).await;
+                numbers.map_err(|fault| self.named(fault))
+            }
             values => Ok((0..values.len()).map_while(|index| self.number(index)).collect()),
         }
     }
@@ -104,8 +117,19 @@ impl<'a> Record<'a> {
     /// # Errors
     /// As [`numbers`](Self::numbers).
     pub fn integers(&self, budget: &Budget) -> Result<Vec<i64>, Fault> {
+        at_once(self.integers_in(budget, &Slices::ENDLESS))
+    }
+
+    /// [`integers`](Self::integers) in slices.
+    ///
+    /// # Errors
+    /// As [`numbers`](Self::numbers).
+    pub async fn integers_in(&self, budget: &Budget, slices: &Slices) -> Result<Vec<i64>, Fault> {
         match self.values.as_slice() {
-            [Value::Array(array)] => array.integers(budget, self.place).map_err(|fault| self.named(fault)),
+            [Value::Array(array)] => {
+                let integers = array.integers(budget, self.place, slices).await;
+                integers.map_err(|fault| self.named(fault))
+            }
             values => Ok((0..values.len()).map_while(|index| self.integer(index)).collect()),
         }
     }
@@ -127,8 +151,10 @@ impl<'a> Record<'a> {
     }
 
     /// A fault in the record, with its name.
-    fn named(&self, mut fault: Fault) -> Fault {
-        fault.message = format!("{}: {}", self.name, fault.message);
+    pub(super) fn named(&self, mut fault: Fault) -> Fault {
+        // What is no file of people may have one of any length.
+        let name = self.name.get(..40).unwrap_or(&self.name);
+        fault.message = format!("{name}: {}", fault.message);
         fault
     }
 
@@ -187,6 +213,20 @@ impl<'a> Growing<'a> {
             Some(parent) => parent.records.push(record),
             None => self.done.push(record),
         }
+    }
+
+    /// A fault in the innermost one, with the name of the object that it is of: the first text of the record, behind its number.
+    pub(super) fn named(&self, mut fault: Fault) -> Fault {
+        let name = |record: &Record<'a>| {
+            record
+                .name_of(usize::from(record.bytes(0).is_none()))
+                .map(Cow::into_owned)
+        };
+        let name = self.open.iter().rev().find_map(name).filter(|name| !name.is_empty());
+        if let Some(name) = name {
+            fault.message = format!("In {}: {}", quoted(&name), fault.message);
+        }
+        fault
     }
 
     /// Ends the innermost one. Whether there was one.

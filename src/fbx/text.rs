@@ -57,7 +57,7 @@ pub(super) async fn parse<'a>(bytes: &'a [u8], slices: &Slices) -> Result<Docume
                 }
             }
             Some(_) => {
-                let record = reader.record()?;
+                let record = reader.record(slices).await.map_err(|fault| growing.named(fault))?;
                 reader.skip_space();
                 if reader.peek() == Some(b'{') {
                     reader.at += 1;
@@ -138,7 +138,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A name, its colon and its values.
-    fn record(&mut self) -> Result<Record<'a>, Fault> {
+    async fn record(&mut self, slices: &Slices) -> Result<Record<'a>, Fault> {
         let place = self.place();
         let name = String::from_utf8_lossy(self.word());
         let has_blank = self.skip_space();
@@ -153,16 +153,19 @@ impl<'a> Reader<'a> {
             )));
         }
         self.at += 1;
-        Ok(Record {
-            values: self.values()?,
+        let mut record = Record {
+            values: Vec::new(),
             name,
             records: Vec::new(),
             place,
-        })
+        };
+        let values = self.values(slices).await;
+        record.values = values.map_err(|fault| record.named(fault))?;
+        Ok(record)
     }
 
     /// The values behind a colon. They go on in other lines where a comma stands between.
-    fn values(&mut self) -> Result<Vec<Value<'a>>, Fault> {
+    async fn values(&mut self, slices: &Slices) -> Result<Vec<Value<'a>>, Fault> {
         // Some begin in the next line, where no record begins with such a character.
         let is_next_line = self.skip_space() && !matches!(self.peek(), Some(b'0'..=b'9' | b'-' | b'"' | b'*'));
         // `Content: ,` begins with one.
@@ -179,6 +182,7 @@ impl<'a> Reader<'a> {
                     Some(number) => number,
                     // One that has no values.
                     None if self.is_at_record() => break,
+                    None if self.peek() == Some(b'*') => Box::pin(self.array(slices)).await?,
                     None => self.value()?,
                 },
             };
@@ -192,11 +196,32 @@ impl<'a> Reader<'a> {
             }
             self.skip_space();
             has_comma = self.pass_comma();
+            if let Some(row) = row.as_mut().filter(|_| has_comma) {
+                slices.pause().await;
+                has_comma = self.plain_numbers(row);
+            }
         }
         Ok(match row {
             Some(row) => vec![Value::Array(Array(row))],
             None => values,
         })
+    }
+
+    /// Adds numbers to a row as long as they stand behind commas, a block of them at most. Whether a comma was the last.
+    fn plain_numbers(&mut self, row: &mut Content<'a>) -> bool {
+        /// Less than a millisecond of work.
+        const BLOCK: usize = 4096;
+        for _ in 0..BLOCK {
+            let Some(number) = self.plain_number() else {
+                return true;
+            };
+            row.push(&number);
+            self.skip_space();
+            if !self.pass_comma() {
+                return false;
+            }
+        }
+        true
     }
 
     /// Whether a name with its colon stands here.
@@ -251,7 +276,6 @@ impl<'a> Reader<'a> {
         let place = self.place();
         match self.peek() {
             Some(b'"') => self.quoted(),
-            Some(b'*') => self.array(),
             _ => {
                 let word = self.word();
                 if word.is_empty() {
@@ -290,7 +314,7 @@ impl<'a> Reader<'a> {
     }
 
     /// `*3 { a: 1,2,3 }`.
-    fn array(&mut self) -> Result<Value<'a>, Fault> {
+    async fn array(&mut self, slices: &Slices) -> Result<Value<'a>, Fault> {
         let place = self.place();
         if std::mem::replace(&mut self.in_array, true) {
             return Err(place.damaged("An array lies in an array."));
@@ -307,7 +331,7 @@ impl<'a> Reader<'a> {
         }
         let values = if self.peek() == Some(b':') {
             self.at += 1;
-            self.values()?
+            self.values(slices).await?
         } else {
             Vec::new()
         };

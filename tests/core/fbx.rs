@@ -299,7 +299,7 @@ proptest! {
 #[test]
 fn arrays_in_arrays_and_runs_without_end_are_an_answer() {
     let nested = format!("; FBX 7.4.0 project file\nA: {}", "*{a:".repeat(200_000));
-    assert_eq!(fault(nested.as_bytes()).message, "An array lies in an array.");
+    assert_eq!(fault(nested.as_bytes()).message, "A: An array lies in an array.");
     let file = surface::skinned(&[1.0]);
     let curve = format!(
         "\tAnimationStack: 10, \"AnimStack::Take\", \"\" {{\n\t}}\n\tAnimationLayer: 11, \"AnimLayer::Base\", \"\" {{\n\t}}\n\t\

@@ -69,11 +69,12 @@ struct Corner {
 impl Layer {
     /// The layer of this name, such as `LayerElementNormal` with `Normals` and `NormalsIndex`, that the first `Layer` names, else the first; `None` where there
     /// is none, or by edges.
-    fn first(
+    async fn first(
         record: &Record<'_>,
         [layer, values, indices]: [&str; 3],
         width: usize,
         budget: &Budget,
+        slices: &Slices,
     ) -> Result<Option<Self>, Fault> {
         let index = |record: &Record<'_>| record.integer(0).unwrap_or(0);
         let is_of_layer =
@@ -89,15 +90,18 @@ impl Layer {
         let found = record
             .all(layer)
             .min_by_key(|&found| (named != Some(index(found)), index(found)));
-        found.map_or(Ok(None), |found| Self::read(found, values, indices, width, budget))
+        match found {
+            Some(found) => Self::read(found, [values, indices], width, budget, slices).await,
+            None => Ok(None),
+        }
     }
 
-    fn read(
+    async fn read(
         record: &Record<'_>,
-        values: &str,
-        indices: &str,
+        [values, indices]: [&str; 2],
         width: usize,
         budget: &Budget,
+        slices: &Slices,
     ) -> Result<Option<Self>, Fault> {
         let word = |name: &str| record.find(name).and_then(|record| record.text(0)).unwrap_or_default();
         let mapping = match &*word("MappingInformationType") {
@@ -109,13 +113,13 @@ impl Layer {
         };
         let is_indexed = word("ReferenceInformationType").starts_with("Index");
         let indices = match record.find(indices).filter(|_| is_indexed) {
-            Some(indices) => indices.integers(budget)?,
+            Some(indices) => indices.integers_in(budget, slices).await?,
             None => Vec::new(),
         };
         let Some(values) = record.find(values) else {
             return Ok(None);
         };
-        let values = values.numbers(budget)?;
+        let values = values.numbers_in(budget, slices).await?;
         Ok(Some(Self {
             mapping,
             indices,
@@ -171,14 +175,14 @@ fn polygons(corners: &[i64]) -> impl Iterator<Item = std::ops::Range<usize>> {
 /// What corners have: normals, texture coordinates, colours, tangents, binormals.
 type Layers = [Option<Layer>; 5];
 
-fn layers(record: &Record<'_>, budget: &Budget) -> Result<Layers, Fault> {
-    let layer = |names, width| Layer::first(record, names, width, budget);
+async fn layers(record: &Record<'_>, budget: &Budget, slices: &Slices) -> Result<Layers, Fault> {
+    let layer = async |names, width| Layer::first(record, names, width, budget, slices).await;
     Ok([
-        layer(["LayerElementNormal", "Normals", "NormalsIndex"], 3)?,
-        layer(["LayerElementUV", "UV", "UVIndex"], 2)?,
-        layer(["LayerElementColor", "Colors", "ColorIndex"], 4)?,
-        layer(["LayerElementTangent", "Tangents", "TangentsIndex"], 3)?,
-        layer(["LayerElementBinormal", "Binormals", "BinormalsIndex"], 3)?,
+        layer(["LayerElementNormal", "Normals", "NormalsIndex"], 3).await?,
+        layer(["LayerElementUV", "UV", "UVIndex"], 2).await?,
+        layer(["LayerElementColor", "Colors", "ColorIndex"], 4).await?,
+        layer(["LayerElementTangent", "Tangents", "TangentsIndex"], 3).await?,
+        layer(["LayerElementBinormal", "Binormals", "BinormalsIndex"], 3).await?,
     ])
 }
 
@@ -192,13 +196,16 @@ pub(super) async fn read(
     slices: &Slices,
 ) -> Result<Geometry, Fault> {
     let budget = &file.budget;
-    let positions = record.numbers_of("Vertices", budget)?;
+    let positions = match record.find("Vertices") {
+        Some(vertices) => vertices.numbers_in(budget, slices).await?,
+        None => Vec::new(),
+    };
     let (points, _) = positions.as_chunks::<3>();
     let Some(corners_record) = record.find("PolygonVertexIndex") else {
         return Ok(Geometry::default());
     };
-    let corners = corners_record.integers(budget)?;
-    let layers = layers(record, budget)?;
+    let corners = corners_record.integers_in(budget, slices).await?;
+    let layers = layers(record, budget, slices).await?;
     let materials = material_layer(record, budget)?;
     let unit_metres = file.settings.unit_metres;
     let mut geometry = Geometry {

@@ -16,10 +16,13 @@ fn kind(object: &Object<'_, '_>) -> Option<[&'static str; 2]> {
     if smoothness.is_some_and(|smoothness| smoothness > 1) {
         return Some(["subdivision: its cage is shown", "subdivisions: their cages are shown"]);
     }
+    let blend_shapes = ["blend shape, which stands still", "blend shapes, which stand still"];
+    if object.record.name == "Model" && object.record.find("Shape").is_some() {
+        // As 6.1 has them.
+        return Some(blend_shapes);
+    }
     Some(match (&*object.record.name, &*object.kind) {
-        ("Geometry", "Shape") | ("Deformer", "BlendShapeChannel") => {
-            ["blend shape, which stands still", "blend shapes, which stand still"]
-        }
+        ("Geometry", "Shape") | ("Deformer", "BlendShapeChannel") => blend_shapes,
         ("Geometry", "NurbsCurve" | "NurbsSurface" | "Nurb" | "TrimNurbsSurface" | "Line" | "Patch" | "Boundary") => {
             ["NURBS surface, patch or line", "NURBS surfaces, patches or lines"]
         }

@@ -26,7 +26,7 @@ use std::collections::{BTreeSet, HashMap};
 use glam::DAffine3;
 
 use self::clips::Stack;
-use self::file::File;
+use self::file::{File, in_object};
 use self::images::Images;
 use self::materials::Materials;
 use self::meshes::Meshes;
@@ -159,7 +159,8 @@ fn bind_pose(file: &File<'_, '_>, objects: &Objects<'_, '_>) -> Result<HashMap<O
     for (_, pose) in objects.of_class("Pose") {
         for node in pose.record.all("PoseNode") {
             let object = node.find("Node").and_then(|named| objects.by_key(named, 0));
-            let matrix = skins::matrix(node, "Matrix", file)?;
+            let name = object.map_or(&pose.name, |object| &objects.get(object).name);
+            let matrix = skins::matrix(node, "Matrix", file).map_err(in_object(name))?;
             posed.extend(object.zip(matrix));
         }
     }

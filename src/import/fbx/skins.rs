@@ -171,7 +171,7 @@ fn cluster(
     };
     let named = in_object(&cluster.name);
     let points = record.integers_of("Indexes", &file.budget).map_err(&named)?;
-    let weights = record.numbers_of("Weights", &file.budget).map_err(named)?;
+    let weights = record.numbers_of("Weights", &file.budget).map_err(&named)?;
     if points.len() != weights.len() {
         let counts = format!("{} control points, but {} weights", points.len(), weights.len());
         let message = format!("Cluster {} has {counts}.", quoted(&cluster.name));
@@ -182,7 +182,8 @@ fn cluster(
         .iter()
         .zip(&weights)
         .for_each(|(&point, &weight)| add(point, weight));
-    let [bone_from_node, file_from_bone] = ["Transform", "TransformLink"].map(|name| matrix(record, name, file));
+    let [bone_from_node, file_from_bone] =
+        ["Transform", "TransformLink"].map(|name| matrix(record, name, file).map_err(&named));
     let (bone_from_node, file_from_bone) = (bone_from_node?, file_from_bone?);
     if let (Some(link), Some(posed)) = (file_from_bone, file.bind_pose.get(&bone))
         && !link.abs_diff_eq(*posed, 1e-3 * (1.0 + link.translation.length()))

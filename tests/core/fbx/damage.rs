@@ -2,8 +2,10 @@
 
 use bindpose::diagnostic::Fault;
 use bindpose::fbx::{Budget, Record, Value, parse};
-use bindpose::import::import;
+use bindpose::import::{import, import_in};
+use bindpose::model::Model;
 use bindpose::session::{File, FileCommand, Session};
+use bindpose::slices::{Sliced, Slices};
 
 use super::surface::skinned;
 use crate::binary_fbx::{Binary, array, text};
@@ -18,9 +20,14 @@ fn damage_names_the_object_and_its_property() {
             "In \"L\": PolygonVertexIndex: A polygon names control point 8, but there are 6.",
         ),
         (
+            "Vertices: *18",
+            "Vertices: *19",
+            "In \"L\": Vertices: An array says that it has 19 numbers, and has 18.",
+        ),
+        (
             "Indexes: *6",
             "Indexes: *7",
-            "An array says that it has 7 numbers, and has 6.",
+            "Indexes: An array says that it has 7 numbers, and has 6.",
         ),
     ] {
         let refused = import(file.replacen(from, to, 1).as_bytes()).map(drop).expect_err(told);
@@ -36,9 +43,14 @@ fn damage_names_the_object_and_its_property() {
 /// What stands for the bytes of an array that is damaged.
 const NO_ZLIB: &[u8] = b"what nobody deflated";
 
-/// A file of text as a binary one, in which the first array of a record of this name is damaged.
+/// A file of text as a binary one, in which the arrays of records of this name are damaged.
 fn binary(file: &str, damaged: &str) -> Vec<u8> {
-    fn write(to: &mut Binary, record: &Record<'_>, damaged: &str) {
+    with_array(file, damaged, NO_ZLIB)
+}
+
+/// The same with these deflated bytes for them.
+fn with_array(file: &str, name: &str, deflated: &[u8]) -> Vec<u8> {
+    fn write(to: &mut Binary, record: &Record<'_>, array_of: (&str, &[u8])) {
         let value = |value: &Value<'_>| match value {
             Value::Integer(integer) => [&b"L"[..], &integer.to_le_bytes()].concat(),
             Value::Number(number) => [&b"D"[..], &number.to_le_bytes()].concat(),
@@ -46,13 +58,13 @@ fn binary(file: &str, damaged: &str) -> Vec<u8> {
             Value::Array(_) => {
                 let numbers = record.numbers(&Budget::of_file(0)).expect("of text");
                 let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
-                let is_damaged = record.name == damaged;
-                let bytes = if is_damaged { NO_ZLIB } else { &bytes };
-                array(b'd', numbers.len() as u32, is_damaged, bytes)
+                let is_deflated = record.name == array_of.0;
+                let bytes = if is_deflated { array_of.1 } else { &bytes };
+                array(b'd', numbers.len() as u32, is_deflated, bytes)
             }
         };
         let values: Vec<u8> = record.values.iter().flat_map(value).collect();
-        let inner = |to: &mut Binary| record.records.iter().for_each(|inner| write(to, inner, damaged));
+        let inner = |to: &mut Binary| record.records.iter().for_each(|inner| write(to, inner, array_of));
         let inner: Option<&dyn Fn(&mut Binary)> = if record.records.is_empty() { None } else { Some(&inner) };
         to.record(&record.name, record.values.len() as u32, &values, inner);
     }
@@ -61,7 +73,7 @@ fn binary(file: &str, damaged: &str) -> Vec<u8> {
     document
         .records
         .iter()
-        .for_each(|record| write(&mut to, record, damaged));
+        .for_each(|record| write(&mut to, record, (name, deflated)));
     to.0.extend([0; 13]);
     to.0
 }
@@ -93,9 +105,9 @@ fn a_damaged_array_is_told_with_its_record_its_object_and_its_byte() {
         ("PolygonVertexIndex", "In \"L\": ", 6),
         ("Indexes", "In \"Wrist\": ", 6),
         ("Weights", "In \"Wrist\": ", 6),
-        ("Transform", "", 16),
-        ("TransformLink", "", 16),
-        ("Matrix", "", 16),
+        ("Transform", "In \"Wrist\": ", 16),
+        ("TransformLink", "In \"Wrist\": ", 16),
+        ("Matrix", "In \"Bone 0\": ", 16),
         ("KeyTime", "", 2),
         ("KeyValueFloat", "", 2),
         ("KeyAttrFlags", "", 1),
@@ -128,7 +140,7 @@ fn the_card_of_an_error_has_the_byte_or_the_line() {
     for (bytes, place) in [
         (
             damaged_text.into_bytes(),
-            format!("sheet.fbx:{line}:13: error[fbx-damaged]: An array"),
+            format!("sheet.fbx:{line}:13: error[fbx-damaged]: In \"L\": Vertices: An array"),
         ),
         (
             damaged,
@@ -173,4 +185,51 @@ fn a_file_that_was_cut_off_and_one_of_another_kind_are_told_as_that() {
             Some("what .fbx files begin with")
         )
     );
+}
+
+/// Imports in slices that are as short as they can be: the model, and how often it stopped.
+fn in_slices(bytes: Vec<u8>) -> (Model, usize) {
+    let slices = Slices::new(|| true);
+    let mut work = Sliced::new(&slices, async move |slices| {
+        let imported = import_in(&bytes, &|_| None, &slices).await;
+        imported.expect("it is sound").model
+    });
+    let mut stops = 0;
+    loop {
+        match work.advance() {
+            Some(model) => return (model, stops),
+            None => stops += 1,
+        }
+    }
+}
+
+#[test]
+fn long_arrays_are_read_in_slices_too() {
+    const NUMBERS: usize = 1_200_000;
+    let short = skinned(&[1.0]);
+    let long = {
+        let (start, rest) = short.split_once("Vertices: *18").expect("it is there");
+        let (_, rest) = rest.split_once('}').expect("it ends");
+        let numbers: Vec<&str> = (0..NUMBERS).map(|number| ["0", "1.5", "-2"][number % 3]).collect();
+        format!(
+            "{start}Vertices: *{NUMBERS} {{\n\t\t\ta: {}\n\t\t}}{rest}",
+            numbers.join(",")
+        )
+    };
+    let numbers = (0..NUMBERS).flat_map(|number| [0.0, 1.5, -2.0_f64][number % 3].to_le_bytes());
+    let deflated = miniz_oxide::deflate::compress_to_vec_zlib(&numbers.collect::<Vec<_>>(), 1);
+    let packed = with_array(&long, "Vertices", &deflated);
+    for (short, long, pieces) in [
+        (short.clone().into_bytes(), long.into_bytes(), NUMBERS / 4_096),
+        (binary(&short, "none"), packed, (8 * NUMBERS) >> 20),
+    ] {
+        let at_once = import(&long).expect("it is sound").model;
+        let [(_, few), (model, stops)] = [short, long].map(in_slices);
+        assert_eq!(model.mesh.positions, at_once.mesh.positions);
+        assert_eq!(model.mesh.indices, at_once.mesh.indices);
+        assert!(
+            stops >= few + pieces,
+            "{stops} stops, {few} with a short array, {pieces} pieces"
+        );
+    }
 }

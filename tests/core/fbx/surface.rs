@@ -121,6 +121,7 @@ fn what_has_no_place_in_a_model_is_told() {
     for (start, told) in [
         ("maya_dual_quaternion_7500", "skinned by dual quaternions"),
         ("blender_331_static_blend_shape", "blend shape"),
+        ("blender_279_shape_weights_6100_ascii", "blend shape"),
         ("maya_anim_light_7500_ascii", "light"),
         ("maya_camera_light_axes_y_up_7700_ascii", "camera"),
         ("maya_lod_group_7500_ascii", "levels of detail"),
