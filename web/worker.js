@@ -102,9 +102,9 @@ async function keptOrAsked(request) {
   return (await caches.match(request.url, { ignoreVary: true })) ?? fetch(request);
 }
 
-/** A page of the newest build that can be reached. */
+/** A page of the newest build that can be reached. Many hosts let a browser take it for new for minutes: so they are asked each time. */
 async function askedOrKept(request, page) {
-  const asked = fetch(request);
+  const asked = fetch(request, { cache: "no-cache" });
   const late = new Promise((done) => setTimeout(done, PATIENCE_MS));
   const answer = await Promise.race([asked, late]).catch(() => null);
   if (answer && answer.status < 500) return answer;

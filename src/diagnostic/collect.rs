@@ -4,6 +4,7 @@
 //! that stands. A [`Place`] is what a diagnostic is told of both; [`Tally`] gathers one for many parts alike.
 
 use std::collections::{HashMap, HashSet};
+use std::fmt;
 
 use super::{Code, Diagnostic, Moment, Position, Subject};
 
@@ -276,11 +277,37 @@ pub(crate) fn named<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
 
 /// The first few of some words.
 pub(crate) fn few(words: &[String]) -> String {
-    const MOST: usize = 3;
-    let first = &words[..words.len().min(MOST)];
-    match words.len() - first.len() {
-        0 => first.join(", "),
-        more => format!("{} and {more} more", first.join(", ")),
+    let mut few = Few::default();
+    few.extend(words.iter().cloned());
+    few.to_string()
+}
+
+/// The first few of some words, and how many they are: no others are kept.
+#[derive(Default)]
+pub(crate) struct Few {
+    first: Vec<String>,
+    pub(crate) count: usize,
+}
+
+impl Extend<String> for Few {
+    fn extend<T: IntoIterator<Item = String>>(&mut self, words: T) {
+        const MOST: usize = 3;
+        for word in words {
+            self.count += 1;
+            if self.first.len() < MOST {
+                self.first.push(word);
+            }
+        }
+    }
+}
+
+impl fmt::Display for Few {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.first.join(", "))?;
+        match self.count - self.first.len() {
+            0 => Ok(()),
+            more => write!(f, " and {more} more"),
+        }
     }
 }
 

@@ -3,6 +3,8 @@
 //! The topmost joint that goes over the ground has its way there taken out, in the model's space; up and down it goes as before. Joints above it are taken as
 //! they are at the start.
 
+use std::collections::HashSet;
+
 use glam::{DMat3, DVec3, Vec3};
 
 use super::edited::{Change, Edited, with_tracks};
@@ -10,16 +12,22 @@ use super::error::EditError;
 use crate::model::{Clip, JointIndex, Model, Track, UpAxis};
 
 /// A way over the ground that is less than this part of the model's reach, which is all its bones in a row, is none: hips sway so far on the spot.
+/// How far a root stands from the origin is no bone.
 const LEAST_WAY: f64 = 0.02;
 
 /// Keeps the clips of these names in place, each once.
 pub(super) fn keep_in_place(edited: &mut Edited, names: &[String]) -> Result<(), EditError> {
-    for (place, name) in names.iter().enumerate() {
-        let Some(index) = edited.model.clips.iter().position(|clip| clip.name == *name) else {
-            return Err(EditError::no_clip(name, &edited.model.clips));
-        };
-        let is_first = !names[..place].contains(name);
-        if is_first && let Some((clip, change)) = in_place(&edited.model, &edited.model.clips[index]) {
+    let clips = &edited.model.clips;
+    let known: HashSet<&str> = clips.iter().map(|clip| clip.name.as_str()).collect();
+    if let Some(name) = names.iter().find(|name| !known.contains(name.as_str())) {
+        return Err(EditError::no_clip(name, clips));
+    }
+    let mut asked: HashSet<&String> = names.iter().collect();
+    for index in 0..edited.model.clips.len() {
+        let clip = &edited.model.clips[index];
+        if asked.remove(&clip.name)
+            && let Some((clip, change)) = in_place(&edited.model, clip)
+        {
             edited.model.clips[index] = clip;
             edited.changes.push(change);
         }
@@ -65,14 +73,24 @@ fn walker(model: &Model, clip: &Clip) -> Option<Walker> {
             below[parent.index()] += below[joint];
         }
     }
-    let lengths = above.iter().zip(rest);
-    let reach: f64 = lengths
-        .map(|((above, _), rest)| (*above * rest.translation.as_dvec3()).length())
+    let bones = above
+        .iter()
+        .zip(rest)
+        .zip(parents)
+        .filter(|(_, parent)| parent.is_some());
+    let reach: f64 = bones
+        .map(|(((above, _), rest), _)| (*above * rest.translation.as_dvec3()).length())
         .sum();
     let mut is_led = vec![false; parents.len()];
     let mut found: Option<Walker> = None;
     for (joint, (above, above_count)) in above.into_iter().enumerate() {
         is_led[joint] = parents[joint].is_some_and(|parent| is_led[parent.index()]);
+        // An arm has less than a third of a character. Few joints pass this, and only their keys are looked at.
+        let has_most = 3 * below[joint] >= parents.len() - above_count;
+        let most = found.as_ref().map_or(0, |found| below[found.root.index()]);
+        if is_led[joint] || !has_most || above.determinant() == 0.0 {
+            continue;
+        }
         let channel = clip.tracks[joint].translation();
         let start = channel.at(clip.start_secs);
         let over_ground = |&place: &Vec3| {
@@ -80,11 +98,8 @@ fn walker(model: &Model, clip: &Clip) -> Option<Walker> {
             (way - up * way.dot(up)).length()
         };
         let way = channel.values().iter().map(over_ground).fold(0.0, f64::max);
-        // An arm has less than a third of a character.
-        let has_most = 3 * below[joint] >= parents.len() - above_count;
-        let leads = has_most && way > LEAST_WAY * reach && above.determinant() != 0.0;
-        let most = found.as_ref().map_or(0, |found| below[found.root.index()]);
-        if leads && !is_led[joint] && below[joint] > most {
+        is_led[joint] = way > LEAST_WAY * reach;
+        if is_led[joint] && below[joint] > most {
             found = Some(Walker {
                 root: JointIndex(joint as u32),
                 above,
@@ -93,7 +108,6 @@ fn walker(model: &Model, clip: &Clip) -> Option<Walker> {
                 way,
             });
         }
-        is_led[joint] |= leads;
     }
     found
 }

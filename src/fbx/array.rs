@@ -175,7 +175,8 @@ impl Array<'_> {
             let numbers = counted(*count as usize, "number", "numbers");
             at.damaged(format!("An array of {numbers} takes {len} bytes; {found}."))
         };
-        budget.unpack(len, place)?;
+        // What is made of it has eight bytes for each number.
+        budget.unpack(8 * u64::from(*count), place)?;
         if !is_deflated {
             if bytes.len() as u64 != len {
                 return Err(wrong(format!("it has {}", bytes.len())));

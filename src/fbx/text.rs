@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use super::array::{Array, Content};
 use super::document::{Document, Growing, Record, Value, check_version};
 use super::place::Place;
+use crate::diagnostic::collect::quoted;
 use crate::diagnostic::{Fault, Position};
 use crate::slices::Slices;
 
@@ -68,7 +69,7 @@ pub(super) async fn parse<'a>(bytes: &'a [u8], slices: &Slices) -> Result<Docume
         }
     }
     if let Some(open) = growing.open.last() {
-        let message = format!("The file ends in {}, which begins in another line.", open.name);
+        let message = format!("The file ends in {}, which begins in another line.", quoted(&open.name));
         return Err(reader.place().damaged(message));
     }
     let document = Document {
@@ -147,7 +148,8 @@ impl<'a> Reader<'a> {
                 _ => name.into_owned(),
             };
             return Err(place.damaged(format!(
-                "A record was expected, such as \"Objects:\", and \"{found}\" stands here."
+                "A record was expected, such as \"Objects:\", and {} stands here.",
+                quoted(&found)
             )));
         }
         self.at += 1;
@@ -324,7 +326,7 @@ impl<'a> Reader<'a> {
             .ok()
             .and_then(|count| count.parse::<usize>().ok());
         if said != Some(array.len()) {
-            let said = String::from_utf8_lossy(count);
+            let said = said.map_or_else(|| quoted(&String::from_utf8_lossy(count)), |said| said.to_string());
             return Err(place.damaged(format!(
                 "An array says that it has {said} numbers, and has {}.",
                 array.len()

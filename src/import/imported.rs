@@ -1,7 +1,7 @@
 //! What comes out of a file of any format.
 
 use super::source::Source;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, codes};
 use crate::model::Model;
 
 /// Why a file makes no model.
@@ -11,6 +11,21 @@ pub struct Refused {
     pub error: Diagnostic,
     /// What was mended or is worth knowing of the part that was read before.
     pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Refused {
+    /// The same of a file whose name ends so, in lower case: what begins like no format is told as not what its name says.
+    #[must_use]
+    pub fn of_extension(mut self, extension: &str) -> Self {
+        let error = &mut self.error;
+        if error.code == codes::NOT_M3D.name && ["fbx", "glb", "gltf"].contains(&extension) {
+            let found = error.found.as_deref().unwrap_or_default();
+            error.message =
+                format!("This is no .{extension} file, whatever its name says: it begins with \"{found}\".");
+            error.expected = Some(format!("what .{extension} files begin with"));
+        }
+        self
+    }
 }
 
 /// What came out of a file, whatever its format.

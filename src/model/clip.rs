@@ -48,6 +48,11 @@ impl Clip {
         }
     }
 
+    /// Whether it shows one pose from its start to its end.
+    pub fn is_still(&self) -> bool {
+        self.tracks.iter().all(Track::is_still)
+    }
+
     /// Length in seconds, 0 or more.
     pub fn duration_secs(&self) -> f32 {
         self.end_secs - self.start_secs

@@ -161,6 +161,11 @@ impl Track {
         self.translation.has_keys() || self.rotation.has_keys() || self.scale.has_keys()
     }
 
+    pub(super) fn is_still(&self) -> bool {
+        // A spline may swing out between keys that are the same.
+        !self.bends() && self.translation.is_still() && self.rotation.is_still() && self.scale.is_still()
+    }
+
     /// Whether a channel holds its values from key to key.
     pub fn holds(&self) -> bool {
         *self.translation.way() == Way::Held || *self.rotation.way() == Way::Held || *self.scale.way() == Way::Held

@@ -12,7 +12,6 @@ use glam::Vec4;
 use super::blending::{Center, Run, farthest_first};
 use super::buffers::{Queue, UploadError, Uploader, buffer};
 use super::instances::{BoneTexture, InstanceRange};
-use super::light_passes::Common;
 use super::maps::{MapTextures, MaterialImages};
 use super::materials::GpuMaterials;
 use super::pipelines::{
@@ -300,11 +299,18 @@ impl GpuModel {
         }
     }
 
-    /// Draws the edges of all visible triangles of the frame's own instance. The caller sets groups 0 and 3.
-    pub(super) fn draw_edges(&self, common: &Common, pass: &mut wgpu::RenderPass<'_>, posed: Posed<'_>, mesh: &Mesh) {
+    /// Draws the edges of all visible triangles of the frame's own instance. The caller sets groups 0 and 3; group 2 has the edges' vertices
+    /// after it.
+    pub(super) fn draw_edges(
+        &self,
+        gpu: (&wgpu::Device, &Queue),
+        pass: &mut wgpu::RenderPass<'_>,
+        posed: Posed<'_>,
+        mesh: &Mesh,
+    ) {
         let edges = self.edges.get_or_init(|| {
             let ranges = self.ranges.iter().map(|range| range.indices.clone());
-            Edges::new((&common.device, &common.queue), &common.pipelines.layouts, mesh, ranges)
+            Edges::new(gpu, &posed.pipelines.layouts, mesh, ranges)
         });
         let Some(edges) = edges else { return };
         self.bind(pass, posed, ModelDraw::Edges, Faces::All);
@@ -316,7 +322,6 @@ impl GpuModel {
                 self.draw_lines(pass, lines.len() as u32);
             }
         }
-        pass.set_bind_group(2, &common.nothing, &[]);
     }
 
     fn draw_lines(&self, pass: &mut wgpu::RenderPass<'_>, lines: u32) {

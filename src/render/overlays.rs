@@ -80,7 +80,8 @@ impl Overlays {
         }
         if let (true, Some(mesh)) = (has(Overlay::Wireframe), frame.mesh) {
             pass.set_bind_group(3, &self.wire.group, &[]);
-            model.draw_edges(common, pass, posed, mesh);
+            model.draw_edges((&common.device, &common.queue), pass, posed, mesh);
+            pass.set_bind_group(2, &common.nothing, &[]);
         }
         for (overlay, draw, style) in [
             (Overlay::Normals, ModelDraw::Normals, &self.normals),

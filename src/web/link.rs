@@ -18,7 +18,7 @@ impl Viewer {
     }
 
     /// Shows of the open model what a link says; what it does not say is as at a first visit, or, where it is a `change`, as it is. It is no step to undo.
-    /// Returns the names of what is damaged, unknown, or not of this model.
+    /// Returns the fields that are damaged, unknown, or not of this model, cut short.
     #[wasm_bindgen(js_name = followLink)]
     pub fn follow_link(&self, text: &str, change: Option<bool>) -> Vec<String> {
         let (linked, mut left_out) = match change {

@@ -1,6 +1,8 @@
 //! While a clip plays, frames allocate nothing: all that a frame fills is kept for the next. What wgpu and egui allocate is theirs. Reading damaged files
 //! takes memory by their size.
 
+#[path = "../common/binary_fbx.rs"]
+mod binary_fbx;
 mod fbx;
 #[path = "../common/shared.rs"]
 mod shared;

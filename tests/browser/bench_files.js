@@ -130,7 +130,8 @@ export function writeSheet(path, side = 520) {
   for (const top of [make("Objects", [], [geometry, model]), make("Connections", [], [connect(1, 2), connect(2, 0)])]) {
     parts.push(top(parts.reduce((sum, { length }) => sum + length, 0)));
   }
-  writeFileSync(path, Buffer.concat([...parts, Buffer.alloc(13)]));
+  // Some readers stop where the foot of a file would be, so long is it.
+  writeFileSync(path, Buffer.concat([...parts, Buffer.alloc(13), Buffer.alloc(192)]));
   return path;
 }
 

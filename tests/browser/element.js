@@ -2,20 +2,21 @@
 
 import assert from "node:assert/strict";
 import { assertSound } from "./axe.js";
-import { BACKEND, FOLDER, SAMPLE, keep, settled, test } from "./harness.js";
+import { BACKEND, FOLDER, SAMPLE, keep, programs, settled, test, withViewer } from "./harness.js";
 import { SCENE, TRIANGLE } from "./elsewhere.js";
-import { FIGURE, POLICY, SMALL, hears, holding, pageOf, seen } from "./notes.js";
+import { LINKS } from "./link.js";
+import { FIGURE, SMALL, STRICT, hears, holding, pageOf, seen } from "./notes.js";
 import { coloursOnScreen } from "./picture.js";
 import { pretendGpu } from "./programs.js";
 
 test("viewers of a page of notes show what their attributes say, and the page's styles stay outside", {
   draws: true,
   ...pageOf(`<h1>Notes</h1><bindpose-viewer id="a" ${FIGURE} clip="Walk" current-time="0.5" speed="0.5" loop alt="A step"></bindpose-viewer>
-    <table><tr><td><bindpose-viewer id="b" ${FIGURE} ui="none" camera="right" light="book" skeleton bone="9" loading="lazy" style="width: 240px; height: 200px"></bindpose-viewer></td></tr></table>
-    <bindpose-viewer id="c" src="web/nothing.m3d" style="height: 120px"></bindpose-viewer>`, {
+    <table><tr><td><bindpose-viewer id="b" ${FIGURE} ui="none" camera="right" light="book" skeleton bone="9" loading="lazy"></bindpose-viewer></td></tr></table>
+    <bindpose-viewer id="c" src="web/nothing.m3d"></bindpose-viewer>`, {
     first: '<link rel="stylesheet" href="/notes.css">',
-    sheet: "* { all: revert; color: red !important } body { margin: 8px }",
-    policy: POLICY,
+    sheet: "* { all: revert; color: red !important } body { margin: 8px } #b { width: 240px; height: 200px } #c { height: 120px; position: sticky }",
+    policy: STRICT,
   }),
   expectErrors: true,
 }, async (page) => {
@@ -48,6 +49,9 @@ test("viewers of a page of notes show what their attributes say, and the page's 
   assert.deepEqual(cell.slice(0, 4), [240, 200, 240, 200], "in a cell of a table");
   assert.ok(cell[4] < 230, `${cell[4]}: the cell is not higher than what is in it`);
   assert.deepEqual(await page.evaluate(() => violations), [], "the page's policy is enough");
+  assert.equal(await page.evaluate(() => getComputedStyle(document.getElementById("c")).position), "sticky", "it stands as the page says");
+  const global = await page.evaluate(() => [Object.getOwnPropertyNames(globalThis).filter((name) => !namesBefore.has(name)), document.title, location.href]);
+  assert.deepEqual(global, [[], "Notes", page.url()], "it leaves no name behind");
   // Attributes that change, one at a time: the rest stays.
   await page.evaluate(() => {
     const viewer = document.getElementById("a");
@@ -116,6 +120,14 @@ test("a poster and progress are seen until the model is, also those of the page;
   },
 }, async (page) => {
   await page.waitForFunction(() => ["a", "b"].every((id) => document.getElementById(id).state?.().backend));
+  await page.evaluate(() => {
+    globalThis.before = document.getElementById("a").shadowRoot.querySelector(".poster img").src;
+    document.getElementById("a").poster = "web/sample/figure_diff.png";
+  });
+  await page.waitForFunction(() => {
+    const { src, complete } = document.getElementById("a").shadowRoot.querySelector(".poster img");
+    return src !== before && complete;
+  }, null, { polling: 50 });
   const over = (id) =>
     page.evaluate((id) => {
       const viewer = document.getElementById(id);
@@ -232,8 +244,8 @@ test("what is asked early is done when the model is there; what is asked again i
 
 /** Every attribute that says how a model is seen, with a value that is not the first. */
 const ATTRIBUTES = {
-  clip: "Walk", "current-time": "0.5", speed: "0.5", loop: "pingpong", camera: "70 12", light: "book", background: "rebeccapurple",
-  "view-mode": "normal", bone: "5", skeleton: "", alt: "A step", interaction: "none", link: "skin=weight",
+  clip: "Walk", "current-time": "0.5", speed: "0.5", loop: "pingpong", camera: "70 12 4.2", light: "book", background: "rebeccapurple",
+  "view-mode": "normal", bone: "5", skeleton: "", alt: "A step", interaction: "none", link: "model=soldier.m3d&sha=0123456789ab&skin=weight",
 };
 const written = Object.entries(ATTRIBUTES).map(([name, value]) => `${name}="${value}"`).join(" ");
 
@@ -241,6 +253,8 @@ test("each attribute means the same before the element is defined and after it h
   ...pageOf(`<bindpose-viewer id="a" ${FIGURE} ${written}></bindpose-viewer><bindpose-viewer id="b" ${FIGURE}></bindpose-viewer>`),
   viewport: { width: 960, height: 1000 },
 }, async (page) => {
+  const warned = [];
+  page.on("console", (message) => message.text().includes("<bindpose-viewer>") && warned.push(message.text()));
   for (const id of ["a", "b"]) await hears(page, id, "load");
   const told = (id) =>
     page.evaluate((id) => {
@@ -249,7 +263,7 @@ test("each attribute means the same before the element is defined and after it h
       const canvas = viewer.shadowRoot.querySelector("canvas");
       const takesPointers = getComputedStyle(canvas).pointerEvents;
       return {
-        clip, timeSecs, speed, loop, yaw: camera.yawRadians, pitch: camera.pitchRadians, light: look.light, background: look.background,
+        clip, timeSecs, speed, loop, yaw: camera.yawRadians, pitch: camera.pitchRadians, distance: camera.distance, light: look.light, background: look.background,
         viewMode: look.viewMode, bone: skeleton.selected, bones: skeleton.bonesVisible, skin: skeleton.skinView, takesPointers,
         alt: canvas.getAttribute("aria-label"), tabIndex: canvas.tabIndex,
       };
@@ -259,13 +273,15 @@ test("each attribute means the same before the element is defined and after it h
     await page.evaluate(([name, value]) => document.getElementById("b").setAttribute(name, value), [name, value]);
     assert.notDeepEqual(await told("b"), before, name);
   }
-  const { yaw, pitch, ...rest } = await told("a");
+  const { yaw, pitch, distance, ...rest } = await told("a");
   assert.deepEqual(rest, {
     clip: "Walk", timeSecs: 0.5, speed: 0.5, loop: "pingpong", light: "book", background: "#663399", viewMode: "normal", bone: 5, bones: true,
     skin: "weight", takesPointers: "none", alt: "A step", tabIndex: -1,
   });
   assert.deepEqual([yaw, pitch].map((angle) => Math.round((angle * 180) / Math.PI)), [70, 12]);
-  assert.deepEqual(await told("b"), { yaw, pitch, ...rest });
+  assert.ok(Math.abs(distance - 4.2) < 1e-5, `${distance}`);
+  assert.deepEqual(await told("b"), { yaw, pitch, distance, ...rest });
+  assert.deepEqual(warned, [], "which model a link is about says its page");
   // As properties: what has few values has one of them, what needs none is there or not.
   const properties = () =>
     page.evaluate(() => {
@@ -395,6 +411,28 @@ test("the small program takes keys and clicks, and has no edits, export or verdi
   assert.deepEqual(lacks, [[], ["undo", "redo", "exportModel", "contactSheet", "handOver", "act", "readNames"]]);
 });
 
+const follows = pageOf(`<bindpose-viewer id="a" ${FIGURE} ui="none"></bindpose-viewer>`);
+test("the small program brings back what every link says, but panels", {
+  ...follows,
+  prepare: async (page) => {
+    await withViewer(`
+      start(...values) {
+        globalThis.newest = this;
+        return super.start(...values);
+      }`)(page);
+    await follows.prepare(page);
+  },
+}, async (page) => {
+  await hears(page, "a", "load");
+  for (const link of LINKS) {
+    const text = link.replace(/&panel=[^&]*/, "");
+    assert.deepEqual(await page.evaluate((text) => newest.followLink(text, false), text), [], link);
+    await page.waitForFunction((text) => newest.link().text === text, text, { polling: 50, timeout: 20_000 }).catch(async (error) => {
+      throw new Error(`${text}: ${await page.evaluate(() => newest.link().text)}`, { cause: error });
+    });
+  }
+});
+
 for (const ui of ["transport", "none", "full"]) {
   test(`axe finds nothing on a page with a viewer whose interface is ${ui}`, { expectErrors: true, ...pageOf(`<html lang="en"><main><h1>Notes</h1><bindpose-viewer id="a" ${FIGURE} ui="${ui}" alt="A figure"></bindpose-viewer></main>`) }, async (page) => {
     await hears(page, "a", "load");
@@ -413,6 +451,12 @@ for (const ui of ["transport", "full"]) {
     ...loses,
     prepare: async (page) => {
       await pretendGpu()(page);
+      // The checks have one small program at both addresses: here that of the one for WebGPU alone says what it would.
+      await withViewer(`
+        start(...values) {
+          if (globalThis.adapters === "none" && import.meta.url.includes("/webgpu/")) throw Object.assign(new Error("no WebGL2"), { name: "WebGl2Missing" });
+          return super.start(...values);
+        }`)(page);
       await loses.prepare(page);
     },
   }, async (page) => {
@@ -429,11 +473,15 @@ for (const ui of ["transport", "full"]) {
     });
     const { link, backend } = await seen(page, "a");
     assert.equal(backend, "webgpu");
+    const newest = async () => (await programs(page)).at(-1);
+    const [first, then] = ui === "full" ? ["/pkg/webgpu/", "/pkg/"] : ["/pkg/element/webgpu/", "/pkg/element/"];
+    assert.equal(await newest(), first, "the program for WebGPU alone");
     await page.evaluate(() => {
       globalThis.adapters = "none";
       globalThis.device.destroy();
     });
     await page.waitForFunction(() => viewer.state().backend === "webgl2" && viewer.clip === "Run" && viewer.currentTime === 0.25);
+    assert.equal(await newest(), then);
     assert.equal((await seen(page, "a")).link, link);
     assert.ok((await coloursOnScreen(page)) > 200);
     assert.equal(await page.evaluate(() => viewer.shadowRoot.querySelectorAll("canvas").length), 1);

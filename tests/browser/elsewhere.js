@@ -5,6 +5,7 @@ import { createServer } from "node:http";
 import { readFile } from "node:fs/promises";
 import { crc32 } from "node:zlib";
 import { BACKEND, PAGE, SAMPLE, state, test, until } from "./harness.js";
+import { hostOf } from "./host.js";
 
 /** A triangle whose bytes lie in a file beside it, and one that a third server would have. */
 export const SCENE = JSON.stringify({
@@ -87,15 +88,46 @@ async function serving(body) {
   }
 }
 
+/** The rest of an address that names files. */
+const named = (...addresses) => `?backend=${BACKEND}&scale=0.2&${addresses.map((address) => `src=${encodeURIComponent(address)}`).join("&")}`;
+
 /** Opens the page with files of these addresses. */
-const visit = (page, ...addresses) =>
-  page.goto(`${PAGE}?backend=${BACKEND}&scale=0.2&${addresses.map((address) => `src=${encodeURIComponent(address)}`).join("&")}`);
+const visit = (page, ...addresses) => page.goto(PAGE + named(...addresses));
+
+/** On both backends: how the program is there differs, and each takes a second or two. */
+const SHORT = { bare: true, draws: true };
 
 /** Waits until the card says this. */
 const refused = (page, words) =>
   page.waitForFunction((words) => document.getElementById("notice-words").textContent.includes(words), words, { polling: 30 });
 
-test("a model of another server opens, and so does what a .gltf names beside itself", { bare: true }, (page) =>
+test("the page of a host that says nothing of it tells no other server where it is", { bare: true }, (page) =>
+  serving(async (server, asked) => {
+    const host = await hostOf("one");
+    await page.goto(host.address + named(`${server}/models/figure.m3d`));
+    await until(page, (now) => now.model);
+    await host.stop();
+    assert.deepEqual(asked, [{ url: "/models/figure.m3d", cookie: undefined, referer: undefined }]);
+  }));
+
+test("a model comes from servers with https: and from this computer, and the policy lets nobody else be asked", { bare: true, expectErrors: true }, (page) =>
+  serving(async (server) => {
+    const body = await readFile(SAMPLE);
+    await page.route("https://models.example/**", (route) => route.fulfill({ body, headers: { "Access-Control-Allow-Origin": "*" } }));
+    for (const of of [server.replace("127.0.0.1", "localhost"), server, "https://models.example"]) {
+      await visit(page, `${of}/figure.m3d`);
+      assert.equal((await until(page, (now) => now.model || now.error)).model?.name, "figure.m3d", of);
+    }
+    await page.route("http://models.example/**", (route) => route.fulfill({ body, headers: { "Access-Control-Allow-Origin": "*" } }));
+    const blocked = await page.evaluate(async () => {
+      const violation = new Promise((done) => addEventListener("securitypolicyviolation", done, { once: true }));
+      const answer = await fetch("http://models.example/figure.m3d").then(() => "answered", () => "refused");
+      return [answer, (await violation).effectiveDirective];
+    });
+    assert.deepEqual(blocked, ["refused", "connect-src"]);
+  }));
+
+test("a model of another server opens, and so does what a .gltf names beside itself", SHORT, (page) =>
   serving(async (server, asked) => {
     const requests = [];
     page.on("request", (request) => requests.push(request.url()));
@@ -111,7 +143,7 @@ test("a model of another server opens, and so does what a .gltf names beside its
     assert.deepEqual(requests.filter((url) => ![PAGE, `${server}/`].some((known) => url.startsWith(known))), []);
   }));
 
-test("a model and its pictures may come from several addresses, or in an archive", { bare: true }, (page) =>
+test("a model and its pictures may come from several addresses, or in an archive", SHORT, (page) =>
   serving(async (server, asked) => {
     const maps = [`${server}/maps/figure_diff.png`, `${PAGE}web/sample/figure_norm.png`];
     await visit(page, `${server}/models/figure.m3d`, ...maps);
@@ -123,7 +155,7 @@ test("a model and its pictures may come from several addresses, or in an archive
     assert.equal((await until(page, (now) => now.model || now.error)).model?.path, "deep/packed.m3d");
   }));
 
-const FAILING = { bare: true, expectErrors: true };
+const FAILING = { ...SHORT, expectErrors: true };
 
 test("a wrong length ends in words, and one that nobody told in the model", FAILING, (page) =>
   serving(async (server, _, __, breakOff) => {

@@ -5,26 +5,34 @@ import { readFileSync } from "node:fs";
 import { BACKEND, FIXTURES, keep, test } from "./harness.js";
 import { FIGURE } from "./notes.js";
 
-/** The page of the README, with the sample in place of its model. */
-const [, README] = /```html\n(<!doctype html>[^`]*)```/.exec(readFileSync(new URL("../../README.md", import.meta.url), "utf8"));
-const COPIED = README.replace("bindpose/web/", "web/").replace(/src="soldier[^"]*"/, `backend="${BACKEND}" ${FIGURE}`);
+/** The page of a README, with the sample in place of its model. */
+function copied(readme) {
+  const [, page] = /```html\n(<!doctype html>[^`]*)```/.exec(readFileSync(new URL(`../../${readme}`, import.meta.url), "utf8"));
+  const here = page.replace("bindpose/web/", "web/").replace('import "bindpose-viewer";', 'import "/web/element/bindpose-viewer.js";');
+  return here.replace(/src="soldier\.m3d[^"]*"/, `backend="${BACKEND}" ${FIGURE}`);
+}
 
-test("the page of the README: it plays, and a sentence leads to a moment", {
-  query: "notes.html",
-  bare: true,
-  motion: true,
-  prepare: (page) => page.route("**/notes.html", (route) => route.fulfill({ contentType: "text/html", body: COPIED })),
-}, async (page) => {
-  await page.waitForFunction(() => document.getElementById("step").paused === false, null, { polling: 50 });
-  await page.getByRole("button", { name: "left foot" }).click();
-  await page.waitForFunction(() => document.getElementById("step").paused, null, { polling: 50 });
-  const { clip, currentTime, camera } = await page.evaluate(() => {
-    const { clip, currentTime } = document.getElementById("step");
-    return { clip, currentTime, camera: document.getElementById("step").state().camera };
+for (const [words, readme] of [["README", "README.md"], ["package's README", "xtask/npm/README.md"]]) {
+  test(`the page of the ${words}: it plays, and a sentence leads to a moment`, {
+    query: "notes.html",
+    bare: true,
+    motion: true,
+    prepare: async (page) => {
+      await page.route("**/notes.html", (route) => route.fulfill({ contentType: "text/html", body: copied(readme) }));
+      await page.route("**/soldier.jpg", (route) => route.fulfill({ contentType: "image/svg+xml", body: '<svg xmlns="http://www.w3.org/2000/svg"/>' }));
+    },
+  }, async (page) => {
+    await page.waitForFunction(() => document.getElementById("step").paused === false, null, { polling: 50 });
+    await page.getByRole("button", { name: "left foot" }).click();
+    await page.waitForFunction(() => document.getElementById("step").paused, null, { polling: 50 });
+    const { clip, currentTime, camera } = await page.evaluate(() => {
+      const { clip, currentTime } = document.getElementById("step");
+      return { clip, currentTime, camera: document.getElementById("step").state().camera };
+    });
+    assert.deepEqual([clip, currentTime], ["Walk", 0.5]);
+    assert.ok(Math.abs(camera.yawRadians - Math.PI / 2) < 1e-5, `${camera.yawRadians}: from the right`);
   });
-  assert.deepEqual([clip, currentTime], ["Walk", 0.5]);
-  assert.ok(Math.abs(camera.yawRadians - Math.PI / 2) < 1e-5, `${camera.yawRadians}: from the right`);
-});
+}
 
 /** A page of examples/. */
 const example = (name) => ({ query: `examples/${name}.html`, bare: true, draws: true, only: "webgl2", viewport: { width: 700, height: 900 } });

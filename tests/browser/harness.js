@@ -72,12 +72,17 @@ const browsers = new Map();
 const opened = new Map();
 after(() => Promise.all(Array.from(browsers.values(), (browser) => browser.close())));
 
-/** Starts a browser of a scale. */
-export function launch(scale) {
+const options = (...own) => {
   const rights = process.getuid?.() === 0 ? ["--no-sandbox"] : [];
-  const own = [`--force-device-scale-factor=${scale}`, "--renderer-process-limit=1"];
-  return chromium.launch({ executablePath: PROGRAM, args: [...GPU_FLAGS[BACKEND], ...QUIET_FLAGS, ...rights, ...own] });
-}
+  return { executablePath: PROGRAM, args: [...GPU_FLAGS[BACKEND], ...QUIET_FLAGS, ...rights, ...own] };
+};
+
+/** Starts a browser of a scale. */
+export const launch = (scale) => chromium.launch(options(`--force-device-scale-factor=${scale}`, "--renderer-process-limit=1"));
+
+/** Starts one that keeps all in a folder that a person would have in theirs, also what it installs. Gives its context. */
+export const launchAtHome = (home) =>
+  chromium.launchPersistentContext(`${home}/profile`, { ...options(), viewport: null, env: { ...process.env, HOME: home, XDG_DATA_HOME: `${home}/data` } });
 
 /** The browser of a scale. */
 async function browserAt(scale) {

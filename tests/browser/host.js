@@ -12,15 +12,16 @@ const TYPES = {
   webmanifest: "application/manifest+json",
 };
 
-/** Serves a build below a folder; `build` may be changed, `lacks` is how names begin that it does not have, `asked` has those that were asked for. It can stop and come back to the same address. */
+/** Serves a build below a folder; `build` may be changed, `lacks` is how names begin that it does not have, `keeps` has it say that all may be kept for an hour, `asked` has the names that were asked for. It can stop and come back to the same address. */
 export async function hostOf(build) {
   const folder = "/some/where/";
-  const host = { build, asked: [], lacks: null, address: "", stop, start };
+  const host = { build, asked: [], lacks: null, keeps: false, address: "", stop, start };
   let port = 0;
   const server = createServer(async ({ url }, response) => {
     const { pathname } = new URL(url, "http://host");
     const name = pathname.slice(folder.length) || "index.html";
     host.asked.push(name);
+    if (host.keeps) response.setHeader("Cache-Control", "max-age=3600");
     try {
       if (!pathname.startsWith(folder) || (host.lacks && name.startsWith(host.lacks))) throw new Error("not of the site");
       const bytes = await readFile(`${BUILDS}/${host.build}/${name}`);

@@ -12,6 +12,9 @@ export const SMALL = FOLDER.replace("pkg/", "pkg/element/");
 const README = readFileSync(new URL("../../xtask/npm/README.md", import.meta.url), "utf8");
 export const [, POLICY] = /A page with a content policy needs `([^`]+)`/.exec(README);
 
+/** The same where nothing else is allowed but the page's own styles. */
+export const STRICT = `default-src 'none'; style-src 'self'; ${POLICY}`;
+
 /**
  * A page with this body. Events of its viewers are in `heard`, as `[id, type]`, and the last details of each type in `details`; `violations` has what the
  * page's policy forbade.
@@ -25,7 +28,7 @@ export const pageOf = (body, { first = "", policy = "", sheet = "", backend = BA
     await page.route("**/notes.html", (route) => route.fulfill({ contentType: "text/html", body: html }));
     await page.route("**/notes.css", (route) => route.fulfill({ contentType: "text/css", body: sheet }));
     await page.addInitScript(() => {
-      Object.assign(globalThis, { heard: [], details: {}, violations: [] });
+      Object.assign(globalThis, { heard: [], details: {}, violations: [], namesBefore: null });
       const types = ["load", "progress", "error", "play", "pause", "ended", "timeupdate", "camera-change"];
       const hear = ({ target, type, detail }) => {
         if (target.localName !== "bindpose-viewer") return;
@@ -35,6 +38,7 @@ export const pageOf = (body, { first = "", policy = "", sheet = "", backend = BA
       for (const type of types) document.addEventListener(type, hear, true);
       const note = ({ violatedDirective, blockedURI }) => violations.push(`${violatedDirective} ${blockedURI}`);
       document.addEventListener("securitypolicyviolation", note);
+      globalThis.namesBefore = new Set(Object.getOwnPropertyNames(globalThis));
     });
   },
 });

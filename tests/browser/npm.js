@@ -9,6 +9,7 @@ import { extname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { after, before, test } from "node:test";
 import { chromium } from "playwright-core";
+import ts from "typescript";
 import { GPU_FLAGS, QUIET_FLAGS } from "./flags.js";
 import { launch } from "./other_browsers.js";
 
@@ -20,6 +21,10 @@ const PATIENCE_MS = 120_000;
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm", ".m3d": "text/plain", ".png": "image/png" };
 const SAMPLE = fileURLToPath(new URL("../../web/sample/", import.meta.url));
 const VIEWERS = ["one", "two", "three"].map((id) => `<bindpose-viewer id="${id}" src="/figure.m3d /figure_diff.png" clip="Walk" current-time="0.5"></bindpose-viewer>`).join("\n");
+
+/** What the README has vite's server for development told. */
+const README = readFileSync(new URL("../../xtask/npm/README.md", import.meta.url), "utf8");
+const CONFIG = JSON.parse(/export default (\{.*\});/.exec(README)[1].replace(/(\w+):/g, '"$1":'));
 
 let folder;
 let server;
@@ -77,7 +82,7 @@ const expected = (backend) => ({ viewers: Array(3).fill(["Walk", 0.5, null, back
 
 test("what is packed has the element, its types and the licences", () => {
   const has = readdirSync(join(folder, "node_modules/bindpose-viewer"));
-  assert.deepEqual(has.sort(), ["README.md", "bindpose-viewer.d.ts", "licenses.txt", "package.json", "pkg", "web"]);
+  assert.deepEqual(has.sort(), ["README.md", "bindpose-viewer.d.ts", "licenses.txt", "package.json", "pkg", "viewer.d.ts", "web"]);
   const { version, license } = JSON.parse(readFileSync(join(folder, "node_modules/bindpose-viewer/package.json"), "utf8"));
   assert.match(version, /^\d+\.\d+\.\d+$/);
   assert.notEqual(version, "0.0.0");
@@ -90,20 +95,40 @@ test("what is packed has the element, its types and the licences", () => {
   assert.ok(packed.size >= 2);
 });
 
+test("a program finds the types of what is installed by its name", () => {
+  const path = join(folder, "told.ts");
+  writeFileSync(path, `import "bindpose-viewer";
+    import type { BindposeViewerElement } from "bindpose-viewer";
+    import init, { Viewer } from "bindpose-viewer/viewer";
+    const told: string | null = (null as unknown as BindposeViewerElement).clip;
+    const wrong: string = (null as unknown as BindposeViewerElement).currentTime;
+    export const all = [init, Viewer, told, wrong];`);
+  const program = ts.createProgram([path], { strict: true, noEmit: true, types: [], target: ts.ScriptTarget.ES2022, module: ts.ModuleKind.ESNext, moduleResolution: ts.ModuleResolutionKind.Bundler });
+  const told = ts.getPreEmitDiagnostics(program).map(({ messageText }) => ts.flattenDiagnosticMessageText(messageText, "\n"));
+  assert.deepEqual(told, ["Type 'number' is not assignable to type 'string'."], "the mistake, and nothing else");
+});
+
 for (const backend of ["webgpu", "webgl2"]) {
   test(`three viewers in Chromium on ${backend}, built by vite and without a bundler`, { timeout: 4 * PATIENCE_MS }, async () => {
     const rights = process.getuid?.() === 0 ? ["--no-sandbox"] : [];
     const browser = await chromium.launch({ executablePath: CHROMIUM, args: [...GPU_FLAGS[backend], ...QUIET_FLAGS, ...rights, "--force-device-scale-factor=0.5"] });
     try {
-      for (const at of ["/built/", "/plain.html"]) {
+      // The server for development with what the README gives it, and the pages that are built and not.
+      const { createServer: developing } = await import(join(folder, "node_modules/vite/dist/node/index.js"));
+      const asked = { name: "backend", transformIndexHtml: (html) => html.replaceAll("<bindpose-viewer ", `<bindpose-viewer backend="${backend}" `) };
+      const developed = await developing({ root: folder, logLevel: "silent", server: { host: "127.0.0.1", port: 0 }, plugins: [asked], ...CONFIG });
+      await developed.listen();
+      const [local] = developed.resolvedUrls.local;
+      for (const at of [`${address}/built/`, `${address}/plain.html`, local]) {
         const page = await browser.newPage({ viewport: { width: 600, height: 500 } });
         const problems = [];
         page.on("pageerror", ({ message }) => problems.push(message));
-        await page.goto(`${address}${at}?backend=${backend}`);
+        await page.goto(`${at}?backend=${backend}`);
         assert.deepEqual(await page.evaluate(loaded), expected(backend), at);
         assert.deepEqual(problems, [], at);
         await page.close();
       }
+      await developed.close();
     } finally {
       await browser.close();
     }

@@ -2,7 +2,10 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { BACKEND, FIXTURES, SAMPLE, dropAndWait, keep, state, test as eachTest, until } from "./harness.js";
+import { mkdtemp, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { BACKEND, FIXTURES, SAMPLE, dropAndWait, keep, launchAtHome, state, test as eachTest, until } from "./harness.js";
 import { hostOf } from "./host.js";
 import { pretendGpu } from "./programs.js";
 import { KINDS } from "../../web/files.js";
@@ -165,6 +168,17 @@ test("a newer build that came during a visit is taken by the next one, whole", {
   assert.ok(names.length > 10 && names.every((name) => whole.includes(name)), `of build two alone: ${names}`);
 });
 
+test("the page is asked of the network first, also where the host lets it be kept", {}, async (page, host) => {
+  host.keeps = true;
+  await visit(page, host);
+  const one = await buildOf(page);
+  await keptWhole(page, one);
+  host.build = "two";
+  await page.goto("about:blank");
+  await visit(page, host);
+  assert.notEqual(await buildOf(page), one);
+});
+
 /** Looks at the card in both themes, and on a narrow window. */
 async function keepCard(page) {
   if (!process.env.KEEP) return;
@@ -248,6 +262,7 @@ test("the manifest is sound, what it names is there, and models and archives ope
   const endings = [...KINDS.model, ...KINDS.archive].map((ending) => `.${ending}`).sort();
   assert.deepEqual([opened.sort(), shared.sort()], [endings, endings]);
   const pictures = [icons, screenshots, ...shortcuts.map((shortcut) => shortcut.icons)].flat();
+  const addressOf = ({ src }) => new URL(src, url).href;
   const sizes = await page.evaluate(
     (addresses) =>
       Promise.all(addresses.map(async (src) => {
@@ -255,9 +270,55 @@ test("the manifest is sound, what it names is there, and models and archives ope
         await image.decode();
         return `${image.naturalWidth}x${image.naturalHeight}`;
       })),
-    pictures.map(({ src }) => new URL(src, url).href),
+    pictures.map(addressOf),
   );
   for (const [index, { sizes: told }] of pictures.entries()) assert.ok([sizes[index], "any"].includes(told), `${told} is ${sizes[index]}`);
+  // Of a maskable icon a system may cut away all but a circle of four fifths its width.
+  const maskable = icons.filter(({ purpose }) => purpose?.includes("maskable"));
+  assert.equal(maskable.length, 1);
+  const [side, high, opaque, drawn, cut] = await page.evaluate(async (src) => {
+    const image = Object.assign(new Image(), { src });
+    await image.decode();
+    const { width, height } = image;
+    const copy = new OffscreenCanvas(width, height).getContext("2d");
+    copy.drawImage(image, 0, 0);
+    const pixels = new Uint32Array(copy.getImageData(0, 0, width, height).data.buffer);
+    const differing = [...pixels.keys()].filter((at) => pixels[at] !== pixels[0]);
+    const isCut = (at) => Math.hypot((at % width) + 0.5 - width / 2, Math.floor(at / width) + 0.5 - height / 2) > 0.4 * width;
+    return [width, height, pixels.every((pixel) => pixel >>> 24 === 255), differing.length, differing.filter(isCut).length];
+  }, addressOf(maskable[0]));
+  assert.deepEqual([high, opaque, cut], [side, true, 0], "square, opaque, and nothing drawn outside the circle");
+  assert.ok(drawn > 0.02 * side * side, "and something in it");
+});
+
+test("installed, it opens in a window of its own, and with the files that the system knows it for", {
+  only: "webgl2",
+  skip: process.platform !== "linux" && "elsewhere a system takes it for one of the person's programs",
+}, async (_, host) => {
+  const home = await mkdtemp(join(tmpdir(), "bindpose-"));
+  const context = await launchAtHome(home);
+  try {
+    const [page] = context.pages();
+    await page.goto(host.address);
+    const { appId: manifestId } = await (await context.newCDPSession(page)).send("Page.getAppId");
+    const devtools = await context.browser().newBrowserCDPSession();
+    await devtools.send("PWA.install", { manifestId, installUrlOrBundleUrl: host.address });
+    await devtools.send("PWA.changeAppUserSettings", { manifestId, displayMode: "standalone" });
+    const { fileHandlers } = await devtools.send("PWA.getOsAppState", { manifestId });
+    const endings = fileHandlers.flatMap(({ accepts }) => accepts).flatMap(({ fileExtensions }) => fileExtensions);
+    assert.deepEqual(endings.sort(), [...KINDS.model, ...KINDS.archive].map((ending) => `.${ending}`).sort());
+    const opens = context.waitForEvent("page");
+    await page.goto("about:blank");
+    await devtools.send("PWA.launch", { manifestId });
+    const app = await opens;
+    await shows(app);
+    assert.equal(await app.evaluate(() => matchMedia("(display-mode: standalone)").matches), true);
+    await devtools.send("PWA.launchFilesInApp", { manifestId, files: [OTHER] });
+    await shows(app, "d3d12_skinned.m3d");
+  } finally {
+    await context.close();
+    await rm(home, { recursive: true, force: true });
+  }
 });
 
 test("what another program shares goes through the worker, opens as a drop and is kept no longer", {

@@ -13,6 +13,7 @@ use bindpose::import::import;
 
 use proptest::prelude::*;
 
+use crate::binary_fbx::{Binary, array, text};
 use crate::properties::cases;
 use crate::shared::shared;
 
@@ -36,46 +37,6 @@ Objects:  {
 \t}
 }
 ";
-
-/// Bytes of a binary file of version 7.4.
-#[derive(Default)]
-struct Binary(Vec<u8>);
-
-impl Binary {
-    fn new(version: u32) -> Self {
-        Self([b"Kaydara FBX Binary  \0\x1a\0".as_slice(), &version.to_le_bytes()].concat())
-    }
-
-    /// A record whose values are these bytes, and what `inner` writes into it.
-    fn record(&mut self, name: &str, count: u32, values: &[u8], inner: Option<&dyn Fn(&mut Self)>) {
-        let start = self.0.len();
-        self.0.extend([0; 4]);
-        self.0.extend(count.to_le_bytes());
-        self.0.extend((values.len() as u32).to_le_bytes());
-        self.0.push(name.len() as u8);
-        self.0.extend(name.bytes());
-        self.0.extend(values);
-        if let Some(inner) = inner {
-            inner(self);
-            self.0.extend([0; 13]);
-        }
-        let end = (self.0.len() as u32).to_le_bytes();
-        self.0[start..start + 4].copy_from_slice(&end);
-    }
-}
-
-fn text(value: &str) -> Vec<u8> {
-    [&b"S"[..], &(value.len() as u32).to_le_bytes(), value.as_bytes()].concat()
-}
-
-fn array(kind: u8, count: u32, is_deflated: bool, bytes: &[u8]) -> Vec<u8> {
-    let words = [count, u32::from(is_deflated), bytes.len() as u32];
-    let words = words.iter().flat_map(|word| word.to_le_bytes());
-    std::iter::once(kind)
-        .chain(words)
-        .chain(bytes.iter().copied())
-        .collect()
-}
 
 /// A mesh with an array.
 fn mesh(array: &[u8]) -> Vec<u8> {
@@ -223,7 +184,7 @@ fn what_is_wrong_is_told_with_its_place() {
     };
     for (from, to, at, told) in [
         ("*6", "*7", (9, 13), "says that it has 7 numbers, and has 6"),
-        ("\t}\n}\n", "\t}\n", (18, 1), "The file ends in Objects"),
+        ("\t}\n}\n", "\t}\n", (18, 1), "The file ends in \"Objects\""),
         ("Objects:  {", "}", (7, 1), "A } ends what did not begin"),
         ("Shading: T", "Shading T", (13, 3), "\"Shading\" stands here"),
         ("\"YWJj\"", "\"YWJj", (16, 14), "does not end"),

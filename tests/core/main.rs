@@ -2,6 +2,8 @@
 
 mod actions;
 mod anim;
+#[path = "../common/binary_fbx.rs"]
+mod binary_fbx;
 mod book;
 mod chains;
 mod check;

@@ -89,7 +89,11 @@ fn clips_are_chosen_and_a_range_is_of_one() {
 fn switches_show_their_numbers_and_what_they_do() {
     let mut window = open();
     let demo = "For the book's demo";
-    assert!(window.node(demo).is_disabled(), "it is no format of the books");
+    assert_eq!(
+        window.node(demo).toggled(),
+        Some(Toggled::False),
+        "GLB is no format of the books"
+    );
     let numbers = ["Seconds of the easing", "Tolerance in % of the size"];
     assert!(numbers.iter().all(|number| window.node(number).is_disabled()));
     window.click("Close the loop");
@@ -130,6 +134,9 @@ fn a_file_of_the_books_is_for_their_demo_unless_one_does_not_want_it_and_that_st
     let demo = "For the book's demo";
     let is_on = |window: &Window| window.node(demo).toggled() == Some(Toggled::True);
     assert!(!is_on(&window), "a demo reads no GLB");
+    window.click(demo);
+    let options = window.session().export().expect("it is planned").options;
+    assert_eq!((options.format, is_on(&window)), (ExportFormat::D3d12, true));
     for (format, on) in [(".m3d D3D12", true), (".m3d D3D11", true)] {
         window.click(&format!("Format: {format}"));
         assert_eq!(is_on(&window), on, "{format}");
@@ -204,7 +211,7 @@ fn the_clip_of_the_demo_is_told_before_what_was_mended_on_reading() {
     let mut window = window(WIDE, findings::files());
     window.press(Modifiers::NONE, Key::E);
     window.click("Format: .m3d D3D12");
-    assert!(window.shows("The demo plays one clip, Take1: the first one that is kept. Maps come along as DDS."));
+    assert!(window.shows("The demo plays \u{201c}Bend\u{201d}, as Take1. Maps come along as DDS."));
     window.click_anywhere("What changes: show all");
     let top = |words: &str| {
         let named = window.named(|name| name.contains(words));

@@ -129,6 +129,7 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
     if (before === value) return;
     if (name === "poster") this.#showPoster(!this.#over.poster.hidden);
     if (["alt", "interaction"].includes(name)) this.#nameCanvas();
+    if (name === "loading" && this.loading === "auto") this.#begin();
     if (name === "ui") this.#restart(before);
     if (name === "src") this.#kept = null;
     if (name === "src" && this.#life) {
@@ -248,7 +249,9 @@ export class BindposeViewerElement extends (globalThis.HTMLElement ?? class {}) 
 
   /** The fields of the attribute `link`. */
   get #linked() {
-    return fieldsOf((this.getAttribute("link") ?? "").replace(/^.*#/, ""));
+    const fields = fieldsOf((this.getAttribute("link") ?? "").replace(/^.*#/, ""));
+    for (const ofPage of ["model", "sha"]) fields.delete(ofPage); // Which file it is about says `src`.
+    return fields;
   }
 
   /** The colour that the page's styles have behind the model, as links have it; `null` for none. */

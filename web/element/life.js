@@ -221,7 +221,8 @@ export class Life {
       this.teller.error(new Error(state.error.message));
       return state;
     }
-    if (clips.length) await this.addClips(clips);
+    const { error } = clips.length ? await this.addClips(clips) : state;
+    if (error) this.teller.error(new Error(error.message));
     if (moment !== null) this.follow(moment);
     this.isShown = true;
     this.teller.load();

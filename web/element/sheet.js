@@ -1,7 +1,7 @@
 // How <bindpose-viewer> looks. What a page may change are its custom properties and its parts.
 
 export const SHEET = `
-:host { display: block !important; position: relative !important; overflow: hidden !important; width: 640px; max-width: 100%; aspect-ratio: 4 / 3; }
+:host { display: block !important; overflow: hidden !important; width: 640px; max-width: 100%; aspect-ratio: 4 / 3; }
 :host([hidden]), [hidden] { display: none !important; }
 /* A page's theme is known by the colour of .view, which bindpose-viewer.js reads. */
 .frame { all: initial; color-scheme: inherit; position: relative; width: 100%; height: 100%; aspect-ratio: 4 / 3; display: flex; flex-direction: column; container-type: size; overflow: hidden;

@@ -138,7 +138,7 @@ export class Viewer {
 
   /** What stands behind `#` in a link to what is seen; so many bytes of the address are `taken`. */
   link(taken: number): { text: string; leftOut: string[] };
-  /** Shows what a link says. Returns the names of the fields that are damaged, unknown or not of this model. */
+  /** Shows what a link says. Returns the fields that are damaged, unknown or not of this model, cut short. */
   followLink(text: string, isChange?: boolean): string[];
 
   /** The bytes of a PNG. */

@@ -44,9 +44,7 @@ fn built() -> Result<Site, Failure> {
 
 /// Builds `dist/`, and fails where a file is larger than it may be: then `dist/` is there all the same, to be looked at.
 pub(crate) fn run() -> Result<(), Failure> {
-    let mut sources = sources(&built()?)?;
-    sources.insert(licenses::NAME.to_owned(), licenses::of_the_page()?.into_bytes());
-    let files = made(sources)?;
+    let files = made(sources(&built()?)?, licenses::of_the_page()?)?;
     let dist = crate::root().join("dist");
     if dist.exists() {
         fs::remove_dir_all(&dist).doing("removing dist/")?;
@@ -90,15 +88,12 @@ pub(crate) fn write_for_tests(site: &Site) -> Result<(), Failure> {
     }
     for build in ["one", "two"] {
         let mut sources = sources(site)?;
-        sources.insert(
-            licenses::NAME.to_owned(),
-            b"As in dist/, though not all of them.\n".to_vec(),
-        );
         for address in ["web/fault.js", "web/sample/figure.m3d"] {
             let file = sources.get_mut(address).filter(|_| build == "two");
             file.into_iter().for_each(|bytes| bytes.push(b'\n'));
         }
-        for (name, bytes) in made(sources)? {
+        let licenses = "As in dist/, though not all of them.\n".to_owned();
+        for (name, bytes) in made(sources, licenses)? {
             write_file(&folder.join(build), &name, &bytes)?;
         }
     }
@@ -117,8 +112,9 @@ pub(crate) fn sources(site: &Site) -> Result<BTreeMap<String, Vec<u8>>, Failure>
     Ok(sources)
 }
 
-/// The same as a host gets them: under hashed names, with the worker that keeps them.
-fn made(mut sources: BTreeMap<String, Vec<u8>>) -> Result<BTreeMap<String, Vec<u8>>, Failure> {
+/// The same as a host gets them: with the licences of what is in them, under hashed names, with the worker that keeps them.
+fn made(mut sources: BTreeMap<String, Vec<u8>>, licenses: String) -> Result<BTreeMap<String, Vec<u8>>, Failure> {
+    sources.insert(licenses::NAME.to_owned(), licenses.into_bytes());
     let template = sources.remove(worker::TEMPLATE).unwrap_or_default();
     let mut files = hashed(&sources)?;
     worker::join(&mut files, &String::from_utf8_lossy(&template))?;
@@ -283,8 +279,6 @@ pub(crate) fn page() -> BTreeMap<String, Vec<u8>> {
         ("pkg/element/webgpu/bindpose_bg.wasm", b"6".to_vec()),
     ];
     let mut files = BTreeMap::from(built.map(|(address, bytes)| (address.to_owned(), bytes)));
-    let licenses = licenses::of_the_page().expect("cargo resolves the page");
-    files.insert(licenses::NAME.to_owned(), licenses.into_bytes());
     // The folder of what is built: any other will do.
     let site = Site::new([(Program::Full, crate::root().join("web"))]);
     for address in site.addresses().expect("the site lists") {
@@ -298,7 +292,8 @@ pub(crate) fn page() -> BTreeMap<String, Vec<u8>> {
 /// The same under the names that `dist` gives them.
 #[cfg(test)]
 pub(crate) fn of_the_page() -> BTreeMap<String, Vec<u8>> {
-    made(page()).expect("no circle")
+    let licenses = licenses::of_the_page().expect("cargo resolves the page");
+    made(page(), licenses).expect("no circle")
 }
 
 #[cfg(test)]
@@ -351,11 +346,10 @@ mod tests {
     #[test]
     fn no_file_of_the_real_page_refers_to_a_name_that_is_gone() {
         let (files, built) = (page(), of_the_page());
-        assert_eq!(built.len(), files.len());
-        assert!(
-            built.contains_key(licenses::NAME),
-            "who looks for the licences finds them"
-        );
+        assert_eq!(built.len(), files.len() + 1);
+        let (name, text) = text_of(&built, "licenses.");
+        assert_eq!(name, licenses::NAME, "who looks for them finds them");
+        assert!(text.contains("\negui 0.") && text.contains("SIL OPEN FONT LICENSE"));
         let choice = text_of(&built, "web/program.").1;
         for folder in ["pkg/bindpose", "pkg/webgpu/bindpose"] {
             for end in [".", "_bg."] {

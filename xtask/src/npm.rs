@@ -114,6 +114,24 @@ mod tests {
     }
 
     #[test]
+    fn the_limits_of_a_first_visit_count_each_script_that_the_element_loads() {
+        let limits = fs::read_to_string(crate::root().join("xtask/sizes.txt")).expect("it is there");
+        let visits = limits.lines().filter(|line| line.contains(" web/element/*.js web/"));
+        let (page, mut count) = (dist::page(), 0);
+        for visit in visits {
+            for address in loaded_by(ELEMENT, &page)
+                .into_iter()
+                .filter(|address| address.ends_with(".js"))
+            {
+                let is_there = address.starts_with("web/element/") || visit.split(' ').any(|part| part == address);
+                assert!(is_there || address.starts_with("pkg/"), "{address} is not in: {visit}");
+            }
+            count += 1;
+        }
+        assert_eq!(count, 2);
+    }
+
+    #[test]
     fn the_manifest_has_the_places_that_are_filled() {
         let manifest = fs::read_to_string(crate::root().join("xtask/npm/package.json")).expect("it is there");
         for (placeholder, _) in PLACEHOLDERS {

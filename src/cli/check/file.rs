@@ -51,7 +51,11 @@ pub(super) fn check(
     is_only: bool,
 ) -> Result<Checked, Failure> {
     let bytes = paths::read(path)?;
-    let imported = import::import_beside(&bytes, &|name| input::beside(path, name));
+    let extension = path
+        .extension()
+        .map(|extension| extension.to_string_lossy().to_lowercase());
+    let imported = import::import_beside(&bytes, &|name| input::beside(path, name))
+        .map_err(|refused| Box::new(refused.of_extension(&extension.unwrap_or_default())));
     let mut diagnostics = Vec::new();
     let mut missing_maps = None;
     if let Ok(imported) = &imported

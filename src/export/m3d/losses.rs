@@ -374,7 +374,7 @@ fn surfaces(materials: &[&Material], dialect: Dialect, losses: &mut Losses) {
         "double-sided",
         &|material| has_sides(material) && material.double_sided && !material.is_cut(),
         IS,
-        "two-sided (Backface Culling is off in Blender), and back faces will not be drawn",
+        "two-sided (without backface culling), and back faces will not be drawn",
     );
     losses.add(
         "double-sided",

@@ -19,7 +19,7 @@ use super::curves::TICKS_PER_SEC;
 use super::file::File;
 use super::nodes::Nodes;
 use super::objects::{ObjectIndex, Objects};
-use crate::diagnostic::collect::{counted, few, quoted};
+use crate::diagnostic::collect::{Few, counted, quoted};
 use crate::diagnostic::{Fault, Subject, codes};
 use crate::fbx::Place;
 use crate::import::scene::Rig;
@@ -135,7 +135,7 @@ pub(super) async fn clips(
 ) -> Result<Vec<Clip>, Fault> {
     let mut read = Vec::new();
     // Tracks whose numbers are too great for any, those that would take too long, and those that are off.
-    let (mut unwritten, mut unfollowed, mut off) = (0, 0, Vec::new());
+    let (mut unwritten, mut unfollowed, mut off) = (0, 0, Few::default());
     let most = MOST_TRACKS / rig.node_of_joint.len().max(1);
     let mut left_out = stacks.len().saturating_sub(most);
     for stack in stacks.iter().take(most) {
@@ -159,10 +159,10 @@ pub(super) async fn clips(
             };
             if is_off.get() {
                 let name = &nodes.scene.nodes[node as usize].tag.name;
-                off.push(format!("{} in {}", quoted(name), quoted(&stack.name)));
+                off.extend([format!("{} in {}", quoted(name), quoted(&stack.name))]);
             }
-            file.budget
-                .keep(BYTES_PER_KEY * track.channel_key_count() as u64, stack.place)?;
+            let bytes = size_of::<Track>() as u64 + BYTES_PER_KEY * track.channel_key_count() as u64;
+            file.budget.keep(bytes, stack.place)?;
             tracks.push(track);
         }
         if tracks.iter().any(Track::has_keys) {
@@ -193,13 +193,12 @@ pub(super) async fn clips(
             ),
         ),
         (
-            off.len(),
+            off.count,
             &codes::FBX_LEFT_OUT,
             format!(
-                "{} between two keys more than {} pieces follow: {}.",
-                counted(off.len(), "track bends", "tracks bend"),
+                "{} between two keys more than {} pieces follow: {off}.",
+                counted(off.count, "track bends", "tracks bend"),
                 1 << MOST_HALVINGS,
-                few(&off)
             ),
         ),
         (

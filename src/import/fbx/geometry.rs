@@ -48,6 +48,13 @@ struct Layer {
     width: usize,
 }
 
+/// What is kept of a vertex, here and on each node that has its mesh: all its streams; and of a triangle.
+pub(super) const BYTES_PER_VERTEX: u64 = 104;
+pub(super) const BYTES_PER_TRIANGLE: u64 = 12;
+
+/// In place of a vertex or a value where there is none.
+const NONE: u32 = u32::MAX;
+
 /// With so many vertices of its control point a corner is compared: in a file made to be slow they all differ.
 const MOST_COMPARED: usize = 64;
 
@@ -117,8 +124,8 @@ impl Layer {
         }))
     }
 
-    /// Which value a corner has; `None` where the file has none for it.
-    fn index(&self, corner: Corner) -> Option<usize> {
+    /// Which value a corner has; [`NONE`] where the file has none for it.
+    fn index(&self, corner: Corner) -> u32 {
         let place = match self.mapping {
             Mapping::Corner => corner.index,
             Mapping::ControlPoint => corner.control_point as usize,
@@ -126,28 +133,26 @@ impl Layer {
             Mapping::All => 0,
         };
         let index = match self.indices.is_empty() {
-            true => place,
-            false => usize::try_from(*self.indices.get(place)?).ok()?,
+            true => u32::try_from(place).ok(),
+            false => self.indices.get(place).and_then(|&index| u32::try_from(index).ok()),
         };
-        (index < self.values.len() / self.width).then_some(index)
+        let index = index.filter(|&index| (index as usize) < self.values.len() / self.width);
+        index.unwrap_or(NONE)
     }
 
     /// Whether two values are the same as `f32`: many files repeat a value for each corner.
-    fn are_same(&self, values: [Option<usize>; 2]) -> bool {
-        let row = |index: usize| {
-            let row = &self.values[index * self.width..][..self.width];
+    fn are_same(&self, [a, b]: [u32; 2]) -> bool {
+        let row = |index: u32| {
+            let row = &self.values[index as usize * self.width..][..self.width];
             row.iter().map(|&number| (number as f32).to_bits())
         };
-        match values {
-            [Some(a), Some(b)] => a == b || row(a).eq(row(b)),
-            [a, b] => a == b,
-        }
+        a == b || (a != NONE && b != NONE && row(a).eq(row(b)))
     }
 
-    fn value<const WIDTH: usize>(&self, index: Option<usize>) -> [f32; WIDTH] {
+    fn value<const WIDTH: usize>(&self, index: u32) -> [f32; WIDTH] {
         let mut value = [0.0; WIDTH];
-        if let Some(index) = index {
-            let stored = &self.values[index * self.width..][..self.width.min(WIDTH)];
+        if index != NONE {
+            let stored = &self.values[index as usize * self.width..][..self.width.min(WIDTH)];
             for (to, from) in value.iter_mut().zip(stored) {
                 *to = *from as f32;
             }
@@ -180,7 +185,7 @@ fn layers(record: &Record<'_>, budget: &Budget) -> Result<Layers, Fault> {
 /// Reads a geometry of this name.
 ///
 /// # Errors
-/// When an array is damaged, or a corner names a control point that is not there.
+/// When an array is damaged, a corner names a control point that is not there, or the budget has no room for what is made.
 pub(super) async fn read(
     (record, name): (&Record<'_>, &str),
     file: &mut File<'_, '_>,
@@ -201,8 +206,8 @@ pub(super) async fn read(
         ..Geometry::default()
     };
     // The last vertex of each control point; of each vertex the one before it there, and its values.
-    let mut last: Vec<Option<u32>> = vec![None; points.len()];
-    let mut before: Vec<(Option<u32>, [Option<usize>; 5])> = Vec::new();
+    let mut last: Vec<u32> = vec![NONE; points.len()];
+    let mut before: Vec<(u32, [u32; 5])> = Vec::new();
     let mut parts: HashMap<usize, usize> = HashMap::new();
     let mut of_polygon: Vec<u32> = Vec::new();
     let (mut without_values, mut not_whole) = (0, 0);
@@ -226,8 +231,10 @@ pub(super) async fn read(
                 control_point: control_point as u32,
                 polygon,
             };
-            let values = layers.each_ref().map(|layer| layer.as_ref()?.index(corner));
-            let lacks = |(layer, value): (&Option<Layer>, &Option<usize>)| layer.is_some() && value.is_none();
+            let values = layers
+                .each_ref()
+                .map(|layer| layer.as_ref().map_or(NONE, |layer| layer.index(corner)));
+            let lacks = |(layer, value): (&Option<Layer>, &u32)| layer.is_some() && *value == NONE;
             without_values += usize::from(layers.iter().zip(&values).any(lacks));
             let next = geometry.control_points.len() as u32;
             let last = &mut last[corner.control_point as usize];
@@ -236,16 +243,19 @@ pub(super) async fn read(
                 let mut pairs = layers.iter().zip(stored);
                 pairs.all(|(layer, (a, b))| layer.as_ref().is_none_or(|layer| layer.are_same([a, b])))
             };
-            let mut alike = std::iter::successors(*last, |&vertex| before[vertex as usize].0).take(MOST_COMPARED);
-            let vertex = alike.find(is_same).unwrap_or(next);
+            let some = |vertex: u32| (vertex != NONE).then_some(vertex);
+            let alike = std::iter::successors(some(*last), |&vertex| some(before[vertex as usize].0));
+            let vertex = alike.take(MOST_COMPARED).find(is_same).unwrap_or(next);
             if vertex == next {
-                before.push((last.replace(next), values));
+                budget.keep(BYTES_PER_VERTEX, corners_record.place)?;
+                before.push((std::mem::replace(last, next), values));
                 geometry.control_points.push(corner.control_point);
                 let point = point.map(|number| (number * unit_metres) as f32);
                 push(&mut geometry.vertices, point, &layers, values);
             }
             of_polygon.push(vertex);
         }
+        budget.keep(BYTES_PER_TRIANGLE * (of_polygon.len() as u64 - 2), corners_record.place)?;
         let material = materials
             .as_ref()
             .and_then(|layer| layer.material(polygon))
@@ -289,7 +299,7 @@ fn out_of_range(place: Place, index: i64, count: usize) -> Fault {
 }
 
 /// Adds a vertex; streams that the geometry does not have stay empty.
-fn push(vertices: &mut Vertices, position: [f32; 3], layers: &Layers, values: [Option<usize>; 5]) {
+fn push(vertices: &mut Vertices, position: [f32; 3], layers: &Layers, values: [u32; 5]) {
     let [normals, uv, colors, tangents, binormals] = layers;
     let [normal, tex_coord, color, tangent, binormal] = values;
     vertices.positions.push(position);
@@ -303,7 +313,7 @@ fn push(vertices: &mut Vertices, position: [f32; 3], layers: &Layers, values: [O
     if let Some(layer) = colors {
         vertices
             .colors
-            .push(if color.is_some() { layer.value(color) } else { [1.0; 4] });
+            .push(if color == NONE { [1.0; 4] } else { layer.value(color) });
     }
     if let Some(layer) = tangents {
         let tangent: [f32; 3] = layer.value(tangent);

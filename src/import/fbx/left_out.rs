@@ -6,7 +6,7 @@ use super::file::File;
 use super::nodes::Nodes;
 use super::objects::{Object, Objects};
 use crate::diagnostic::codes;
-use crate::diagnostic::collect::{counted, few};
+use crate::diagnostic::collect::{Few, counted};
 use crate::fbx::Place;
 
 /// Kinds of objects by how they are told of, for one and for many.
@@ -41,40 +41,41 @@ fn kind(object: &Object<'_, '_>) -> Option<[&'static str; 2]> {
 
 /// Notes what of a file is not in the model.
 pub(super) fn note(file: &mut File<'_, '_>, objects: &Objects<'_, '_>, nodes: &Nodes) {
-    let mut kinds: BTreeMap<[&str; 2], (Place, Vec<String>)> = BTreeMap::new();
+    let mut kinds: BTreeMap<[&str; 2], (Place, Few)> = BTreeMap::new();
     for object in &objects.all {
         // Nodes have an attribute besides: each is told of once.
         let is_attribute = object.record.name == "NodeAttribute" || object.kind == "BlendShapeChannel";
         if let Some(kind) = kind(object) {
-            let (_, names) = kinds.entry(kind).or_insert_with(|| (object.record.place, Vec::new()));
-            if !is_attribute || object.kind == "LodGroup" {
-                names.push(object.name.clone().into_owned());
+            let (_, names) = kinds
+                .entry(kind)
+                .or_insert_with(|| (object.record.place, Few::default()));
+            if (!is_attribute || object.kind == "LodGroup") && !object.name.is_empty() {
+                names.extend([object.name.to_string()]);
             }
         }
     }
-    for ([one, many], (place, mut names)) in kinds {
-        names.retain(|name| !name.is_empty());
-        let count = names.len().max(1);
-        let listed = if names.is_empty() { "" } else { ": " };
-        let message = format!("Not taken: {}{listed}{}.", counted(count, one, many), few(&names));
+    for ([one, many], (place, names)) in kinds {
+        let listed = if names.count == 0 { "" } else { ": " };
+        let message = format!("Not taken: {}{listed}{names}.", counted(names.count.max(1), one, many));
         file.note_of(place, &codes::FBX_LEFT_OUT, message);
     }
     if !file.disagreeing.is_empty() {
-        let names = file.disagreeing.iter().map(|&bone| objects.get(bone).name.to_string());
+        let mut names = Few::default();
+        names.extend(file.disagreeing.iter().map(|&bone| objects.get(bone).name.to_string()));
         let message = format!(
-            "{} bound in another way than the bind pose says; the skin is believed: {}.",
-            counted(file.disagreeing.len(), "bone is", "bones are"),
-            few(&names.collect::<Vec<_>>())
+            "{} bound in another way than the bind pose says; the skin is believed: {names}.",
+            counted(names.count, "bone is", "bones are"),
         );
         file.note(&codes::FBX_LEFT_OUT, message);
     }
     let uses = &nodes.scene.uses;
     if uses.len() > 1 {
-        let names: Vec<String> = uses
-            .iter()
-            .map(|mesh| nodes.scene.nodes[mesh.node as usize].tag.name.clone())
-            .collect();
-        let message = format!("{} objects become one mesh: {}.", uses.len(), few(&names));
+        let mut names = Few::default();
+        names.extend(
+            uses.iter()
+                .map(|mesh| nodes.scene.nodes[mesh.node as usize].tag.name.clone()),
+        );
+        let message = format!("{} objects become one mesh: {names}.", names.count);
         file.note(&codes::FBX_OBJECTS_MERGED, message);
     }
     for (places, what) in [

@@ -1,14 +1,11 @@
 //! Materials of a file as ours: Lambert's, Phong's, and those of Stingray and 3ds Max that are metals or not.
 
-use glam::{Affine2, DAffine3, DVec3, Vec2};
-
 use super::file::File;
 use super::images::Images;
 use super::objects::{Object, ObjectIndex, Objects};
-use super::transform::RotationOrder;
-use crate::diagnostic::collect::{counted, few};
+use crate::diagnostic::collect::{Few, counted};
 use crate::diagnostic::{Subject, codes};
-use crate::model::{AlphaMode, Material, MaterialMap, Reflectance, Sampling, Wrap, unique_names};
+use crate::model::{AlphaMode, Material, MaterialMap, Reflectance, unique_names};
 
 /// The names that programs give what we have, the most telling first. Where there are several, all but the first are of
 /// Autodesk's physical materials: Stingray's of Maya, and 3ds Max's of three kinds.
@@ -121,7 +118,7 @@ impl Materials {
                 );
             }
         });
-        let mut left_out = Vec::new();
+        let mut left_out = Few::default();
         let mut materials = Vec::with_capacity(names.len());
         for (index, name) in names.into_iter().enumerate() {
             materials.push(match found.get(index) {
@@ -132,9 +129,9 @@ impl Materials {
                 },
             });
         }
-        if !left_out.is_empty() {
-            let count = counted(left_out.len(), "map is", "maps are");
-            let message = format!("{count} of a kind that has no place in a model: {}.", few(&left_out));
+        if left_out.count > 0 {
+            let count = counted(left_out.count, "map is", "maps are");
+            let message = format!("{count} of a kind that has no place in a model: {left_out}.");
             file.note(&codes::FBX_LEFT_OUT, message);
         }
         Self {
@@ -165,7 +162,7 @@ fn material(
     objects: &Objects<'_, '_>,
     index: ObjectIndex,
     images: &Images,
-    left_out: &mut Vec<String>,
+    left_out: &mut Few,
 ) -> Material {
     let object = objects.get(index);
     let maps = maps(objects, object, images);
@@ -269,15 +266,20 @@ fn is_off(material: &Object<'_, '_>, property: &str) -> bool {
 }
 
 /// The maps of a material by the properties on which they hang, without those that are switched off; those of its models without any by no name.
-fn maps(objects: &Objects<'_, '_>, material: &Object<'_, '_>, images: &Images) -> Vec<(String, MaterialMap)> {
-    let textures = |object: &Object<'_, '_>| {
-        let textures = object
-            .children
-            .iter()
-            .filter_map(|child| Some((child.property.clone(), texture(objects, child.to)?)))
-            .take(MOST_TEXTURES)
-            .filter(|(property, _)| !is_off(material, property));
-        textures.collect::<Vec<_>>()
+fn maps<'o>(
+    objects: &'o Objects<'_, '_>,
+    material: &'o Object<'_, '_>,
+    images: &Images,
+) -> Vec<(&'o str, MaterialMap)> {
+    let textures = |object: &'o Object<'_, '_>| {
+        let textures = ["Texture", "LayeredTexture"].into_iter();
+        let textures = textures
+            .flat_map(|class| objects.hanging(object, class))
+            .take(MOST_TEXTURES);
+        let textures = textures.filter_map(|child| Some((&*child.property, texture(objects, child.to)?)));
+        textures
+            .filter(|(property, _)| !is_off(material, property))
+            .collect::<Vec<_>>()
     };
     let mut found = textures(material);
     if found.is_empty() {
@@ -287,12 +289,10 @@ fn maps(objects: &Objects<'_, '_>, material: &Object<'_, '_>, images: &Images) -
             .map(textures)
             .unwrap_or_default();
     }
-    let named = found.into_iter().filter_map(|(property, texture)| {
-        let name = images.name(texture)?.to_owned();
-        let sampling = sampling(objects.get(texture));
-        Some((property, MaterialMap { name, sampling }))
-    });
-    named.collect()
+    let named = found.into_iter();
+    named
+        .filter_map(|(property, texture)| Some((property, images.map(texture)?)))
+        .collect()
 }
 
 /// A texture, or the first of a layered one.
@@ -302,46 +302,5 @@ fn texture(objects: &Objects<'_, '_>, index: ObjectIndex) -> Option<ObjectIndex>
         "Texture" => Some(index),
         "LayeredTexture" => objects.children(object, "Texture").next().map(|(index, _)| index),
         _ => None,
-    }
-}
-
-fn sampling(texture: &Object<'_, '_>) -> Sampling {
-    let vector = |name: &str, default| {
-        texture
-            .vector(name)
-            .filter(|vector| vector.is_finite())
-            .unwrap_or(default)
-    };
-    let [rotation_pivot, scaling_pivot] =
-        ["TextureRotationPivot", "TextureScalingPivot"].map(|name| vector(name, DVec3::ZERO));
-    let at = DAffine3::from_translation;
-    let rotation = DAffine3::from_quat(RotationOrder::default().rotation(vector("Rotation", DVec3::ZERO)));
-    let tex_coords_from_map = at(vector("Translation", DVec3::ZERO) + rotation_pivot)
-        * rotation
-        * at(scaling_pivot - rotation_pivot)
-        * DAffine3::from_scale(vector("Scaling", DVec3::ONE))
-        * at(-scaling_pivot);
-    let inverse = tex_coords_from_map.inverse();
-    let [x, y, origin] =
-        [inverse.matrix3.x_axis, inverse.matrix3.y_axis, inverse.translation].map(|column| column.truncate().as_vec2());
-    let upright = Affine2::from_cols(x, y, origin);
-    // v runs upwards in FBX.
-    let turned = Affine2::from_cols(Vec2::X, Vec2::NEG_Y, Vec2::Y);
-    let map_from_mesh = turned * upright * turned;
-    let wrap = |name: &str| {
-        if texture.integer(name) == Some(1) {
-            Wrap::Clamp
-        } else {
-            Wrap::Repeat
-        }
-    };
-    Sampling {
-        map_from_mesh: if map_from_mesh.is_finite() {
-            map_from_mesh
-        } else {
-            Affine2::IDENTITY
-        },
-        wrap: [wrap("WrapModeU"), wrap("WrapModeV")],
-        ..Sampling::default()
     }
 }

@@ -1,15 +1,16 @@
 //! The geometries of a file as one mesh: each on the nodes that have it, moved by its skin or by its node.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::DAffine3;
 
 use super::file::{File, in_object};
-use super::geometry::{self, Geometry};
+use super::geometry::{self, BYTES_PER_TRIANGLE, BYTES_PER_VERTEX, Geometry};
 use super::materials::Materials;
 use super::nodes::{self, Nodes};
 use super::objects::{ObjectIndex, Objects};
-use super::skins::{self, Weights};
+use super::skins::{self, BYTES_PER_SLOT, Weights};
 use crate::diagnostic::collect::{Diagnostics, counted};
 use crate::diagnostic::{Fault, codes};
 use crate::fbx::Place;
@@ -17,11 +18,8 @@ use crate::import::scene::{MeshBuilder, MeshUse, Rig};
 use crate::model::{Influences, Mesh, Object};
 use crate::slices::{Slices, Stage};
 
-/// What is kept of a mesh on each node: all streams of a vertex, and three indices.
-const BYTES_PER_VERTEX: u64 = 104;
-const BYTES_PER_TRIANGLE: u64 = 12;
-/// And of a skin on each: two matrices of a slot, and a joint that may stand in.
-const BYTES_PER_SLOT: u64 = 320;
+/// What is kept of a part of a mesh on each node that has it, besides what its triangles take.
+const BYTES_PER_PART: u64 = 64;
 
 /// The geometries that nodes have, with their skins.
 #[derive(Default)]
@@ -50,23 +48,25 @@ impl Meshes {
     ) -> Result<Self, Fault> {
         let mut meshes = Self::default();
         let mut uses: Vec<(ObjectIndex, u32)> = Vec::new();
+        let mut known = HashMap::new();
+        let mut has_points = |index: &ObjectIndex| {
+            let find = || objects.get(*index).record.find("Vertices").is_some();
+            *known.entry(*index).or_insert_with(find)
+        };
         for (node, &object) in (0u32..).zip(nodes.models()) {
             let model = objects.get(object);
             // In files of 6.1 a model is its own geometry.
-            let own = model.record.find("Vertices").map(|_| object);
-            let hanging = objects
-                .children(model, "Geometry")
-                .filter(|(_, geometry)| geometry.record.find("Vertices").is_some());
-            let hanging = hanging
-                .filter(|(_, geometry)| geometry.kind != "Shape")
-                .map(|(index, _)| index);
-            uses.extend(own.into_iter().chain(hanging).map(|geometry| (geometry, node)));
+            let hanging = objects.children(model, "Geometry");
+            let hanging = hanging.filter(|(_, geometry)| geometry.kind != "Shape");
+            let all = [object].into_iter().chain(hanging.map(|(index, _)| index));
+            uses.extend(all.filter(&mut has_points).map(|geometry| (geometry, node)));
         }
         uses.sort();
         for (at, &(index, node)) in uses.iter().enumerate() {
             slices.pause_at(Stage::Building, at, uses.len()).await;
-            if meshes.geometries.last().is_none_or(|(before, ..)| *before != index) {
-                let object = objects.get(index);
+            let object = objects.get(index);
+            let is_first = meshes.geometries.last().is_none_or(|(before, ..)| *before != index);
+            if is_first {
                 let geometry = geometry::read((object.record, &object.name), file, slices).await;
                 let geometry = geometry.map_err(in_object(&object.name))?;
                 if geometry.left_out > 0 {
@@ -77,7 +77,10 @@ impl Meshes {
                     );
                     file.note_of(object.record.place, &codes::FBX_LEFT_OUT, message);
                 }
-                let weights = skins::read(file, objects, nodes, index, geometry.control_point_count)?;
+                let weights = match geometry.parts.is_empty() {
+                    true => None,
+                    false => skins::read(file, objects, nodes, index, geometry.control_point_count)?,
+                };
                 nodes.scene.meshes.push(Arc::new(nodes::tag(object)));
                 meshes.geometries.push((index, geometry, weights));
             }
@@ -88,10 +91,14 @@ impl Meshes {
             }
             let triangles: usize = geometry.parts.iter().map(|part| part.triangles.len()).sum();
             let slots = weights.as_ref().map_or(0, Weights::slot_count);
-            let bytes = BYTES_PER_VERTEX * geometry.control_points.len() as u64
+            // Those of the first use were asked for while they were read.
+            let copied = BYTES_PER_VERTEX * geometry.control_points.len() as u64
                 + BYTES_PER_TRIANGLE * triangles as u64
                 + BYTES_PER_SLOT * slots as u64;
-            file.budget.keep(bytes, objects.get(index).record.place)?;
+            let bytes = if is_first { 0 } else { copied }
+                + BYTES_PER_PART * geometry.parts.len() as u64
+                + nodes.scene.nodes[node as usize].tag.name.len() as u64;
+            file.budget.keep(bytes, object.record.place)?;
             let skin = weights.as_ref().map(|weights| {
                 let skin = weights.skin(nodes, node);
                 nodes.scene.skins.push(Some(skin));
@@ -143,13 +150,10 @@ impl Meshes {
             };
             builder.add_vertices(&geometry.vertices, influences, &placement, too_many)?;
             let is_mirrored = placement.matrix3.determinant() < 0.0;
-            let of_node: Vec<ObjectIndex> = objects
-                .children(objects.get(nodes.objects[mesh.node as usize]), "Material")
-                .map(|(index, _)| index)
-                .collect();
+            let of_node = objects.hanging(objects.get(nodes.objects[mesh.node as usize]), "Material");
             for part in &geometry.parts {
                 slices.pause().await;
-                let material = materials.index(of_node.get(part.material).copied());
+                let material = materials.index(of_node.get(part.material).map(|material| material.to));
                 builder.add_triangles(part.triangles.iter().copied(), (start, is_mirrored), material, too_many)?;
                 places.push(place);
             }

@@ -29,22 +29,29 @@ pub(super) struct Object<'f, 'a> {
     /// `Mesh`, `LimbNode`, `Skin`, `Cluster`, …
     pub(super) kind: Cow<'f, str>,
     /// Those of its own.
-    properties: Option<&'f Record<'a>>,
+    properties: Properties<'f, 'a>,
     /// Those of its class.
     template: Option<Rc<Template<'f, 'a>>>,
-    /// What hangs on it, in the file's order.
-    pub(super) children: Vec<Connection>,
+    /// What hangs on it, by class; of each class in the file's order.
+    pub(super) children: Vec<Connection<'f>>,
     /// What it hangs on.
-    pub(super) parents: Vec<Connection>,
+    pub(super) parents: Vec<Connection<'f>>,
+}
+
+/// Properties of an object's own: few are looked through, many are found by name, as others may ask for them often.
+#[derive(Clone, Debug)]
+enum Properties<'f, 'a> {
+    Few(Option<&'f Record<'a>>),
+    Many(Rc<Template<'f, 'a>>),
 }
 
 /// That an object hangs on another one.
 #[derive(Clone, Debug)]
-pub(super) struct Connection {
+pub(super) struct Connection<'f> {
     /// The other one.
     pub(super) to: ObjectIndex,
     /// The property on which it hangs; empty for the object itself.
-    pub(super) property: String,
+    pub(super) property: Cow<'f, str>,
 }
 
 /// All objects of a file.
@@ -94,6 +101,10 @@ impl<'f, 'a> Objects<'f, 'a> {
             let at_name = usize::from(matches!(key, Key::Number(_)));
             let name = shortened(record.name_of(at_name).unwrap_or_default());
             let properties = record.find("Properties70").or_else(|| record.find("Properties60"));
+            let properties = match properties.filter(|properties| properties.records.len() > MOST_LOOKED_THROUGH) {
+                Some(many) => Properties::Many(Rc::new(by_name(many))),
+                None => Properties::Few(properties),
+            };
             if by_key.contains_key(&key) {
                 objects.doubled.push(record.place);
                 continue;
@@ -118,7 +129,7 @@ impl<'f, 'a> Objects<'f, 'a> {
             let [of_child, of_parent] = [&child, &parent].map(|key| by_key.get(key).copied());
             match (of_child, of_parent) {
                 (Some(child), Some(parent)) => {
-                    let property = record.text(3).unwrap_or_default().into_owned();
+                    let property = shortened(record.text(3).unwrap_or_default());
                     // Some stand there twice.
                     if !known.insert((child, parent, property.clone())) {
                         continue;
@@ -133,6 +144,10 @@ impl<'f, 'a> Objects<'f, 'a> {
                 (Some(_), None) if parent.is_scene() => (),
                 _ => objects.missing.push(record.place),
             }
+        }
+        let classes: Vec<&str> = objects.all.iter().map(|object| &*object.record.name).collect();
+        for object in &mut objects.all {
+            object.children.sort_by_key(|child| classes[child.to.index()]);
         }
         objects.by_key = by_key;
         objects
@@ -158,18 +173,25 @@ impl<'f, 'a> Objects<'f, 'a> {
         all.filter(move |(_, object)| object.record.name == class)
     }
 
+    /// What hangs on an object and is of a class, in the file's order.
+    pub(super) fn hanging<'s>(&self, on: &'s Object<'f, 'a>, class: &str) -> &'s [Connection<'f>] {
+        let class_of = |child: &Connection<'_>| &*self.get(child.to).record.name;
+        let from = &on.children[on.children.partition_point(|child| class_of(child) < class)..];
+        &from[..from.partition_point(|child| class_of(child) == class)]
+    }
+
     /// The children of an object that are of a class, in the file's order.
     pub(super) fn children<'s>(
         &'s self,
         of: &'s Object<'f, 'a>,
-        class: &'s str,
+        class: &str,
     ) -> impl Iterator<Item = (ObjectIndex, &'s Object<'f, 'a>)> {
-        let children = of.children.iter().map(|child| (child.to, self.get(child.to)));
-        children.filter(move |(_, object)| object.record.name == class)
+        let children = self.hanging(of, class).iter();
+        children.map(|child| (child.to, self.get(child.to)))
     }
 }
 
-/// Names are told and kept for each use of an object.
+/// Names and properties are told and kept for each use of an object.
 fn shortened(name: Cow<'_, str>) -> Cow<'_, str> {
     const MOST_BYTES: usize = 1024;
     if name.len() <= MOST_BYTES {
@@ -190,15 +212,22 @@ fn templates<'f, 'a>(document: &'f Document<'a>) -> HashMap<Cow<'f, str>, Rc<Tem
         .flat_map(|all| all.all("ObjectType"));
     let of_type = |record: &'f Record<'a>| {
         let properties = record.find("PropertyTemplate")?.find("Properties70")?;
-        let named = properties.records.iter();
-        let named = named.filter_map(|record| Some((record.bytes(0)?, (record, values_at(record)))));
-        Some((record.text(0)?, Rc::new(named.collect())))
+        Some((record.text(0)?, Rc::new(by_name(properties))))
     };
     types.filter_map(of_type).collect()
 }
 
+/// More properties than these are found by name.
+const MOST_LOOKED_THROUGH: usize = 64;
+
 /// Properties by their names: each has a record, and the index of its first value in it.
 type Template<'f, 'a> = HashMap<&'f [u8], (&'f Record<'a>, usize)>;
+
+fn by_name<'f, 'a>(properties: &'f Record<'a>) -> Template<'f, 'a> {
+    let named = properties.records.iter();
+    let named = named.filter_map(|record| Some((record.bytes(0)?, (record, values_at(record)))));
+    named.collect()
+}
 
 /// The record of a property, and the index of its first value. Of two of one name the last one counts.
 pub(super) fn property<'s, 'a>(properties: &'s Record<'a>, name: &str) -> Option<(&'s Record<'a>, usize)> {
@@ -214,7 +243,10 @@ fn values_at(record: &Record<'_>) -> usize {
 
 impl<'f, 'a> Object<'f, 'a> {
     fn property(&self, name: &str) -> Option<(&'f Record<'a>, usize)> {
-        let own = self.properties.and_then(|properties| property(properties, name));
+        let own = match &self.properties {
+            Properties::Few(few) => few.and_then(|few| property(few, name)),
+            Properties::Many(many) => many.get(name.as_bytes()).copied(),
+        };
         own.or_else(|| self.template.as_ref()?.get(name.as_bytes()).copied())
     }
 

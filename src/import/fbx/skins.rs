@@ -5,6 +5,7 @@ use glam::{DAffine3, DMat4};
 use super::file::{File, in_object};
 use super::nodes::Nodes;
 use super::objects::{Object, ObjectIndex, Objects};
+use crate::diagnostic::collect::quoted;
 use crate::diagnostic::{Fault, codes};
 use crate::fbx::Record;
 use crate::import::scene::{Skin, is_invertible};
@@ -27,6 +28,11 @@ struct Cluster {
     /// The bone -> the world, in the file's axes.
     file_from_bone: Option<DAffine3>,
 }
+
+/// What is kept of a skin for each of its bones, in it and on each node that has its mesh: two matrices of a slot, and a joint that may stand in.
+pub(super) const BYTES_PER_SLOT: u64 = 320;
+/// Records of a cluster are looked through for each skin that has it.
+const BYTES_PER_RECORD: u64 = 16;
 
 /// What a control point has at most; of more the greatest are taken.
 const MOST_PAIRS: usize = 64;
@@ -101,7 +107,7 @@ impl Weights {
 /// The first skin of a geometry; `None` where it has none, or none of its bones is there.
 ///
 /// # Errors
-/// When an array is damaged.
+/// When an array is damaged, or the budget has no room for the bones.
 pub(super) fn read(
     file: &mut File<'_, '_>,
     objects: &Objects<'_, '_>,
@@ -126,8 +132,12 @@ pub(super) fn read(
     }
     let mut clusters = Vec::new();
     let mut entries = Vec::new();
-    let all = objects.children(skin, "Deformer");
-    for (_, cluster) in all.filter(|(_, deformer)| deformer.kind == "Cluster") {
+    for (_, cluster) in objects.children(skin, "Deformer") {
+        let bytes = BYTES_PER_SLOT + BYTES_PER_RECORD * cluster.record.records.len() as u64;
+        file.budget.keep(bytes, cluster.record.place)?;
+        if cluster.kind != "Cluster" {
+            continue;
+        }
         let mut add = |point: i64, weight: f64, slot: usize| {
             let weight = weight as f32;
             let point = usize::try_from(point).ok().filter(|&point| point < control_point_count);
@@ -154,7 +164,8 @@ fn cluster(
     let mut bones = objects.children(cluster, "Model");
     let bone = bones.find_map(|(model, _)| Some((model, nodes.node_of[model.index()]?)));
     let Some((bone, node)) = bone else {
-        let message = format!("Cluster \"{}\" names no bone; its weights are left out.", cluster.name);
+        let name = quoted(&cluster.name);
+        let message = format!("Cluster {name} names no bone; its weights are left out.");
         file.note_of(record.place, &codes::FBX_RULE_BROKEN, message);
         return Ok(None);
     };
@@ -163,7 +174,7 @@ fn cluster(
     let weights = record.numbers_of("Weights", &file.budget).map_err(named)?;
     if points.len() != weights.len() {
         let counts = format!("{} control points, but {} weights", points.len(), weights.len());
-        let message = format!("Cluster \"{}\" has {counts}.", cluster.name);
+        let message = format!("Cluster {} has {counts}.", quoted(&cluster.name));
         file.note_of(record.place, &codes::FBX_RULE_BROKEN, message);
     }
     let mut add = add;

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use super::view::View;
+use super::view::{Framed, View};
 use crate::model::{Handedness, UpAxis};
 use crate::scene::{Camera, Insets, Projection, ViewPreset};
 use crate::session::Session;
@@ -110,7 +110,7 @@ impl Session {
             CameraCommand::Pan { drag } => {
                 self.view.motion.interrupt();
                 self.view.camera.pan(drag);
-                self.view.framed = false;
+                self.view.framed = Framed::No;
             }
             CameraCommand::Zoom { factor, pointer } => {
                 self.view.motion.interrupt();
@@ -161,7 +161,7 @@ impl Session {
             } => {
                 self.view.motion.interrupt();
                 self.view.camera.look_around(yaw_radians, pitch_radians);
-                self.view.framed = false;
+                self.view.framed = Framed::No;
             }
             CameraCommand::SetViewport { aspect, insets } => {
                 if (self.view.aspect, self.view.insets) != (aspect, insets) {
@@ -171,9 +171,9 @@ impl Session {
         }
     }
 
-    /// Whether the model stays framed in a picture of another shape: the camera was not panned, zoomed or flown since it was framed.
+    /// Whether the model stays framed wherever panels open: the camera was not panned, zoomed, flown or sent to a place since it was framed.
     pub fn is_framed(&self) -> bool {
-        self.view.framed
+        self.view.framed == Framed::Yes
     }
 
     /// From where the model is seen.
@@ -207,7 +207,7 @@ impl Session {
         // Not through the model, and not so far away that all is a dot.
         let distance = (camera.distance * factor).clamp(of_one * 1e-2, of_all * 100.0);
         camera.zoom(distance / camera.distance, pointer);
-        *framed = false;
+        *framed = Framed::No;
     }
 
     /// Whether the camera looks from a named direction, or is on its way there.

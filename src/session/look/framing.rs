@@ -2,6 +2,7 @@
 
 use glam::{Affine3A, Vec3};
 
+use super::view::Framed;
 use crate::scene::{Insets, swept_about_y};
 use crate::session::Session;
 
@@ -11,16 +12,24 @@ const VERTEX_ROOM: f32 = 0.15;
 /// Cameras that are nearer to each other than this part of their distance are in one place.
 const SAME_PLACE: f32 = 1e-4;
 
+/// Pictures whose shapes (width / height) differ by less than this part show the same.
+const SAME_SHAPE: f32 = 0.01;
+
+/// Whether pictures of these shapes show the same.
+pub(in crate::session) fn is_same_shape(one: f32, other: f32) -> bool {
+    (one - other).abs() <= SAME_SHAPE * other
+}
+
 impl Session {
     pub(in crate::session) fn frame_model(&mut self) {
         let points = self.reached_points();
         self.view.frame_points(&points);
-        self.view.framed = true;
+        self.view.framed = Framed::Yes;
     }
 
     /// Whether the camera is where framing the model would bring it: it may have gone round it since then, or another clip may be seen.
     pub(in crate::session) fn is_framed_from_here(&self) -> bool {
-        if !self.view.framed {
+        if self.view.framed == Framed::No {
             return false;
         }
         let mut framed = self.view.clone();
@@ -35,7 +44,7 @@ impl Session {
         let (points, middle) = swept_about_y(&self.reached_points());
         self.view.frame_points(&points);
         self.view.camera.aim_at_axis(middle);
-        self.view.framed = true;
+        self.view.framed = Framed::Yes;
     }
 
     /// Points by which all that the clips of all instances reach is framed, world space.
@@ -73,7 +82,7 @@ impl Session {
             self.frame_model();
         } else {
             self.view.frame_points(&points);
-            self.view.framed = false;
+            self.view.framed = Framed::No;
         }
     }
 
@@ -121,6 +130,14 @@ impl Session {
         points
     }
 
+    /// Takes the camera for one that frames the model from here, or else did so before it came here.
+    pub(in crate::session) fn hold_framed(&mut self) {
+        self.view.framed = Framed::InShape(self.view.aspect);
+        if self.is_framed_from_here() {
+            self.view.framed = Framed::Yes;
+        }
+    }
+
     /// A model that nobody panned or zoomed stays framed in a picture of another shape. An aspect or insets that are not finite
     /// are ignored.
     pub(in crate::session) fn set_viewport(&mut self, aspect: f32, insets: Insets) {
@@ -134,8 +151,10 @@ impl Session {
             return;
         }
         (self.view.aspect, self.view.insets) = (aspect, insets);
-        if self.view.framed {
-            self.frame_model();
+        match self.view.framed {
+            Framed::No => {}
+            Framed::InShape(of) if is_same_shape(of, aspect) => {}
+            Framed::Yes | Framed::InShape(_) => self.frame_model(),
         }
     }
 }

@@ -13,8 +13,7 @@ use crate::session::open::open_model::OpenModel;
 pub(in crate::session) struct View {
     pub(in crate::session) camera: Camera,
     pub(in crate::session) motion: Motion,
-    /// The camera was not panned, zoomed or flown since it framed all that the clip reaches.
-    pub(in crate::session) framed: bool,
+    pub(in crate::session) framed: Framed,
     pub(in crate::session) aspect: f32,
     /// Margins of the picture that panels cover.
     pub(in crate::session) insets: Insets,
@@ -25,12 +24,23 @@ pub(in crate::session) struct View {
     pub(in crate::session) theme: Theme,
 }
 
+/// Whether the camera frames all that the clip reaches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::session) enum Framed {
+    /// It was panned, zoomed, flown or sent to a place.
+    No,
+    /// It was not since then: it frames anew wherever the picture or its free part changes.
+    Yes,
+    /// A link sent it to where that is so in a picture of this shape (width / height): it frames anew in one of another.
+    InShape(f32),
+}
+
 impl Default for View {
     fn default() -> Self {
         Self {
             camera: Camera::default(),
             motion: Motion::default(),
-            framed: false,
+            framed: Framed::No,
             aspect: 1.0,
             insets: Insets::default(),
             handedness: None,

@@ -101,14 +101,7 @@ async fn load_in(
     match import::import_in(&file.bytes, find, slices).await {
         Ok(imported) => Ok(OpenModel::new(file, imported, slices).await),
         Err(refused) => {
-            let mut diagnostic = refused.error;
-            let extension = file.extension();
-            if diagnostic.code == codes::NOT_M3D.name && ["fbx", "glb", "gltf"].contains(&&*extension) {
-                let found = diagnostic.found.as_deref().unwrap_or_default();
-                diagnostic.message =
-                    format!("This is no .{extension} file, whatever its name says: it begins with \"{found}\".");
-                diagnostic.expected = Some(format!("what .{extension} files begin with"));
-            }
+            let diagnostic = refused.of_extension(&file.extension()).error;
             let excerpt = diagnostic
                 .position
                 .map(|at| format::excerpt(&file.bytes, at, diagnostic.length));
@@ -205,7 +198,7 @@ async fn read_whole(
     for (joined, slices) in joined.iter().zip(&of_files[1..]) {
         open.join_again(joined, slices).await;
     }
-    open.extent_in(Some(0), slices).await;
+    open.extent_in(open.first_clip(), slices).await;
     Ok(open)
 }
 

@@ -88,6 +88,7 @@ pub(in crate::session) struct ClipFacts {
     key_times: OnceLock<Vec<f32>>,
     loop_gap: OnceLock<LoopGap>,
     activity: OnceLock<Vec<JointActivity>>,
+    leads_away: OnceLock<bool>,
 }
 
 impl ClipFacts {
@@ -271,9 +272,19 @@ impl OpenModel {
             })
     }
 
+    /// The clip that is shown first: the first that moves, since one that stands still looks as if the others had failed; else the first.
+    pub fn first_clip(&self) -> Option<usize> {
+        let clips = &self.model.clips;
+        let moving = clips.iter().position(|clip| !clip.is_still());
+        moving.or((!clips.is_empty()).then_some(0))
+    }
+
     /// Whether a clip leads away from where it starts.
     pub fn leads_away(&self, clip: usize) -> bool {
-        edit::leads_away(&self.model, &self.model.clips[clip])
+        let known = self.clip_facts[clip]
+            .leads_away
+            .get_or_init(|| edit::leads_away(&self.model, &self.model.clips[clip]));
+        *known
     }
 
     /// The names of the clips that are kept in place, with what is otherwise in each.

@@ -152,14 +152,16 @@ impl Session {
         self.offer_skies(&files);
     }
 
-    /// Goes to the first clip, if there is one, and plays it unless motion is reduced.
+    /// Goes to the clip that is shown first, if there is one, and plays it unless motion is reduced.
     fn show_first_clip(&mut self) {
         if let Some(open) = &self.content.open
-            && let actor = &mut self.actor
-            && actor.player.show_clip(open, 0)
-            && !self.reduced_motion
+            && let Some(first) = open.first_clip()
         {
-            actor.player.playback.play();
+            let player = &mut self.actor.player;
+            player.show_clip(open, first);
+            if !self.reduced_motion {
+                player.playback.play();
+            }
         }
     }
 

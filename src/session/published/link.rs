@@ -3,17 +3,24 @@
 
 use std::collections::BTreeSet;
 
+use percent_encoding::percent_decode_str;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::link_fields::{CAMERA, FIELDS, PLAYING, TIME, degrees, read_degrees, read_number};
 use super::view_state::{CameraState, ViewState};
+use crate::model::Clip;
 use crate::scene::{Camera, Light, ViewPreset};
 use crate::session::Session;
+use crate::session::look::framing::is_same_shape;
 use crate::session::look::quality::QualityMode;
+use crate::session::look::view::Framed;
 
 /// The most characters of an address with a link: some programs with which people send addresses cut longer ones off.
 pub const MAX_LINK_LEN: usize = 2_000;
+
+/// The most characters of a value that is told of.
+const MOST_OF_VALUE: usize = 24;
 
 /// What a link says.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -50,15 +57,18 @@ impl Session {
         }
         let mut first = self.first_visit();
         let playback = &mut first.view.playback;
-        playback.time_secs = self.start_secs(&now.view).unwrap_or(playback.time_secs);
+        playback.time_secs = self
+            .clip_of(&now.view)
+            .map_or(playback.time_secs, |clip| clip.start_secs);
         // The link is for everyone, also where motion is not reduced.
         playback.playing = self.content.clip_count() > 0;
         fitting(self.fields(&now, &first), max_len)
     }
 
-    /// What a link says of the open model, and the names of what in it is damaged, unknown or not of this model.
+    /// What a link says of the open model, and the fields of it that are damaged, unknown or not of this model, cut short.
     pub fn read_link(&self, text: &str) -> (Linked, Vec<String>) {
-        self.read_fields(text, self.first_visit(), false)
+        let (linked, left_out) = self.read_fields(text, self.first_visit(), false);
+        (linked, told(text, left_out))
     }
 
     /// The same where what it does not name, or names wrongly, stays as it is now, with these panels open. Another clip begins at its start.
@@ -71,9 +81,10 @@ impl Session {
         let (_, left_out) = read(text);
         let understood: Vec<_> = text
             .split('&')
-            .filter(|field| !left_out.contains(&name(field)))
+            // A time beyond the clip is its end.
+            .filter(|field| name(field) == "t" || !left_out.contains(&name(field)))
             .collect();
-        (read(&understood.join("&")).0, left_out)
+        (read(&understood.join("&")).0, told(text, left_out))
     }
 
     fn seen_now(&self, panels: Vec<String>) -> Linked {
@@ -85,7 +96,7 @@ impl Session {
     }
 
     /// What `linked` becomes by the fields of a link. Without `has_time` it stands at the clip's start, unless they say when.
-    fn read_fields(&self, text: &str, mut linked: Linked, mut has_time: bool) -> (Linked, Vec<String>) {
+    fn read_fields(&self, text: &str, mut linked: Linked, mut has_time: bool) -> (Linked, BTreeSet<String>) {
         let mut left_out = BTreeSet::new();
         let mut camera = None;
         // No page writes one so long. Each field costs time.
@@ -95,8 +106,9 @@ impl Session {
             let (name, value) = field.split_once('=').unwrap_or((field, ""));
             let understood = match FIELDS.iter().find(|(known, ..)| *known == name) {
                 Some((_, place, form)) => {
-                    has_time |= *place == TIME;
-                    form.read(value).and_then(|value| with(&linked, place, value))
+                    let read = form.read(value).and_then(|value| with(&linked, place, value));
+                    has_time |= *place == TIME && read.is_some();
+                    read
                 }
                 None if name == CAMERA => read_camera(value).map(|read| {
                     camera = Some(read);
@@ -110,8 +122,11 @@ impl Session {
             }
         }
         left_out.extend(self.forget_foreign(&mut linked.view).into_iter().map(str::to_owned));
-        if !has_time && let Some(start_secs) = self.start_secs(&linked.view) {
-            linked.view.playback.time_secs = start_secs;
+        if let Some(clip) = self.clip_of(&linked.view) {
+            let time_secs = &mut linked.view.playback.time_secs;
+            let within = time_secs.max(clip.start_secs).min(clip.end_secs);
+            left_out.extend((has_time && within != *time_secs).then(|| "t".to_owned()));
+            *time_secs = if has_time { within } else { clip.start_secs };
         }
         if let Some(read) = camera {
             read.apply(
@@ -120,13 +135,18 @@ impl Session {
                 self.view.aspect,
             );
         }
-        (linked, left_out.into_iter().collect())
+        (linked, left_out)
+    }
+
+    fn first_clip(&self) -> Option<&Clip> {
+        let open = self.open_model()?;
+        open.model.clips.get(open.first_clip()?)
     }
 
     /// What somebody sees who opens this model with nothing chosen before.
     fn first_visit(&self) -> Linked {
         let mut view = ViewState::default();
-        if let Some(clip) = self.content.clips().first() {
+        if let Some(clip) = self.first_clip() {
             view.playback.clip = Some(clip.name.clone());
             view.playback.playing = !self.reduced_motion;
             view.playback.time_secs = clip.start_secs;
@@ -173,16 +193,18 @@ impl Session {
             return (angles != first_angles).then(|| numbers.join(","));
         }
         let lengths = [now.distance].into_iter().chain(now.target.to_array());
-        let shape = self.view.framed.then_some(self.view.aspect);
+        let shape = match self.view.framed {
+            Framed::No => None,
+            Framed::Yes => Some(self.view.aspect),
+            Framed::InShape(aspect) => Some(aspect),
+        };
         numbers.extend(lengths.chain(shape).map(|number| number.to_string()));
         Some(numbers.join(","))
     }
 
-    /// Where the clip of a state starts, seconds.
-    fn start_secs(&self, view: &ViewState) -> Option<f32> {
+    fn clip_of(&self, view: &ViewState) -> Option<&Clip> {
         let name = view.playback.clip.as_ref()?;
-        let clip = self.content.clips().iter().find(|clip| clip.name == *name)?;
-        Some(clip.start_secs)
+        self.content.clips().iter().find(|clip| clip.name == *name)
     }
 
     /// Takes out of a state what the open model does not have. Returns the names of those fields.
@@ -190,7 +212,7 @@ impl Session {
         let clips = self.content.clips();
         let has_clip = |name: &String| clips.iter().any(|clip| clip.name == *name);
         let submesh_count = self.submeshes().count();
-        let (open, first) = (self.open_model(), clips.first());
+        let (open, first) = (self.open_model(), self.first_clip());
         let bone_count = open.map_or(0, |open| open.model.skeleton.joint_of_bone().len());
         let vertex_count = open.map_or(0, |open| open.model.mesh.vertex_count());
         let has_bone = |bone: &u32| (*bone as usize) < bone_count;
@@ -238,9 +260,6 @@ impl Session {
     }
 }
 
-/// Windows whose shapes differ by less than this part show the same.
-const SAME_ASPECT: f32 = 0.01;
-
 /// What a link says of a camera: yaw and pitch, radians; distance; target.
 #[derive(Clone, Copy)]
 struct LinkedCamera {
@@ -254,10 +273,10 @@ struct LinkedCamera {
 impl LinkedCamera {
     /// In a picture of this shape. In one of another than the link's the model is framed anew.
     fn apply(self, camera: &mut CameraState, target_now: [f32; 3], aspect: f32) {
-        let is_of_shape = |of: f32| (of - aspect).abs() <= SAME_ASPECT * aspect;
-        let distance = self.distance.filter(|_| self.aspect.is_none_or(is_of_shape));
+        let shows_whole = self.aspect.is_none_or(|of| is_same_shape(of, aspect));
+        let distance = self.distance.filter(|_| shows_whole);
         [camera.yaw_radians, camera.pitch_radians] = self.angles_radians;
-        camera.framed = distance.is_none();
+        camera.framed = distance.is_none() || self.aspect.is_some();
         camera.distance = distance.unwrap_or(0.0);
         camera.target = self.target.unwrap_or(target_now);
     }
@@ -314,6 +333,21 @@ fn with(linked: &Linked, place: &str, value: Value) -> Option<Linked> {
     let mut json = json!(linked);
     *json.pointer_mut(place)? = value;
     serde_json::from_value(json).ok()
+}
+
+/// The fields of these names as they stand in a link, as far as they can be shown.
+fn told(text: &str, names: BTreeSet<String>) -> Vec<String> {
+    let field = |name: String| {
+        let mut fields = text.rsplit('&').filter_map(|field| field.split_once('='));
+        let Some((_, value)) = fields.find(|(of, _)| shortened(of) == name) else {
+            return name;
+        };
+        let value = percent_decode_str(value).decode_utf8_lossy();
+        let mut plain = value.chars().filter(|char| !char.is_control());
+        let start: String = plain.by_ref().take(MOST_OF_VALUE).collect();
+        format!("{name}={start}{}", if plain.next().is_some() { "…" } else { "" })
+    };
+    names.into_iter().map(field).collect()
 }
 
 /// A name of a damaged link, as far as it can be shown.

@@ -5,6 +5,7 @@ use crate::model::JointIndex;
 use crate::scene::Overlays;
 use crate::session::choose::selecting::{JointCommand, SubmeshCommand};
 use crate::session::look::LookCommand;
+use crate::session::look::view::Framed;
 use crate::session::play::mixer::Blend;
 use crate::session::{Event, Session};
 
@@ -41,10 +42,11 @@ impl Session {
         self.view.motion.interrupt();
         self.view.motion.set_turntable(state.camera.turntable);
         self.view.camera = state.camera.camera(state.appearance.light);
-        if state.camera.framed && state.camera.distance == 0.0 {
-            self.frame_model();
+        match state.camera {
+            CameraState { framed: false, .. } => self.view.framed = Framed::No,
+            CameraState { distance: 0.0, .. } => self.frame_model(),
+            _ => self.hold_framed(),
         }
-        self.view.framed = state.camera.framed;
     }
 
     fn restore_appearance(&mut self, state: &AppearanceState) {

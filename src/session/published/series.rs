@@ -3,6 +3,7 @@
 //! For each picture the copy is sought and turned, so it shows what its time alone gives, to the byte.
 
 use crate::scene::{Camera, Insets, RenderFrame, Shot};
+use crate::session::look::view::Framed;
 use crate::session::play::playing::PlayCommand;
 use crate::session::{CameraCommand, Session};
 
@@ -28,7 +29,7 @@ impl Series {
             session.view.camera = goal;
         }
         session.view.motion = Default::default();
-        if session.view.framed && shots.iter().any(|shot| shot.turn_radians.is_some()) {
+        if session.view.framed != Framed::No && shots.iter().any(|shot| shot.turn_radians.is_some()) {
             session.frame_all_round();
         }
         Self {

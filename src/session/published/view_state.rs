@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::anim::{GhostPlan, LoopMode, SkinView, WrapMode};
 use crate::model::{Handedness, UpAxis};
 use crate::scene::{Background, BoneStyle, Camera, Light, MAX_PITCH_RADIANS, Overlay, Projection, ViewMode};
-use crate::session::look::view::View;
+use crate::session::look::view::{Framed, View};
 use crate::session::open::open_model::OpenModel;
 use crate::session::play::actor::Actor;
 use crate::session::play::instances::CrowdState;
@@ -167,7 +167,7 @@ impl CameraState {
             yaw_radians: camera.yaw_radians,
             pitch_radians: camera.pitch_radians,
             orthographic: camera.projection == Projection::Orthographic,
-            framed: view.framed,
+            framed: view.framed != Framed::No,
             turntable: view.motion.turntable(),
         }
     }

@@ -2,6 +2,7 @@
 
 use super::export::{Export, ExportCommand, ExportOptions, ExportRange, Exporting, Made, Stamp};
 use super::export_job::{ExportJob, ExportRefusal, ExportedFile, ToExport};
+use crate::check::book::DEMO_CLIP;
 use crate::edit::{Change, Edits};
 use crate::model::Front;
 use crate::session::Session;
@@ -179,6 +180,13 @@ impl Session {
                 .is_some_and(|open| open.kept_in_place().any(|(kept, _)| kept == name))
         };
         let to_keep = || chosen().into_iter().filter(|name| !is_kept(name)).collect();
+        let for_book = options.for_book && options.format.is_m3d();
+        // The first of them gets the demo's name by itself.
+        let first = chosen().into_iter().next();
+        let watched = self
+            .demo_clip(options)
+            .filter(|name| for_book && first.as_deref() != Some(*name));
+        let watched = watched.filter(|name| *name != DEMO_CLIP);
         let edits = Edits {
             clips: options.clips.clone(),
             in_place: if options.in_place { to_keep() } else { Vec::new() },
@@ -189,13 +197,40 @@ impl Session {
             },
             close_loop_secs: options.close_loop_secs,
             reduce: options.reduce,
-            for_book: options.for_book && options.format.is_m3d(),
+            for_book,
+            clip_names: watched
+                .map(|name| (name.to_owned(), DEMO_CLIP.to_owned()))
+                .into_iter()
+                .collect(),
             ..Edits::default()
         };
         match self.open_model() {
             Some(open) if is_of_book => edits.in_space_of_the_books(&open.model),
             _ => edits,
         }
+    }
+
+    /// The clip that the books' demo plays of a file that is made for it: `Take1` where one that is kept has that name, else the clip on show,
+    /// else the first that is kept.
+    pub fn demo_clip(&self, options: &ExportOptions) -> Option<&str> {
+        let is_kept = |name: &&str| {
+            options
+                .clips
+                .as_ref()
+                .is_none_or(|kept| kept.iter().any(|kept| kept == name))
+        };
+        let kept = || {
+            self.content
+                .clips()
+                .iter()
+                .map(|clip| clip.name.as_str())
+                .filter(is_kept)
+        };
+        let shown = self.clip().map(|clip| clip.name.as_str()).filter(is_kept);
+        kept()
+            .find(|name| *name == DEMO_CLIP)
+            .or(shown)
+            .or_else(|| kept().next())
     }
 
     /// The timeline's range, where its clip is the only one of these.

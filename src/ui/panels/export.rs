@@ -1,9 +1,11 @@
 //! Saves the model as a file of another format: what is kept of it, what that changes, and what the format does not hold.
 
+use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
 use egui::{Align, Color32, Label, Layout, ProgressBar, Rangef, RichText, Sense, Ui, vec2};
 
+use crate::check::book::DEMO_CLIP;
 use crate::session::{Command, Export, ExportCommand, ExportFormat, ExportOptions, ExportRange, Session};
 use crate::ui::cx::Cx;
 use crate::ui::kit::theme::{CONTROL_RADIUS, Tokens};
@@ -91,7 +93,7 @@ fn choices(ui: &mut Ui, cx: &mut Cx<'_, UiState>) {
         let formats: Vec<_> = formats.map(|format| (format, format.label())).collect();
         choose(ui, "Format", &formats, &mut choice.options.format);
         ui.add_space(6.0);
-        demo(ui, &mut choice.options);
+        demo(ui, session, &mut choice.options);
         ui.add_space(6.0);
         clip_list(ui, session, &mut choice.options);
         edits(ui, session, &mut choice.options);
@@ -190,23 +192,26 @@ fn edits(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
 }
 
 /// The switch for what the books' programs need, and what that means.
-fn demo(ui: &mut Ui, options: &mut ExportOptions) {
+fn demo(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
     let is_of_book = options.format.is_m3d();
-    ui.add_enabled_ui(is_of_book, |ui| {
-        let demo = switch_row(ui, "For the book's demo", "", is_of_book && options.for_book)
-            .on_hover_text("Size, names, bones and keys as the books' programs need them");
-        if demo.clicked() {
-            options.for_book = !options.for_book;
+    let demo = switch_row(ui, "For the book's demo", "", is_of_book && options.for_book)
+        .on_hover_text("Size, names, bones and keys as the books' programs need them");
+    if demo.clicked() {
+        options.for_book = !(is_of_book && options.for_book);
+        if !is_of_book {
+            options.format = ExportFormat::D3d12;
         }
-    });
-    let keeps_none = options.clips.as_ref().is_some_and(Vec::is_empty);
-    let words = match (is_of_book, options.for_book) {
-        (false, _) if options.format == ExportFormat::Text => "The demos of what stands still read it.",
-        (false, _) => "A demo of the books reads .m3d only.",
-        (true, true) if keeps_none => "No clip is kept: the demo shows the model standing still.",
-        (true, true) => "The demo plays one clip, Take1: the first one that is kept. Maps come along as DDS.",
+    }
+    let words: Cow<'_, str> = match (is_of_book, options.for_book) {
+        (false, _) if options.format == ExportFormat::Text => "The demos of what stands still read it.".into(),
+        (false, _) => "A demo of the books reads .m3d only: the switch chooses that.".into(),
+        (true, true) => match session.demo_clip(options) {
+            None => "No clip is kept: the demo shows the model standing still.".into(),
+            Some(DEMO_CLIP) => "The demo plays one clip, Take1. Maps come along as DDS.".into(),
+            Some(name) => format!("The demo plays \u{201c}{name}\u{201d}, as Take1. Maps come along as DDS.").into(),
+        },
         (true, false) => {
-            "The demo may show nothing: it wants a clip Take1, keys for each bone, its size, and maps as DDS."
+            "The demo may show nothing: it wants a clip Take1, keys for each bone, its size, and maps as DDS.".into()
         }
     };
     let size = vec2(ui.available_width(), DEMO_WORDS_HEIGHT);

@@ -87,3 +87,16 @@ test("what a life was to bring back goes to the next one, if it ends before", as
   life.show();
   assert.equal(life.finish(), kept, "before its files are open");
 });
+
+test("clips that no longer fit are told, and the model is shown without them", async () => {
+  const viewer = viewerOf();
+  viewer.addClips = async () => ({ ...viewer.state(), error: { message: "walk.m3d has no clips to add." } });
+  const kept = { files: [file("a.m3d")], clips: [file("walk.m3d")], moment: "t=1" };
+  const life = await lifeOf(viewer, kept);
+  const heard = [];
+  Object.assign(life.teller, { error: ({ message }) => heard.push(message), load: () => heard.push("load") });
+  await life.show();
+  assert.deepEqual(heard, ["walk.m3d has no clips to add.", "load"]);
+  assert.deepEqual(viewer.asked, ["open a.m3d 1", "t=1"]);
+  life.finish();
+});

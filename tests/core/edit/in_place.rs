@@ -76,3 +76,18 @@ fn an_arm_that_is_pulled_leads_nobody_away() {
     assert!(leads(1), "all but three bones go with it");
     assert!(!leads(10), "one bone goes with it");
 }
+
+#[test]
+fn how_far_a_root_stands_from_the_origin_says_nothing_of_its_way() {
+    let leads = |far: f32| {
+        let mut clip = rigs::single("walk", 12);
+        clip.bones[0] = track([key(0.0, [far, 0.0, 0.0]), key(1.0, [far + 2.0, 0.0, 0.0])]);
+        let mut document = rigs::rig(12, vec![clip]);
+        for offset in &mut document.bone_offsets {
+            offset[12] = -far;
+        }
+        let model = model_of(&document).0;
+        leads_away(&model, &model.clips[0])
+    };
+    assert_eq!([0.0, 1_000.0].map(leads), [true; 2]);
+}

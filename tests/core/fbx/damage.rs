@@ -6,7 +6,7 @@ use bindpose::import::import;
 use bindpose::session::{File, FileCommand, Session};
 
 use super::surface::skinned;
-use super::{Binary, array, text};
+use crate::binary_fbx::{Binary, array, text};
 
 #[test]
 fn damage_names_the_object_and_its_property() {

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use bindpose::anim::{CompiledClip, LoopMode, WrapMode, loop_gap};
 use bindpose::format::Document;
 use bindpose::model::JointIndex;
-use bindpose::session::PlayCommand;
+use bindpose::session::{MAX_LINK_LEN, PlayCommand, Session};
 
 use super::{models, opened};
 use crate::rigs;
@@ -104,4 +104,24 @@ fn the_loop_gap_is_that_of_what_loops() {
     session.apply(PlayCommand::SetLoopMode(LoopMode::Loop));
     session.apply(PlayCommand::SelectClip(1));
     assert_eq!(session.loop_gap(), None, "one pose loops nowhere");
+}
+
+#[test]
+fn the_first_clip_that_moves_is_shown_first_and_a_link_knows_that() {
+    for (names, shown) in [(["rest", "walk", "run"], "walk"), (["walk", "rest", "run"], "walk")] {
+        let clips = names.map(|name| match name {
+            "rest" => rigs::single(name, 12),
+            _ => rigs::even(name, 12, 0.0, 9, 4.0),
+        });
+        let mut session = opened(models::file("hero.m3d", &rigs::rig(12, clips.to_vec())));
+        assert_eq!(session.clip().expect("it has clips").name, shown);
+        let link = |session: &Session| session.link(Vec::new(), MAX_LINK_LEN).text;
+        assert_eq!(link(&session), "");
+        let rest = names.iter().position(|name| *name == "rest").expect("it is one");
+        session.apply(PlayCommand::SelectClip(rest));
+        assert!(link(&session).contains("clip=rest"), "{}", link(&session));
+    }
+    let still = vec![rigs::single("rest", 12), rigs::single("other", 12)];
+    let session = opened(models::file("hero.m3d", &rigs::rig(12, still)));
+    assert_eq!(session.clip().expect("it has clips").name, "rest", "none moves");
 }

@@ -6,6 +6,7 @@ use bindpose::edit::{self, Edits};
 use bindpose::export;
 use bindpose::format::Dialect;
 use bindpose::image::encode_png;
+use bindpose::import::import;
 use bindpose::model::{Handedness, JointNames, MapSlot, UpAxis};
 use bindpose::session::{
     Command, ExportCommand, ExportFormat, ExportOptions, ExportRange, ExportedFile, File, FileCommand, HistoryCommand,
@@ -19,6 +20,7 @@ use serde_json::json;
 use super::models::{document, file, moving, skinned, still};
 use super::{dropped, opened};
 use crate::gltf_files::Gltf;
+use crate::rigs;
 
 fn options(format: ExportFormat) -> ExportOptions {
     ExportOptions {
@@ -781,4 +783,40 @@ fn metalness_of_a_picture_comes_along_in_the_diffuse_map_and_is_told() {
             assert_eq!(texels[4..], [0, 0, 0, 255]);
         }
     }
+}
+
+#[test]
+fn the_demo_plays_the_clip_that_is_watched_where_it_is_written() {
+    let clips = |names: &[&str]| {
+        let all = names.iter().map(|name| rigs::even(name, 12, 0.0, 9, 4.0));
+        file("hero.m3d", &rigs::rig(12, all.collect()))
+    };
+    for (names, watched, kept, played) in [
+        (["walk", "run"], 0, None, "walk"),
+        (["walk", "run"], 1, None, "run"),
+        (["walk", "run"], 1, only("walk"), "walk"),
+        (["walk", "Take1"], 0, None, "Take1"),
+    ] {
+        let mut session = opened(clips(&names));
+        session.apply(PlayCommand::SelectClip(watched));
+        let options = ExportOptions {
+            clips: kept,
+            ..for_book(ExportFormat::D3d12)
+        };
+        assert_eq!(session.demo_clip(&options), Some(played), "{names:?} {watched}");
+        let job = session.export_job(&options).expect("a model is open");
+        let written = job.run_apart().expect("it can be written");
+        let model = import(&written.bytes).expect("it is read").model;
+        let place = |name: &str| model.clips.iter().position(|clip| clip.name == name);
+        let wanted = match options.clips {
+            Some(_) => 0,
+            None => names.iter().position(|name| *name == played).expect("it is one"),
+        };
+        assert_eq!(place("Take1"), Some(wanted), "{names:?} {watched}");
+    }
+    let none = ExportOptions {
+        clips: Some(Vec::new()),
+        ..for_book(ExportFormat::D3d12)
+    };
+    assert_eq!(opened(clips(&["walk"])).demo_clip(&none), None);
 }

@@ -118,7 +118,7 @@ fn a_link_names_clips_that_are_there_even_those_called_a_number() {
     let (linked, left_out) = elsewhere.read_link("inplace=1,fly");
     assert_eq!(
         (linked.view.playback.in_place, left_out),
-        (vec!["1".to_owned()], vec!["inplace".to_owned()])
+        (vec!["1".to_owned()], vec!["inplace=1,fly".to_owned()])
     );
 }
 

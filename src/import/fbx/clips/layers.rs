@@ -110,19 +110,16 @@ impl Layer {
             let connections = curve_node.children.len() + curve_node.parents.len();
             file.budget
                 .keep(BYTES_PER_CONNECTION * connections as u64, curve_node.record.place)?;
-            let moves = |parent: &Connection| Some((node_of(nodes, parent.to)?, Property::named(&parent.property)?));
+            let moves =
+                |parent: &Connection<'_>| Some((node_of(nodes, parent.to)?, Property::named(&parent.property)?));
             let first = curve_node.parents.iter().find(|parent| moves(parent).is_some());
             let first = first.map(|parent| format!("{}, {}", objects.get(parent.to).name, parent.property));
             let mut axes = Axes {
                 without: ["d|X", "d|Y", "d|Z"].map(|name| curve_node.number(name).filter(|number| number.is_finite())),
                 ..Axes::default()
             };
-            for child in &curve_node.children {
-                let curve = objects.get(child.to);
-                if curve.record.name != "AnimationCurve" {
-                    continue;
-                }
-                let axis = match child.property.as_str() {
+            for child in objects.hanging(curve_node, "AnimationCurve") {
+                let axis = match &*child.property {
                     "d|X" | "d|Weight" => 0,
                     "d|Y" => 1,
                     "d|Z" => 2,
@@ -131,7 +128,7 @@ impl Layer {
                 let known = match curves.get(&child.to) {
                     Some(known) => Rc::clone(known),
                     None => Rc::new(Curve::read(
-                        curve.record,
+                        objects.get(child.to).record,
                         file,
                         first.as_deref().unwrap_or(&curve_node.name),
                     )?),

@@ -97,7 +97,8 @@ impl<'s> Motion<'s> {
     fn parts(&self, model: u32, properties: &[Property], moment: (f64, bool)) -> Parts {
         let transform = &self.nodes.transforms[model as usize];
         let layers = self.layers_of(model);
-        self.take(layers.len() * properties.len());
+        // One that nothing moves is looked at all the same.
+        self.take((layers.len() * properties.len()).max(1));
         let mut parts = transform.parts();
         for &(layer, moved, is_lowest) in layers {
             layer.add_to(&mut parts, (moved, properties), transform, moment, is_lowest);
@@ -148,11 +149,12 @@ impl<'s> Motion<'s> {
             Property::Rotation => Vec::new(),
             _ => self.nodes.scales_of(model),
         };
-        let layers = self.layers_of(model).len() * properties.len()
-            + above.iter().map(|&above| self.layers_of(above).len()).sum::<usize>();
-        if layers == 0 {
+        let of_above = above.iter().map(|&above| self.layers_of(above).len());
+        let own = self.layers_of(model).len() * properties.len();
+        if own + of_above.clone().sum::<usize>() == 0 {
             return Some(Fitted::Rest(None));
         }
+        let layers = own + of_above.map(|layers| layers.max(1)).sum::<usize>();
         let may_ask = |times: &[f64]| {
             let least = EVALUATIONS_PER_KEY * times.len() as u64 * layers as u64;
             self.evaluations_left.get() >= least.max(1)
