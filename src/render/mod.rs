@@ -9,6 +9,7 @@
 //! into and then read have eight bits a channel, but for the mean of a picture at rest, which is left out where half floats cannot be drawn.
 
 mod accumulator;
+mod affordable;
 mod band;
 mod blending;
 mod buffers;

@@ -5,12 +5,13 @@ use std::ops::Range;
 use std::task::Poll;
 
 use super::accumulator::Accumulator;
+use super::affordable::bytes_of_mean;
 use super::band::Band;
 use super::buffers::Queue;
 use super::composite::Compositor;
 use super::device::{GpuAnswer, GpuError, answer_at_once, watched};
 use super::read_back::{Pending, ReadBackError};
-use super::target::{SampleCount, Target, bytes_of_mean, pixels};
+use super::target::{SampleCount, Target, pixels};
 use super::timing::FrameEncoder;
 use super::uniforms::map_band;
 use crate::scene::RenderFrame;

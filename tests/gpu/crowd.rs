@@ -322,8 +322,8 @@ on_both_backends! {
         assert_eq!(uploaded(|scene| scene.crowd_palettes[0] = Affine3A::from_scale(Vec3::splat(1.5))), ROW_BYTES);
         assert_eq!(uploaded(|scene| scene.crowd_palettes[599] = Affine3A::IDENTITY), ROW_BYTES);
         assert_eq!(uploaded(|scene| scene.crowd_palettes[300..].fill(Affine3A::IDENTITY)), 2 * ROW_BYTES);
-        // The own instance twice, the crowd, the highlight.
-        let instances = 303 * INSTANCE_BYTES;
+        // The own instance four times, the crowd, the highlight.
+        let instances = 305 * INSTANCE_BYTES;
         assert_eq!(uploaded(|scene| scene.crowd[7].world_from_model = Affine3A::IDENTITY), instances);
         assert_eq!(uploaded(|scene| scene.crowd.swap(3, 4)), instances);
     }
