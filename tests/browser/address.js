@@ -202,7 +202,7 @@ test("a phone opens the link of a desk", { ...OWN, phone: true }, async (page) =
 
 const GREETED = { ...OWN, firstVisit: true, prepare: listen };
 
-test("a link to a dropped file waits for it, by its name and by its bytes", GREETED, async (page) => {
+test("a link to a dropped file waits for it, by its name and by its bytes", { ...GREETED, draws: true }, async (page) => {
   const bytes = await readFile(SAMPLE);
   const file = (name, bytes) => ({ name, mimeType: "text/plain", buffer: bytes });
   const choose = (name, bytes) => page.setInputFiles("#files", file(name, bytes));
