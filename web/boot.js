@@ -42,6 +42,9 @@ const isFramed = ["transport", "none"].includes(options.get("ui"));
 if (isFramed && parent !== window) {
   letScroll(view);
   [document.documentElement, document.body].forEach(({ classList }) => classList.add("framed"));
+  const whole = element("whole");
+  whole.hidden = options.get("ui") === "none";
+  whole.onclick = whole.onpointerdown = () => (whole.href = bindpose.link().replace("ui=transport", ""));
 }
 
 let viewer = null;

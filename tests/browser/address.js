@@ -47,11 +47,16 @@ test("the address follows what is seen once that rests", OWN, async (page) => {
   await page.mouse.up();
   await page.waitForFunction(() => /&cam=(-?[\d.]+,){6}[\d.]+$/.test(location.hash), null, { polling: 50 });
   assert.equal(await page.evaluate(() => history.length), 2, "no step of the history");
-  const { camera } = await state(page);
+  const { camera, link } = await state(page);
   await page.reload();
   await running(page);
   const apart = (one, other) => Math.hypot(one.distance - other.distance, ...one.target.map((at, axis) => at - other.target[axis]));
   await until(page, ({ timeSecs, playing, camera: now }) => timeSecs === 1 && !playing && now.yawRadians === camera.yawRadians && apart(now, camera) < 1e-4 * camera.distance);
+  // Whoever follows it has the same link, and in a window of another shape the model is framed.
+  await atRest(page);
+  assert.equal((await state(page)).link, link);
+  await page.setViewportSize({ width: 480, height: 600 });
+  await until(page, ({ camera: now, link }) => /&cam=[^,]+,[^,]+$/.test(link) && now.yawRadians === camera.yawRadians);
 });
 
 test("back and forward go from link to link, also to the models that were open", OWN, async (page) => {
@@ -136,7 +141,8 @@ test("a link wins over what else the address says and over what is kept, and is 
   await page.evaluate((chosen) => localStorage.setItem("bindpose.kept", JSON.stringify(chosen)), chosen);
   const { crowd, look } = await open("&crowd=2&quality=full#t=0.5&play=0&crowd=3&quality=low");
   assert.deepEqual([crowd.count, look.quality, look.light], [3, "low", "studio"]);
-  assert.equal((await open("")).look.light, "book");
+  const { look: { light }, link } = await open("");
+  assert.deepEqual([light, link.split("&").includes("light=book")], ["book", true], "elsewhere it is not kept");
   assert.deepEqual(await kept(), chosen);
   await page.evaluate(() => localStorage.setItem("bindpose.kept", JSON.stringify({ greeted: true })));
   assert.equal((await open("#t=0.5&play=0&light=book")).look.light, "book");
@@ -196,7 +202,7 @@ test("a phone opens the link of a desk", { ...OWN, phone: true }, async (page) =
 
 const GREETED = { ...OWN, firstVisit: true, prepare: listen };
 
-test("a link to a dropped file waits for it, by its name and by its bytes", GREETED, async (page) => {
+test("a link to a dropped file waits for it, by its name and by its bytes", { ...GREETED, draws: true }, async (page) => {
   const bytes = await readFile(SAMPLE);
   const file = (name, bytes) => ({ name, mimeType: "text/plain", buffer: bytes });
   const choose = (name, bytes) => page.setInputFiles("#files", file(name, bytes));
@@ -245,6 +251,12 @@ test("a page of notes frames a moment with its timeline, or the picture alone", 
       waits,
     );
     assert.deepEqual(await frame.evaluate(controls), wanted);
+    const whole = frame.getByRole("link", { name: "Open in Bindpose" });
+    assert.equal(await whole.count(), wanted.length ? 1 : 0);
+    if (wanted.length) {
+      await whole.dispatchEvent("pointerdown");
+      assert.equal((await whole.getAttribute("href")).replace("&#", "#"), `${PAGE}${QUERY}#clip=Walk&t=0.5&play=0`);
+    }
     assert.ok((await coloursOnScreen(page)) > 200, ui);
     await keep(page, `framed-${ui}`);
     // The page scrolls over it.

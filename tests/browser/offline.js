@@ -63,7 +63,7 @@ async function keptWhole(page, build, programs = 1) {
 const used = (page) =>
   page.evaluate(() => performance.getEntriesByType("resource").map(({ name }) => new URL(name).pathname.slice("/some/where/".length)).filter((name) => /\.[0-9a-f]{16}\./.test(name)));
 
-test("after one visit the page opens without a network, and a file that is dropped then", {}, async (page, host) => {
+test("after one visit the page opens without a network, and a file that is dropped then", { draws: true }, async (page, host) => {
   await visit(page, host);
   const build = await buildOf(page);
   const builds = await keptWhole(page, build);
@@ -151,7 +151,7 @@ test("a newer build says so, is taken by a click and leaves the pages of the old
   assert.equal(await buildOf(page), two);
 });
 
-test("a newer build that came during a visit is taken by the next one, whole", {}, async (page, host) => {
+test("a newer build that came during a visit is taken by the next one, whole", { draws: true }, async (page, host) => {
   await visit(page, host);
   const one = await buildOf(page);
   await keptWhole(page, one);
@@ -224,6 +224,7 @@ test("a build that does not arrive whole is left alone, and the one before it op
 });
 
 test("a file that the system opens with the page is a drop, and R reads it again", {
+  draws: true,
   prepare: (page) =>
     page.addInitScript(() => {
       const launchQueue = { setConsumer: (consumer) => (globalThis.launch = consumer) };
@@ -322,6 +323,7 @@ test("installed, it opens in a window of its own, and with the files that the sy
 });
 
 test("what another program shares goes through the worker, opens as a drop and is kept no longer", {
+  draws: true,
   // Its address says nothing else.
   prepare: (page) => page.addInitScript(() => localStorage.setItem("bindpose.kept", JSON.stringify({ greeted: true, quality: "low" }))),
 }, async (page, host) => {

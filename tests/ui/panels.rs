@@ -288,6 +288,18 @@ fn behind_the_dots_of_a_phone_is_all_that_the_bar_has() {
 }
 
 #[test]
+fn the_menu_of_a_phone_copies_links() {
+    let mut window = phone(vec![moving("a.m3d")]);
+    for (name, embed) in [("Copy link", false), ("Copy embed", true)] {
+        window.click("More");
+        window.click(name);
+        assert!(!window.shows(name), "the menu is shut");
+        let last = window.harness.state().requests.last();
+        assert_eq!(last, Some(&Request::CopyLink { embed }));
+    }
+}
+
+#[test]
 fn missing_and_damaged_maps_are_listed_with_the_materials_that_want_them() {
     let mut document = models::document();
     let painted = document.materials[0].clone();
