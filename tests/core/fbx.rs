@@ -9,7 +9,7 @@ mod surface;
 
 use bindpose::diagnostic::{Fault, Position};
 use bindpose::fbx::{Budget, Document, Record, begins_like_fbx, parse};
-use bindpose::import::import;
+use bindpose::import::{Imported, import};
 
 use proptest::prelude::*;
 
@@ -212,6 +212,12 @@ fn count(record: &Record<'_>) -> (usize, usize) {
     inner.fold((1, record.values.len()), |(records, values), (more, others)| {
         (records + more, values + others)
     })
+}
+
+/// What is told of a file with this code.
+fn told<'a>(imported: &'a Imported, code: &str) -> Vec<&'a str> {
+    let findings = imported.diagnostics.iter().filter(|finding| finding.code == code);
+    findings.map(|finding| &*finding.message).collect()
 }
 
 /// The real files of a folder.
