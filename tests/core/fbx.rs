@@ -9,7 +9,7 @@ mod surface;
 
 use bindpose::diagnostic::{Fault, Position};
 use bindpose::fbx::{Budget, Document, Record, begins_like_fbx, parse};
-use bindpose::import::import;
+use bindpose::import::{Imported, import};
 
 use proptest::prelude::*;
 
@@ -196,6 +196,8 @@ fn what_is_wrong_is_told_with_its_place() {
     }
     let deep = format!("; FBX 7.4.0 project file\n{}", "A: {\n".repeat(100));
     assert!(place(&deep).1.contains("one in the other"));
+    let long = place(&format!("; FBX 7.4.0 project file\n{} ", "x".repeat(1 << 20)));
+    assert!(long.1.len() < 200, "words are cut");
     let sound = mesh(&array(b'i', 1, false, &[0; 4]));
     assert_eq!(fault(&Binary::new(5000).0).code, "fbx-version");
     assert_eq!(fault(b"; FBX 5.1.0 project file\n").code, "fbx-version");
@@ -212,6 +214,12 @@ fn count(record: &Record<'_>) -> (usize, usize) {
     inner.fold((1, record.values.len()), |(records, values), (more, others)| {
         (records + more, values + others)
     })
+}
+
+/// What is told of a file with this code.
+fn told<'a>(imported: &'a Imported, code: &str) -> Vec<&'a str> {
+    let findings = imported.diagnostics.iter().filter(|finding| finding.code == code);
+    findings.map(|finding| &*finding.message).collect()
 }
 
 /// The real files of a folder.

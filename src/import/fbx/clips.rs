@@ -1,8 +1,8 @@
 //! Animation stacks as clips: layers over each other, Euler angles as rotations, curves as keys of our channels.
 //!
 //! A stack is evaluated as FBX says; from what comes out a channel is made that is off from it by at most `MOST_OFF` wherever it is looked at, at three places
-//! from key to key: held or straight between the file's keys where that is enough, else a spline. That has as many keys as it takes, up to 128 ways between two
-//! of the file's, while the file's evaluations last. Channels that stay are at rest.
+//! from key to key: held or straight between those of the file's keys that it needs where that is enough, else a spline. That has as many keys as it takes, up
+//! to 128 ways between two of the file's, while the file's evaluations last. Channels that stay are at rest.
 
 mod fitting;
 mod layers;

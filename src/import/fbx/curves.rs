@@ -11,6 +11,9 @@ pub(super) const TICKS_PER_SEC: f64 = 46_186_158_000.0;
 /// Keys that repeating adds at most on each side.
 const MOST_REPEATED: usize = 1000;
 
+/// Times that are nearer to each other are the same: those of repeated keys are sums of others.
+const SAME_SECS: f64 = 1e-9;
+
 /// Of a tangent without a weight of its own: a third of the way to the next key.
 const PLAIN_WEIGHT: f64 = 1.0 / 3.0;
 
@@ -52,7 +55,8 @@ enum Beyond {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Curve {
     keys: Vec<Key>,
-    beyond: [Beyond; 2],
+    /// What it does before and behind them, and how often it repeats itself there at most.
+    beyond: [(Beyond, u32); 2],
 }
 
 /// Bits of `KeyAttrFlags`.
@@ -87,15 +91,17 @@ impl Curve {
             Some([start, end]) if length > 0.0 => [ends[0] - start, end - ends[1]].map(|beyond| beyond.max(0.0)),
             _ => [0.0; 2],
         };
-        let turns = |beyond: f64, way: Beyond| match way {
+        let turns = |beyond: f64, (way, most): (Beyond, u32)| match way {
             Beyond::Constant | Beyond::Slope => 0,
-            _ => ((beyond / length).ceil() as usize).min(MOST_REPEATED / self.keys.len().max(1)),
+            _ => ((beyond / length).ceil() as usize)
+                .min(MOST_REPEATED / self.keys.len().max(1))
+                .min(most as usize),
         };
         let [before, after] = [turns(before, self.beyond[0]), turns(after, self.beyond[1])];
         (0..=before + after).flat_map(move |turn| {
             let turn = turn as f64 - before as f64;
             // A mirrored turn has its keys the other way round.
-            let is_back = turn.rem_euclid(2.0) == 1.0 && self.beyond[usize::from(turn > 0.0)] == Beyond::Mirror;
+            let is_back = turn.rem_euclid(2.0) == 1.0 && self.beyond[usize::from(turn > 0.0)].0 == Beyond::Mirror;
             let place = move |secs: f64| if is_back { ends[1] - secs } else { secs - ends[0] };
             self.times_secs().map(move |secs| ends[0] + turn * length + place(secs))
         })
@@ -105,31 +111,43 @@ impl Curve {
     pub(super) fn at(&self, secs: f64, is_before: bool) -> Option<f64> {
         let (first, last) = (self.keys.first()?, self.keys.last()?);
         let length = last.secs - first.secs;
-        let (beyond, away) = match secs {
-            _ if secs < first.secs => (self.beyond[0], secs - first.secs),
-            _ if secs > last.secs => (self.beyond[1], secs - last.secs),
-            _ => return Some(self.within(secs, is_before)),
+        // At an end it may go on with another value.
+        let is_past = |away: f64, is_this_side: bool| away > if is_this_side { SAME_SECS } else { -SAME_SECS };
+        let is_behind = is_past(secs - last.secs, is_before);
+        if !is_behind && !is_past(first.secs - secs, !is_before) {
+            return Some(self.within(secs, is_before));
+        }
+        let (beyond, most) = self.beyond[usize::from(is_behind)];
+        let end = if is_behind { last } else { first };
+        if beyond == Beyond::Slope {
+            // As it goes on from the one, or comes to the other.
+            return Some(end.value + (secs - end.secs) * end.slopes[usize::from(!is_behind)]);
+        }
+        if beyond == Beyond::Constant || length <= 0.0 || most == 0 {
+            return Some(end.value);
+        }
+        // Turns since the first key, downwards before it. At a seam one ends and the next begins.
+        let turns = (secs - first.secs) / length;
+        let seam = turns.round();
+        let turn = match (turns - seam).abs() * length < SAME_SECS {
+            true if is_before => seam - 1.0,
+            true => seam,
+            false => turns.floor(),
         };
-        let end = if away < 0.0 { first } else { last };
-        // Turns since the first key, downwards before it.
-        let turns = ((secs - first.secs) / length).floor();
-        let into = (secs - first.secs) - turns * length;
-        Some(match beyond {
-            Beyond::Slope => end.value + away * end.slopes[usize::from(away > 0.0)],
-            Beyond::Repeat if length > 0.0 => self.within(first.secs + into, is_before),
-            Beyond::RepeatOnwards if length > 0.0 => {
-                self.within(first.secs + into, is_before) + turns * (last.value - first.value)
-            }
-            Beyond::Mirror if length > 0.0 => {
-                let into = if turns.rem_euclid(2.0) == 0.0 {
-                    into
-                } else {
-                    length - into
-                };
-                self.within(first.secs + into, is_before)
-            }
-            _ => end.value,
-        })
+        // Behind the last one it stays where that ends.
+        let held = turn.clamp(-f64::from(most), f64::from(most));
+        let into = (secs - first.secs - held * length).clamp(0.0, length);
+        let is_back = beyond == Beyond::Mirror && held.rem_euclid(2.0) == 1.0;
+        let place = first.secs + if is_back { length - into } else { into };
+        let near = self.keys.partition_point(|key| key.secs < place - SAME_SECS);
+        let key = self.keys.get(near).filter(|key| key.secs <= place + SAME_SECS);
+        let value = self.within(key.map_or(place, |key| key.secs), turn == held && is_before != is_back);
+        let jump = if beyond == Beyond::RepeatOnwards {
+            last.value - first.value
+        } else {
+            0.0
+        };
+        Some(value + held * jump)
     }
 
     /// Between the first key and the last.

@@ -5,7 +5,7 @@ use super::images::Images;
 use super::objects::{Object, ObjectIndex, Objects};
 use crate::diagnostic::collect::{Few, counted};
 use crate::diagnostic::{Subject, codes};
-use crate::model::{AlphaMode, Material, MaterialMap, Reflectance, unique_names};
+use crate::model::{AlphaMode, Layers, Material, MaterialMap, Reflectance, unique_names};
 
 /// The names that programs give what we have, the most telling first. Where there are several, all but the first are of
 /// Autodesk's physical materials: Stingray's of Maya, and 3ds Max's of three kinds.
@@ -34,6 +34,19 @@ mod names {
         "3dsMax|main|roughness",
         "3dsMax|main|glossiness",
         "3dsMax|main|Glossiness",
+    ];
+    pub(super) const METALLIC_MAP: &[&str] = &[
+        "Maya|TEX_metallic_map",
+        "Maya|metalness",
+        "3dsMax|Parameters|metalness_map",
+        "3dsMax|main|metalness_map",
+    ];
+    pub(super) const ROUGHNESS_MAP: &[&str] = &[
+        "Maya|TEX_roughness_map",
+        "Maya|specularRoughness",
+        "3dsMax|Parameters|roughness_map",
+        "3dsMax|main|Roughness_Map",
+        "3dsMax|main|roughness_map",
     ];
     /// 1 where the number is glossiness.
     pub(super) const IS_GLOSSINESS: &[&str] = &["3dsMax|Parameters|roughness_inv", "3dsMax|main|useGlossiness"];
@@ -173,6 +186,11 @@ fn material(
         found.map(|(_, map)| map.clone())
     };
     let [diffuse_map, emissive_map, opacity_map] = [names::COLOR_MAP, names::EMISSIVE_MAP, names::OPACITY_MAP].map(map);
+    let is_glossiness = number(object, names::IS_GLOSSINESS) == Some(1.0);
+    let roughness_map = map(names::ROUGHNESS_MAP).filter(|_| !is_glossiness);
+    // One picture for both is packed as glTF's are. The file does not say so; no program here has another packing for both.
+    let is_of_both = |map: &MaterialMap| roughness_map.as_ref().is_some_and(|other| other.name == map.name);
+    let metallic_roughness_map = map(names::METALLIC_MAP).filter(is_of_both);
     let one = |_: &MaterialMap| [1.0; 3];
     let factor = |names: &[&str]| number(object, names).unwrap_or(1.0).max(0.0);
     let diffuse = diffuse_map
@@ -189,7 +207,13 @@ fn material(
     let is_cut_by_own = opacity_map
         .as_ref()
         .is_some_and(|map| diffuse_map.as_ref().is_some_and(|diffuse| diffuse.name == map.name));
+    let of_both = match metallic_roughness_map {
+        Some(_) => [names::METALLIC_MAP, names::ROUGHNESS_MAP],
+        None => [&[][..]; 2],
+    };
     let known = [
+        of_both[0],
+        of_both[1],
         names::COLOR_MAP,
         names::NORMAL_MAP,
         names::EMISSIVE_MAP,
@@ -210,10 +234,18 @@ fn material(
             .unwrap_or([0.8; 3])
             .map(|number| (number * factor(names::BASE_FACTOR)).clamp(0.0, 1.0)),
         opacity,
-        reflectance: Reflectance::MetallicRoughness {
-            metallic: number(object, names::METALLIC).unwrap_or(0.0).clamp(0.0, 1.0),
-            roughness: roughness(object),
+        reflectance: match metallic_roughness_map {
+            Some(_) => Reflectance::MetallicRoughness {
+                metallic: 1.0,
+                roughness: 1.0,
+            },
+            None => Reflectance::MetallicRoughness {
+                metallic: number(object, names::METALLIC).unwrap_or(0.0).clamp(0.0, 1.0),
+                roughness: roughness(object, is_glossiness),
+            },
         },
+        layers: layers(object),
+        metallic_roughness_map,
         alpha: match opacity < 1.0 || is_cut_by_own {
             true => AlphaMode::Blend,
             false => AlphaMode::Opaque,
@@ -229,19 +261,32 @@ fn material(
 }
 
 /// Of Blinn's and Phong's exponent: `α² = 2 / (n + 2)`, and roughness is the root of α (Walter 2007; glTF 2.0, appendix B).
-fn roughness(object: &Object<'_, '_>) -> f32 {
-    let is_glossiness = number(object, names::IS_GLOSSINESS) == Some(1.0);
+fn roughness(object: &Object<'_, '_>, is_glossiness: bool) -> f32 {
     let given = number(object, names::ROUGHNESS).map(|given| if is_glossiness { 1.0 - given } else { given });
     let of_exponent = || {
-        let is_lambert = object
-            .record
-            .find("ShadingModel")
-            .and_then(|model| model.text(0))
-            .is_some_and(|model| model.eq_ignore_ascii_case("lambert"));
-        let exponent = number(object, &["ShininessExponent", "Shininess"]).filter(|_| !is_lambert)?;
+        let exponent = number(object, &["ShininessExponent", "Shininess"]).filter(|_| !is_lambert(object))?;
         Some((2.0 / (exponent.max(0.0) + 2.0)).sqrt().sqrt())
     };
     given.or_else(of_exponent).unwrap_or(1.0).clamp(0.0, 1.0)
+}
+
+fn is_lambert(object: &Object<'_, '_>) -> bool {
+    let model = object.record.find("ShadingModel").and_then(|model| model.text(0));
+    model.is_some_and(|model| model.eq_ignore_ascii_case("lambert"))
+}
+
+/// Phong's specular colour: a part of what glass reflects, as one of 1 is about a twentieth.
+fn layers(object: &Object<'_, '_>) -> Layers {
+    let is_physical = || number(object, names::METALLIC).is_some() || number(object, names::ROUGHNESS).is_some();
+    let color = color(object, &["SpecularColor", "Specular"]).filter(|_| !is_lambert(object) && !is_physical());
+    let plain = Layers::default();
+    Layers {
+        specular_color: color.map_or(plain.specular_color, |color| color.map(|number| number.max(0.0))),
+        specular: color
+            .and_then(|_| number(object, &["SpecularFactor"]))
+            .map_or(plain.specular, |factor| factor.clamp(0.0, 1.0)),
+        ..plain
+    }
 }
 
 /// How much is seen of it, 0…1. Some exporters say that nothing is, and mean all.

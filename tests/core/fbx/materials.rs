@@ -4,11 +4,13 @@ use bindpose::import::{Imported, import, import_beside};
 use bindpose::model::{MapSlot, Reflectance};
 use bindpose::session::{File, FileCommand, Session};
 
-use super::files;
+use super::{files, told};
+
+const LEFT_OUT: &str = "fbx-left-out";
 
 #[test]
 fn materials_have_the_numbers_that_ufbx_finds() {
-    let (mut wrong, mut count, mut rough, mut bright) = (Vec::new(), 0, 0, 0);
+    let (mut wrong, mut count, mut rough, mut bright, mut shiny) = (Vec::new(), 0, 0, 0, 0);
     for (name, bytes) in files("files") {
         let (Ok(imported), Ok(scene)) = (import(&bytes), ufbx::load_memory(&bytes, ufbx::LoadOpts::default())) else {
             continue;
@@ -49,6 +51,15 @@ fn materials_have_the_numbers_that_ufbx_finds() {
                 }
                 bright += usize::from(material.emissive != [0.0; 3]);
             }
+            let [shine, factor] = [&pbr.specular_color, &pbr.specular_factor];
+            if theirs.shader_type == ufbx::ShaderType::FbxPhong && shine.has_value {
+                let (shine, factor) = (shine.value_vec4, factor.value_vec4.x);
+                let layers = &material.layers;
+                for (ours, theirs) in layers.specular_color.into_iter().zip([shine.x, shine.y, shine.z]) {
+                    compare("shine", ours * layers.specular, theirs * factor);
+                }
+                shiny += 1;
+            }
             // Of Lambert's and Phong's it is the diffuse colour.
             let [color, factor] = [&pbr.base_color, &pbr.base_factor];
             if material.diffuse_map.is_none() && color.has_value {
@@ -63,8 +74,8 @@ fn materials_have_the_numbers_that_ufbx_finds() {
     }
     assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
     assert!(
-        count == 0 || (count > 40 && rough > 5 && bright > 5),
-        "{count} colours, {rough} that say how rough they are, {bright} with light of their own"
+        count == 0 || (count > 40 && rough > 5 && bright > 5 && shiny > 5),
+        "{count} colours, {rough} that say how rough they are, {bright} with light of their own, {shiny} that shine"
     );
 }
 
@@ -104,14 +115,6 @@ fn maps(imported: &Imported) -> [Option<&str>; 2] {
     [&material.diffuse_map, &material.emissive_map].map(|map| map.as_ref().map(|map| &*map.name))
 }
 
-fn left_out(imported: &Imported) -> Vec<&str> {
-    let findings = imported.diagnostics.iter();
-    findings
-        .filter(|finding| finding.code == "fbx-left-out")
-        .map(|finding| &*finding.message)
-        .collect()
-}
-
 #[test]
 fn a_map_that_is_switched_off_is_not_taken_and_not_told() {
     for (color, switch, textures) in [
@@ -139,8 +142,11 @@ fn a_map_that_is_switched_off_is_not_taken_and_not_told() {
         assert_eq!(maps(&on), [Some("color.png"), None]);
         assert_eq!(on.model.materials[0].diffuse, [1.0; 3]);
         let metal = textures[1].0;
-        let told = format!("1 map is of a kind that has no place in a model: Paint's {metal}.");
-        assert_eq!((left_out(&off), left_out(&on)), (vec![&*told], vec![&*told]));
+        let message = format!("1 map is of a kind that has no place in a model: Paint's {metal}.");
+        assert_eq!(
+            (told(&off, LEFT_OUT), told(&on, LEFT_OUT)),
+            (vec![&*message], vec![&*message])
+        );
     }
     let black = read(&painted(
         &["\"DiffuseColor\", \"Color\", \"\", \"A\",0,0,0"],
@@ -151,7 +157,7 @@ fn a_map_that_is_switched_off_is_not_taken_and_not_told() {
 
 #[test]
 fn maps_of_metal_and_roughness_of_real_files_are_told_by_name() {
-    for (name, told) in [
+    for (name, maps) in [
         (
             "maya_shaderfx_pbs_material_7700_ascii.fbx",
             &["Maya|TEX_metallic_map"][..],
@@ -165,12 +171,62 @@ fn maps_of_metal_and_roughness_of_real_files_are_told_by_name() {
             return;
         };
         let imported = import(&bytes).unwrap_or_else(|_| panic!("{name}"));
-        let messages = left_out(&imported).join(" ");
-        for map in told {
+        let messages = told(&imported, LEFT_OUT).join(" ");
+        for map in maps {
             assert!(messages.contains(map), "{name}: {map} in {messages}");
         }
         assert!(!messages.contains("TEX_roughness_map"), "{name}: it is off");
     }
+}
+
+#[test]
+fn one_picture_of_metal_and_roughness_is_taken_and_two_are_told() {
+    let textures = |rough| {
+        [
+            ("Maya|TEX_metallic_map", "both.png", None),
+            ("Maya|TEX_roughness_map", rough, None),
+        ]
+    };
+    let metal = "\"Maya|metallic\", \"float\", \"\", \"\",0.25";
+    for (rough, properties, map, numbers) in [
+        ("both.png", &[metal][..], Some("both.png"), [1.0, 1.0]),
+        ("rough.png", &[metal], None, [0.25, 1.0]),
+        // What is glossy in it is not what is rough.
+        (
+            "both.png",
+            &[metal, "\"3dsMax|main|useGlossiness\", \"int\", \"\", \"\",1"],
+            None,
+            [0.25, 1.0],
+        ),
+    ] {
+        let imported = read(&painted(properties, &textures(rough)));
+        let material = &imported.model.materials[0];
+        let found = material.metallic_roughness_map.as_ref().map(|map| &*map.name);
+        assert_eq!(found, map, "{rough}");
+        let [metallic, roughness] = numbers;
+        assert_eq!(
+            material.reflectance,
+            Reflectance::MetallicRoughness { metallic, roughness }
+        );
+        let count = told(&imported, LEFT_OUT).join(" ").matches("Maya|TEX_").count();
+        assert_eq!(count, if map.is_some() { 0 } else { 2 }, "{rough}");
+    }
+}
+
+#[test]
+fn phongs_specular_colour_is_a_part_of_what_glass_reflects() {
+    let properties = [
+        "\"SpecularColor\", \"Color\", \"\", \"A\",1,0.5,0",
+        "\"SpecularFactor\", \"Number\", \"\", \"A\",0.5",
+    ];
+    let phong = painted(&properties, &[]);
+    let fresnel0 = |file: &str| read(file).model.materials[0].layers.fresnel0();
+    for (found, wanted) in fresnel0(&phong).into_iter().zip([0.02, 0.01, 0.0]) {
+        assert!((found - wanted).abs() < 1e-6, "{found}, not {wanted}");
+    }
+    let material = "\"Material::Paint\", \"\" {\n";
+    let lambert = phong.replacen(material, &format!("{material}\t\tShadingModel: \"lambert\"\n"), 1);
+    assert_eq!(fresnel0(&lambert), fresnel0(&painted(&[], &[])), "Lambert's has none");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Motions: as the same file in another format has them, and when they join a character.
 
+mod beyond;
 mod made;
 
 use bindpose::anim::{CompiledClip, PoseBuffers, skin_positions};

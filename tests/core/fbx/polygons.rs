@@ -5,6 +5,8 @@ use std::f64::consts::TAU;
 use bindpose::import::{Imported, import};
 use glam::DVec3;
 
+use super::told;
+
 /// A file with these points, and polygons of them one after the other.
 fn file(points: &[[f64; 2]], polygons: &[Vec<usize>]) -> String {
     let joined = |numbers: Vec<String>| format!("*{} {{\n\t\t\ta: {}\n\t\t}}", numbers.len(), numbers.join(","));
@@ -54,15 +56,8 @@ fn outline_area(points: &[[f64; 2]]) -> f64 {
     doubled / 2.0
 }
 
-/// What is told of polygons that did not come out.
-fn told(imported: &Imported) -> Vec<&str> {
-    let findings = imported.diagnostics.iter();
-    findings
-        .filter(|finding| finding.code == "fbx-rule-broken")
-        .map(|finding| &*finding.message)
-        .collect()
-}
-
+/// Of polygons that did not come out.
+const BROKEN: &str = "fbx-rule-broken";
 const NOT_WHOLE: &str =
     "of \"Outlines\" without an area, with sides that cross or with too many corners; triangles may overlap.";
 
@@ -89,7 +84,7 @@ fn notched_discs_of_thousands_of_corners_are_cut_in_bounded_work() {
             "{corners:?} lies in the wedge"
         );
     }
-    assert_eq!(told(&imported), [""; 0]);
+    assert_eq!(told(&imported, BROKEN), [""; 0]);
 }
 
 /// Spikes that stand along a ring: the box about each meets a quarter of the ring.
@@ -117,7 +112,7 @@ fn polygons_that_take_all_tests_are_told_and_leave_the_others_theirs() {
     assert_eq!(of_l.len(), 4);
     let ours = area(of_l);
     assert!((ours - 3.0).abs() < 1e-3, "{ours}");
-    let told = told(&imported);
+    let told = told(&imported, BROKEN);
     let [note] = told.as_slice() else { panic!("{told:?}") };
     assert!(note.ends_with(NOT_WHOLE), "{note}");
 }
@@ -144,7 +139,7 @@ fn polygons_without_an_area_and_with_sides_that_cross_are_told() {
         (1..2, vec![]),
     ] {
         let (imported, triangles) = triangles(&file(&points, &polygons[which.clone()]));
-        assert_eq!(told(&imported), message);
+        assert_eq!(told(&imported, BROKEN), message);
         let corners: usize = polygons[which].iter().map(|polygon| polygon.len() - 2).sum();
         assert_eq!(triangles.len(), corners);
     }

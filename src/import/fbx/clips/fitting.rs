@@ -10,6 +10,9 @@ use crate::model::{Channel, ChannelValue};
 /// So often an interval between two keys is halved at most: into 128 pieces.
 pub(super) const MOST_HALVINGS: u32 = 7;
 
+/// Of so many keys in a line one is kept at least.
+const MOST_IN_LINE: usize = 32;
+
 /// A value over time. Vectors have 0 as their fourth number.
 pub(super) struct Source<'a> {
     /// The value at a time, or just before it.
@@ -80,21 +83,56 @@ impl Source<'_> {
                 Fitted::Rest(Some((first as f32, start)))
             };
         }
-        let is_straight = |&way: &[f64; 2]| {
+        let end = times[times.len() - 1];
+        // How far a straight line is off.
+        let off = |&way: &[f64; 2]| {
             let [from, to] = ends(way);
-            is_near(to, self.at(way[1], false), 1.0)
-                && probes(way)
-                    .iter()
-                    .all(|&(part, value)| is_near(self.between(from, to, part), value, 1.0))
+            // At the end it stays where it came to.
+            let jump = if way[1] == end {
+                0.0
+            } else {
+                self.distance(to, self.at(way[1], false))
+            };
+            let off = probes(way).map(|(part, value)| self.distance(self.between(from, to, part), value));
+            off.into_iter().fold(jump, f64::max)
         };
-        if ways.iter().all(is_straight) {
-            return Fitted::Straight(values().collect());
+        let mut most = 0f64;
+        let mut offs = ways.iter().map(off);
+        if offs.all(|off| {
+            most = most.max(off);
+            off <= self.tolerance
+        }) {
+            let value = |&secs: &f64| (secs as f32, self.at(secs, secs == end));
+            return Fitted::Straight(self.without_needless(
+                &times.iter().map(value).collect::<Vec<_>>(),
+                (self.tolerance - most).min(0.1 * self.tolerance),
+            ));
         }
         let mut knots = Vec::with_capacity(2 * times.len());
         for way in ways {
             self.add(way, MOST_HALVINGS, &mut knots);
         }
         Fitted::Spline(knots)
+    }
+
+    /// Leaves out keys that the line between those before and behind them gives, as near as a tolerance.
+    fn without_needless(&self, keys: &[(f32, DVec4)], tolerance: f64) -> Vec<(f32, DVec4)> {
+        let mut kept = 0;
+        let mut needed = Vec::new();
+        for (place, &key) in keys.iter().enumerate() {
+            let is_end = place == 0 || place + 1 == keys.len();
+            let next = keys[(place + 1).min(keys.len() - 1)];
+            let is_in_line = |&(secs, value): &(f32, DVec4)| {
+                let [start, end, secs] = [keys[kept].0, next.0, secs].map(f64::from);
+                let part = (secs - start) / (end - start);
+                self.distance(self.between(keys[kept].1, next.1, part), value) <= tolerance
+            };
+            if is_end || place - kept == MOST_IN_LINE || !keys[kept + 1..=place].iter().all(is_in_line) {
+                needed.push(key);
+                kept = place;
+            }
+        }
+        needed
     }
 
     /// Adds the knots of a way: its start, where the one before does not end there, and its end.

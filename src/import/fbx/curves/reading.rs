@@ -41,8 +41,13 @@ impl Growing {
         self.next = next;
     }
 
-    fn curve(mut self, beyond: [Beyond; 2]) -> Curve {
+    fn curve(mut self, beyond: [(Beyond, u32); 2]) -> Curve {
         for at in 0..self.keys.len() {
+            if let (Way::Straight, Some(&next)) = (self.keys[at].way, self.keys.get(at + 1)) {
+                let slope = (next.value - self.keys[at].value) / (next.secs - self.keys[at].secs);
+                self.keys[at].slopes[1] = slope;
+                self.keys[at + 1].slopes[0] = slope;
+            }
             if self.keys[at].way == Way::Cubic {
                 let around = [at.checked_sub(1), Some(at), Some(at + 1)].map(|at| self.keys.get(at?).copied());
                 if let Some(slopes) = slopes::solved(around, self.slopes[at]) {
@@ -214,22 +219,27 @@ impl TakeValues<'_> {
     }
 }
 
-/// What a curve does before its first key and after its last.
-fn beyond(record: &Record<'_>) -> [Beyond; 2] {
+/// What a curve does before its first key and after its last, and how often.
+fn beyond(record: &Record<'_>) -> [(Beyond, u32); 2] {
     ["Pre-Extrapolation", "Post-Extrapolation"].map(|name| {
-        let kind = record.find(name).and_then(|record| record.find("Type"));
+        let record = record.find(name);
+        let most = record.and_then(|record| record.find("Repetition")?.integer(0));
+        // A count below 0 is none.
+        let most = most.and_then(|most| u32::try_from(most).ok()).unwrap_or(u32::MAX);
+        let kind = record.and_then(|record| record.find("Type"));
         let kind = kind.and_then(|kind| match kind.values.first()? {
             Value::Text(word) => word.first().copied(),
             Value::Integer(word) => u8::try_from(*word).ok(),
             _ => None,
         });
-        match kind {
+        let beyond = match kind {
             Some(b'K') => Beyond::Slope,
             Some(b'R') => Beyond::Repeat,
             Some(b'A') => Beyond::RepeatOnwards,
             Some(b'M') => Beyond::Mirror,
             _ => Beyond::Constant,
-        }
+        };
+        (beyond, most)
     })
 }
 

@@ -9,16 +9,16 @@ use bindpose::model::JointIndex;
 use crate::fbx::surface;
 
 /// A straight line from key to key: flags, and four numbers that it has no use for.
-const STRAIGHT: &str = "4\n\t\t}\n\t\tKeyAttrDataFloat: *4 {\n\t\t\ta: 0,0,0,0";
+pub(super) const STRAIGHT: &str = "4\n\t\t}\n\t\tKeyAttrDataFloat: *4 {\n\t\t\ta: 0,0,0,0";
 
 /// A file without a mesh: the bone 100, what hangs besides it, and what moves on stack 10.
-struct Made {
+pub(super) struct Made {
     objects: String,
     connections: String,
 }
 
 impl Made {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         let mut made = Self {
             objects: String::new(),
             connections: String::new(),
@@ -77,7 +77,7 @@ impl Made {
         self.object("AnimationCurve", id, "", &inner.concat());
     }
 
-    fn file(&self) -> String {
+    pub(super) fn file(&self) -> String {
         let Self { objects, connections } = self;
         format!(
             "; FBX 7.4.0 project file\nFBXHeaderExtension:  {{\n\tFBXVersion: 7400\n}}\nObjects:  {{\n{objects}}}\nConnections:  {{\n\tC: \
@@ -85,7 +85,7 @@ impl Made {
         )
     }
 
-    fn import(&self) -> Result<Imported, Box<Refused>> {
+    pub(super) fn import(&self) -> Result<Imported, Box<Refused>> {
         import(self.file().as_bytes())
     }
 }
@@ -97,7 +97,7 @@ fn told(imported: &Imported) -> Vec<(&str, &str)> {
 }
 
 /// One curve of the bone's, on the only layer.
-fn of_bone(values: &[f64], flags: &str, property: &str) -> Made {
+pub(super) fn of_bone(values: &[f64], flags: &str, property: &str) -> Made {
     let mut made = Made::new();
     made.layer(11, "");
     made.curve(13, values, flags);
