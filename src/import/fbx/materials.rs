@@ -188,7 +188,7 @@ fn material(
     let [diffuse_map, emissive_map, opacity_map] = [names::COLOR_MAP, names::EMISSIVE_MAP, names::OPACITY_MAP].map(map);
     let is_glossiness = number(object, names::IS_GLOSSINESS) == Some(1.0);
     let roughness_map = map(names::ROUGHNESS_MAP).filter(|_| !is_glossiness);
-    // One picture for both is packed as glTF's are. The file does not say so; no program here has another packing for both.
+    // The file does not say how one picture for both is packed. Unreal's way is glTF's, and is taken.
     let is_of_both = |map: &MaterialMap| roughness_map.as_ref().is_some_and(|other| other.name == map.name);
     let metallic_roughness_map = map(names::METALLIC_MAP).filter(is_of_both);
     let one = |_: &MaterialMap| [1.0; 3];
