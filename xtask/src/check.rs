@@ -205,12 +205,14 @@ fn native(steps: &mut Steps, absent: &List, long: bool) -> Result<(), Failure> {
             ])
         })?;
     }
-    steps.step("Documentation", || {
-        Line::cargo()
-            .env("RUSTDOCFLAGS", "-D warnings")
-            .args(["doc", "--workspace", "--no-deps"])
-            .run()
+    let document = |what: &[&str]| {
+        let line = Line::cargo().env("RUSTDOCFLAGS", "-D warnings");
+        line.args(["doc", "--no-deps"]).args(what.iter().copied()).run()
+    };
+    steps.step("Documentation: the core alone", || {
+        document(&["--package", "bindpose", "--no-default-features", "--lib"])
     })?;
+    steps.step("Documentation", || document(&["--workspace"]))?;
     // The tests marked as needing a GPU run too: the software one is there by now.
     steps.step("Native tests", || {
         Line::cargo()
