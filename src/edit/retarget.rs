@@ -19,7 +19,7 @@ const SAME_PLACE: f64 = 0.02;
 pub struct Retargeted {
     /// In the order of the given ones.
     pub clips: Vec<Clip>,
-    /// Bones of the other skeleton that a clip moves, and that this one lacks.
+    /// Bones of the other skeleton that this one lacks.
     pub without_place: Vec<String>,
     /// Bones of this skeleton that the other one lacks; they rest.
     pub at_rest: Vec<String>,
@@ -122,13 +122,11 @@ pub fn retarget(ours: &Skeleton, theirs: &Skeleton, clips: &[Clip]) -> Result<Op
         }
     }
     let moves = |joint: JointIndex| clips.iter().any(|clip| clip.tracks[joint.index()].has_keys());
-    let moving: Vec<JointIndex> = joints(theirs).filter(|&joint| moves(joint)).collect();
-    let without: Vec<JointIndex> = moving
-        .iter()
-        .copied()
+    let without: Vec<JointIndex> = joints(theirs)
         .filter(|joint| of_theirs[joint.index()].is_none())
         .collect();
-    if pairs.iter().flatten().next().is_none() || 2 * without.len() > moving.len() {
+    let lost = without.iter().filter(|&&joint| moves(joint)).count();
+    if pairs.iter().flatten().next().is_none() || 2 * lost > joints(theirs).filter(|&joint| moves(joint)).count() {
         return Ok(None);
     }
     let rests = [AtRest::of(ours), AtRest::of(theirs)];

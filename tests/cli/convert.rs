@@ -4,6 +4,8 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
 use serde_json::Value;
 
 use crate::program::{
@@ -761,4 +763,59 @@ fn a_character_and_its_motions_of_fbx_become_the_books_demo() {
     let refused = run(["convert", &walker, &glb, "--add-clips", FIGURE]);
     assert_eq!(refused.code, Some(1), "{}", refused.err);
     assert!(refused.err.contains("clips-bones-differ"), "{}", refused.err);
+}
+
+/// A triangle whose material has a picture, which lies in the file.
+fn painted_fbx() -> String {
+    let picture = Path::new(FIGURE).with_file_name("figure_diff.png");
+    let picture = BASE64_STANDARD.encode(std::fs::read(picture).expect("it is there"));
+    format!(
+        "; FBX 7.4.0 project file\nObjects:  {{
+\tGeometry: 1, \"Geometry::\", \"Mesh\" {{
+\t\tVertices: *9 {{\n\t\t\ta: 0,0,0,1,0,0,1,1,0\n\t\t}}
+\t\tPolygonVertexIndex: *3 {{\n\t\t\ta: 0,1,-3\n\t\t}}
+\t\tLayerElementUV: 0 {{
+\t\t\tMappingInformationType: \"ByPolygonVertex\"
+\t\t\tReferenceInformationType: \"Direct\"
+\t\t\tUV: *6 {{\n\t\t\t\ta: 0,0,1,0,1,1\n\t\t\t}}
+\t\t}}
+\t}}
+\tModel: 2, \"Model::Card\", \"Mesh\" {{\n\t}}
+\tMaterial: 3, \"Material::Paint\", \"\" {{\n\t}}
+\tTexture: 4, \"Texture::\", \"\" {{\n\t\tRelativeFilename: \"card.fbm/skin.png\"\n\t}}
+\tVideo: 5, \"Video::\", \"Clip\" {{\n\t\tContent: ,\n\t\t\t\"{picture}\"\n\t}}
+}}
+Connections:  {{
+\tC: \"OO\",1,2\n\tC: \"OO\",2,0\n\tC: \"OO\",3,2\n\tC: \"OP\",4,3,\"DiffuseColor\"\n\tC: \"OO\",5,4
+}}
+"
+    )
+}
+
+#[test]
+fn a_picture_inside_an_fbx_is_written_for_the_books_demo() {
+    let input = scratch_file("convert_painted.fbx", painted_fbx().as_bytes());
+    let output = out("painted", "card.m3d");
+    let folder = scratch("convert_painted_maps");
+    let folder_name = folder.to_str().expect("UTF-8");
+    convert(&input, &output, &["--for-book", "--textures-out", folder_name]);
+    let picture = std::fs::read(folder.join("skin.dds")).expect("it was written");
+    assert!(picture.starts_with(b"DDS ") && picture[28] > 1, "with mips");
+    let text = std::fs::read_to_string(&output).expect("it was written");
+    assert!(text.lines().any(|line| line == "DiffuseMap: skin.dds"), "{text}");
+    let found = run(["info", &output, "--textures", folder_name, "--json"]).json();
+    let maps = found["maps"].as_array().expect("maps");
+    let is_found = |map: &Value| map["name"] == "skin.dds" && map["state"] == "found";
+    assert!(maps.iter().any(is_found), "{found}");
+    run([
+        "check",
+        &output,
+        "--book",
+        "d3d12",
+        "--textures",
+        folder_name,
+        "--deny",
+        "book",
+    ])
+    .fine();
 }

@@ -22,6 +22,7 @@ mod materials;
 mod mixing;
 mod models;
 mod motion;
+mod named_bones;
 mod nearest;
 mod opening;
 mod pacing;

@@ -96,20 +96,28 @@ fn switches_show_their_numbers_and_what_they_do() {
     );
     let numbers = ["Seconds of the easing", "Tolerance in % of the size"];
     assert!(numbers.iter().all(|number| window.node(number).is_disabled()));
+    window.click("In place");
     window.click("Close the loop");
     window.click("Reduce keys");
     window.click("Format: .m3d D3D12");
-    for name in ["Close the loop", "Reduce keys", "For the book's demo"] {
+    for name in ["In place", "Close the loop", "Reduce keys", "For the book's demo"] {
         assert_eq!(window.node(name).toggled(), Some(Toggled::True), "{name}");
     }
     assert!(!numbers.iter().any(|number| window.node(number).is_disabled()));
     let options = window.session().export().expect("it is planned").options.clone();
     assert_eq!(
-        (options.close_loop_secs, options.reduce, options.for_book),
-        (Some(0.2), Some(0.001), true)
+        (
+            options.in_place,
+            options.close_loop_secs,
+            options.reduce,
+            options.for_book
+        ),
+        (true, Some(0.2), Some(0.001), true)
     );
     assert_eq!(options.format, ExportFormat::D3d12);
     assert!(!window.named(|name| name.starts_with("What changes · ")).is_empty());
+    window.click("In place");
+    assert!(!window.session().export().expect("it is planned").options.in_place);
 }
 
 #[test]

@@ -4,11 +4,11 @@ use bindpose::anim::{LoopMode, WrapMode};
 use bindpose::model::JointIndex;
 use bindpose::session::{FileCommand, PlayCommand, SPEEDS};
 use bindpose::ui::Request;
-use egui::accesskit::{Action, ActionData, Role};
+use egui::accesskit::{Action, ActionData, Role, Toggled};
 use egui::{Event, Key, Modifiers, pos2, vec2};
 
 use crate::dope_sheet::wheel;
-use crate::models::{moving, still};
+use crate::models::{self, moving, still};
 use crate::page::{PHONE, WIDE, Window, phone, touch_window, window};
 use crate::rigs::{growing, rig};
 
@@ -722,6 +722,29 @@ fn clips_are_blended_faded_and_added() {
         window.press(Modifiers::NONE, Key::Escape);
         let told = "more.m3d was added before; its 3 clips replace the 3 clips from then.";
         assert!(window.session().diagnostics().any(|notice| notice.message == told));
+    }
+}
+
+#[test]
+fn a_clip_that_walks_away_has_a_switch_for_staying_in_place() {
+    let mut document = models::skinned(&[("Walk", 0.0, 31), ("Bend", 0.0, 31)]);
+    for (step, key) in document.clips[0].bones[0].keyframes.iter_mut().enumerate() {
+        key.translation[2] = 0.1 * step as f32;
+    }
+    let file = || vec![models::file("walk.m3d", &document)];
+    for mut window in [window(WIDE, file()), phone(file())] {
+        window.click("Clip Walk");
+        for (on, kept) in [(Toggled::True, &["Walk"][..]), (Toggled::False, &[])] {
+            assert_ne!(window.node("In place").toggled(), Some(on));
+            window.click("In place");
+            assert_eq!(window.node("In place").toggled(), Some(on));
+            assert_eq!(window.session().view_state().playback.in_place, kept);
+        }
+        window.apply(PlayCommand::SelectClip(1));
+        assert!(
+            window.shows("Add clips…") && !window.shows("In place"),
+            "what bends stays"
+        );
     }
 }
 

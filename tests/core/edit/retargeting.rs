@@ -125,3 +125,23 @@ fn a_motion_is_kept_relative_to_a_rest_pose_whose_arm_hangs() {
     }
     assert!(farthest > 1.0, "it moves: {farthest}");
 }
+
+#[test]
+fn bones_that_only_one_skeleton_has_are_told_even_those_that_no_clip_moves() {
+    let rest = [(Quat::IDENTITY, Vec3::Y); 5];
+    let theirs = arm("mixamorig:", rest);
+    let names = ["Hips", "Spine", "Arm", "ForeArm", "Fist"].map(str::to_owned);
+    let ours = arm("", rest).with_names(names.to_vec());
+    let mut tracks: Vec<Track> = theirs.rest().iter().map(|&rest| Track::at_rest(rest)).collect();
+    tracks[0] = Track::of_channels(
+        Channel::straight([(0.0, Vec3::Y), (1.0, Vec3::X)]).expect("keys"),
+        Channel::at_rest(Quat::IDENTITY),
+        Channel::at_rest(Vec3::ONE),
+    );
+    let retargeted = retarget(&ours, &theirs, &[Clip::new("walk", tracks)])
+        .expect("its numbers are sound")
+        .expect("the only bone that moves has a name that is known");
+    assert!(!retargeted.is_relative, "they lie alike");
+    assert_eq!(retargeted.without_place, ["mixamorig:Hand"]);
+    assert_eq!(retargeted.at_rest, ["Fist"]);
+}

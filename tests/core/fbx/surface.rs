@@ -126,6 +126,8 @@ fn what_has_no_place_in_a_model_is_told() {
         ("maya_camera_light_axes_y_up_7700_ascii", "camera"),
         ("maya_lod_group_7500_ascii", "levels of detail"),
         ("maya_human_ik_7400_binary", "rig"),
+        ("maya_constraint_zoo_7500_ascii", "constraint"),
+        ("max_geometry_transform_types_7700_ascii", "NURBS"),
         ("maya_anim_layers_", "several layers"),
         ("maya_game_sausage_6100_ascii", "subdivision"),
     ] {
@@ -141,6 +143,45 @@ fn what_has_no_place_in_a_model_is_told() {
             .any(|(code, message)| *code == "fbx-left-out" && message.contains(told));
         assert!(is_told, "{name}: {told} in {messages:?}");
     }
+}
+
+#[test]
+fn each_kind_that_has_no_place_in_a_model_is_told_once_with_its_objects() {
+    let objects: String = (300..)
+        .zip([
+            ("Geometry", "Sail", "NurbsSurface"),
+            ("Geometry", "Rope", "NurbsCurve"),
+            ("Deformer", "Cloth", "VertexCacheDeformer"),
+            ("Cache", "Points", ""),
+            ("Constraint", "Look", "Aim"),
+            ("Character", "Rig", ""),
+            ("Model", "Foot", "IKEffector"),
+            ("Model", "Hip", "FKEffector"),
+            ("Model", "Sun", "Light"),
+            ("Audio", "Steps", ""),
+        ])
+        .map(|(id, (class, name, kind))| format!("\t{class}: {id}, \"{class}::{name}\", \"{kind}\" {{\n\t}}\n"))
+        .collect();
+    let file = skinned(&[1.0]).replacen("Objects:  {\n", &format!("Objects:  {{\n{objects}"), 1);
+    let imported = import(file.as_bytes()).unwrap_or_else(|refused| panic!("{:?}", refused.error));
+    let mut told: Vec<&str> = imported
+        .diagnostics
+        .iter()
+        .filter(|finding| finding.code == "fbx-left-out")
+        .map(|finding| &*finding.message)
+        .filter(|message| message.starts_with("Not taken"))
+        .collect();
+    told.sort_unstable();
+    assert_eq!(
+        told,
+        [
+            "Not taken: 1 light: Sun.",
+            "Not taken: 1 sound: Steps.",
+            "Not taken: 2 NURBS surfaces, patches or lines: Sail, Rope.",
+            "Not taken: 2 caches of vertices: Cloth, Points.",
+            "Not taken: 4 constraints or rigs of a program: Look, Rig, Foot and 1 more.",
+        ]
+    );
 }
 
 #[test]

@@ -5,11 +5,11 @@ use bindpose::scene::ViewPreset;
 use bindpose::session::{
     CameraCommand, File, FileCommand, FileFormat, FileSet, HistoryCommand, MaterialCommand, Session,
 };
-use glam::{Affine3A, Vec2};
+use glam::{Affine3A, Quat, Vec2};
 use serde_json::json;
 
 use super::banner::banner;
-use super::{bare, triangle};
+use super::{bare, skins, triangle};
 use crate::gltf_files::Gltf;
 
 /// A PNG. What it shows does not matter here.
@@ -56,6 +56,65 @@ fn a_drop_of_text_data_and_picture_opens_as_one_model() {
         files.models().iter().map(|file| file.base_name()).collect::<Vec<_>>(),
         ["b.glb"]
     );
+}
+
+/// A clip that turns the knee by this much about z.
+fn turning(file: &mut Gltf, name: &str, knee: u32, radians: f32) {
+    let times = file.floats(&[[0.0], [1.0]]);
+    let turns = file.floats(&[Quat::IDENTITY, Quat::from_rotation_z(radians)].map(|turn| turn.to_array()));
+    file.json["animations"] = json!([{
+        "name": name,
+        "channels": [{ "sampler": 0, "target": { "node": knee, "path": "rotation" } }],
+        "samplers": [{ "input": times, "output": turns }],
+    }]);
+}
+
+#[test]
+fn a_drop_of_a_character_and_of_motions_without_a_mesh_opens_as_one_model() {
+    let mut character = skins::skinned(&skins::rig());
+    turning(&mut character, "stand", 3, 0.0);
+    let motion = |name: &str, radians: f32| {
+        let nodes = json!([
+            { "name": "Armature", "scale": [2.0, 2.0, 2.0], "children": [1] },
+            { "name": "Hip", "children": [2], "translation": [1.0, 0.0, 0.0] },
+            { "name": "Knee", "translation": [0.0, 1.0, 0.0] },
+        ]);
+        let mut file = Gltf::new(&json!({ "scenes": [{ "nodes": [0] }], "nodes": nodes }));
+        turning(&mut file, name, 2, radians);
+        file
+    };
+    let mut long = motion("walk", 0.5);
+    long.json["asset"]["copyright"] = "x".repeat(10_000).into();
+    assert!(
+        long.glb().len() > character.glb().len(),
+        "the size does not say which is the character"
+    );
+    let session = opened(vec![
+        File::new("walk.glb", long.glb()),
+        File::new("hero.glb", character.glb()),
+        File::new("wave.gltf", motion("mixamo.com", -1.0).text()),
+    ]);
+    let open = session.open_model().expect("it is open");
+    assert_eq!(open.file.path, "hero.glb");
+    let clips = &open.model.clips;
+    assert_eq!(
+        clips.iter().map(|clip| clip.name.as_str()).collect::<Vec<_>>(),
+        ["stand", "walk", "wave"]
+    );
+    let skeleton = &open.model.skeleton;
+    let knee = (0..3).find(|&joint| skeleton.name(JointIndex(joint)) == Some("Knee"));
+    let knee = knee.expect("it has a name") as usize;
+    for (clip, radians) in clips.iter().zip([0.0, 0.5, -1.0]) {
+        let turned = clip.tracks[knee].at(1.0).rotation;
+        assert!(
+            turned.abs_diff_eq(Quat::from_rotation_z(radians), 1e-5),
+            "{}: {turned}",
+            clip.name
+        );
+    }
+    // Without a character the motions are models as any other.
+    let alone = opened(vec![File::new("walk.glb", long.glb())]);
+    assert_eq!(alone.open_model().expect("it is open").model.clips.len(), 1);
 }
 
 #[test]

@@ -21,7 +21,7 @@ fn weights(file: &mut Gltf) -> Value {
 }
 
 /// A hip with a knee above it, under a node that scales, and the mesh.
-fn rig() -> Value {
+pub(super) fn rig() -> Value {
     json!([
         { "name": "Armature", "scale": [2.0, 2.0, 2.0], "children": [2] },
         { "mesh": 0, "skin": 0, "translation": [100.0, 0.0, 0.0] },
@@ -31,7 +31,7 @@ fn rig() -> Value {
 }
 
 /// These nodes, the first two of them roots, with a triangle whose corners follow the hip and the knee.
-fn skinned(nodes: &Value) -> Gltf {
+pub(super) fn skinned(nodes: &Value) -> Gltf {
     triangle(
         &json!({ "scenes": [{ "nodes": [0, 1] }], "nodes": nodes, "skins": [{ "joints": [2, 3] }] }),
         weights,
