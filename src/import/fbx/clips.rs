@@ -51,7 +51,8 @@ impl Stack {
         let mut known_layers: HashMap<ObjectIndex, Rc<Layer>> = HashMap::new();
         let mut curves = HashMap::new();
         for (_, stack) in objects.of_class("AnimationStack") {
-            let secs = |name: &str| stack.number(name).map(|ticks| ticks / TICKS_PER_SEC);
+            let ticks_per_sec = file.settings.ticks_per_sec;
+            let secs = |name: &str| stack.number(name).map(|ticks| ticks / ticks_per_sec);
             let mut layers = Vec::new();
             for (index, layer) in objects.children(stack, "AnimationLayer") {
                 let known = match known_layers.get(&index) {

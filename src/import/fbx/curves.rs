@@ -5,7 +5,7 @@ mod slopes;
 
 use std::ops::Range;
 
-/// Ticks of a second, as Autodesk's `FbxTime` counts.
+/// Ticks of a second, as Autodesk's `FbxTime` counts; [`Settings`](super::settings::Settings) knows of files that count otherwise.
 pub(super) const TICKS_PER_SEC: f64 = 46_186_158_000.0;
 
 /// Keys that repeating adds at most on each side.

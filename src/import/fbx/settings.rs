@@ -2,8 +2,9 @@
 
 use glam::{DMat3, DVec3};
 
+use super::curves::TICKS_PER_SEC;
 use super::objects::property;
-use crate::fbx::Document;
+use crate::fbx::{Document, Record};
 
 /// Centimetres are FBX's unit where a file names none.
 const METRES_OF_A_CENTIMETRE: f64 = 0.01;
@@ -14,6 +15,7 @@ pub(super) struct Settings {
     pub(super) model_from_file: DMat3,
     /// Metres of a unit of the file: models are in metres, as those of glTF are.
     pub(super) unit_metres: f64,
+    pub(super) ticks_per_sec: f64,
 }
 
 impl Settings {
@@ -51,6 +53,20 @@ impl Settings {
                 DMat3::IDENTITY
             },
             unit_metres: factor * METRES_OF_A_CENTIMETRE,
+            ticks_per_sec: ticks_per_sec(document),
         }
+    }
+}
+
+/// As ufbx has it: headers since 1004 may say that times are counted in the unit of FBX 8, which 127 says they are not.
+fn ticks_per_sec(document: &Document<'_>) -> f64 {
+    let integer = |record: Option<&Record<'_>>| record.and_then(|record| record.integer(0));
+    let header = document.find("FBXHeaderExtension");
+    let version = integer(header.and_then(|header| header.find("FBXHeaderVersion")));
+    let unit = integer(header.and_then(|header| header.find("OtherFlags")?.find("TCDefinition")));
+    if version >= Some(1004) && unit.is_some_and(|unit| unit != 127) {
+        141_120_000.0
+    } else {
+        TICKS_PER_SEC
     }
 }

@@ -319,8 +319,8 @@ fn what_is_written_for_the_book_has_the_palette_of_the_source() {
     let written = import(&bytes).expect("what was written is read").model;
     assert_eq!(written.clips.len(), 3);
     let mut worst = 0f32;
-    // The book's space is left-handed, its figures turned round, of the demo's size and in its place: once for all times.
-    let mirrored = Vec3::new(-1.0, 1.0, 1.0);
+    // The book's figures are turned round, of the demo's size and in its place: once for all times.
+    let turned = Vec3::new(-1.0, 1.0, -1.0);
     let mut fit = None;
     for (clip, source) in written.clips.iter().zip(&model.clips) {
         let [ours, theirs] = [clip, source].map(CompiledClip::new);
@@ -333,7 +333,7 @@ fn what_is_written_for_the_book_has_the_palette_of_the_source() {
             let [mut placed, mut wanted] = [&written, model].map(|model| model.mesh.positions.clone());
             skin_positions(&written.mesh, &poses[0].palette, &mut placed);
             skin_positions(&model.mesh, &poses[1].palette, &mut wanted);
-            wanted.iter_mut().for_each(|want| *want *= mirrored);
+            wanted.iter_mut().for_each(|want| *want *= turned);
             let lengths = |places: &[Vec3]| places.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f32>();
             let middle = |places: &[Vec3]| places.iter().sum::<Vec3>() / places.len() as f32;
             let (scale, moved) = *fit.get_or_insert_with(|| {

@@ -13,6 +13,7 @@ const BITS_SINCE: u32 = 7200;
 /// Keys while they are read.
 #[derive(Default)]
 struct Growing {
+    ticks_per_sec: f64,
     keys: Vec<Key>,
     slopes: Vec<Slopes>,
     /// With what the next key is reached: slope and weight.
@@ -23,7 +24,7 @@ impl Growing {
     /// Adds a key; `right` and `next` are slope and weight with which it is left, and the next one reached. Those without a number, and those that are not
     /// later than the one before, are left out.
     fn add(&mut self, ticks: f64, value: f64, way: Way, set: Slopes, right: [f64; 2], next: [f64; 2]) {
-        let secs = ticks / TICKS_PER_SEC;
+        let secs = ticks / self.ticks_per_sec;
         let is_later = self.keys.last().is_none_or(|before| before.secs < secs);
         if !(value.is_finite() && secs.is_finite() && is_later) {
             return;
@@ -97,7 +98,10 @@ impl Curve {
         // Runs of keys have the same attributes.
         let mut run = 0;
         let mut left = counts.first().copied().unwrap_or_default();
-        let mut growing = Growing::default();
+        let mut growing = Growing {
+            ticks_per_sec: file.settings.ticks_per_sec,
+            ..Growing::default()
+        };
         for (&ticks, &value) in times.iter().zip(&values) {
             while left <= 0 && run + 1 < counts.len() {
                 run += 1;
@@ -123,7 +127,10 @@ impl Curve {
 
     /// A channel of a `Take` of 6.1, where words stand between the numbers of a key.
     pub(in crate::import::fbx) fn read_take(record: &Record<'_>) -> Self {
-        let mut growing = Growing::default();
+        let mut growing = Growing {
+            ticks_per_sec: TICKS_PER_SEC,
+            ..Growing::default()
+        };
         let Some(keys) = record.find("Key") else {
             return Self::default();
         };

@@ -94,3 +94,26 @@ fn keys_that_lie_on_the_line_between_others_are_left_out() {
     let line: Vec<f64> = (0..100).map(f64::from).collect();
     assert_eq!(keys(&line, "Lcl Translation"), [0.0, 32.0, 64.0, 96.0, 99.0]);
 }
+
+#[test]
+fn times_are_counted_in_the_unit_that_the_header_names() {
+    for (version, unit, secs) in [
+        (1003, 0, 3.0),
+        (1004, 127, 3.0),
+        (1004, 0, 3.0 * 46_186_158_000.0 / 141_120_000.0),
+    ] {
+        let file = of_bone(&[1.0, 3.0, 0.0, 5.0], STRAIGHT, "Lcl Translation").file();
+        let header = format!(
+            "\tFBXHeaderVersion: {version}\n\tFBXVersion: 7400\n\tOtherFlags:  {{\n\t\tTCDefinition: {unit}\n\t}}\n"
+        );
+        let file = file.replacen("\tFBXVersion: 7400\n", &header, 1);
+        let imported = import(file.as_bytes()).expect("it is read");
+        let theirs = ufbx::load_memory(file.as_bytes(), ufbx::LoadOpts::default()).expect("ufbx reads it");
+        let last = theirs.anim_curves[0].keyframes.last().expect("it has keys").time;
+        let ours = f64::from(imported.model.clips[0].end_secs);
+        assert!(
+            (ours - last).abs() < 1e-4 * last && (ours - secs).abs() < 1e-4 * secs,
+            "{version} {unit}: {ours}, {last}, {secs}"
+        );
+    }
+}
