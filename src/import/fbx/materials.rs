@@ -131,11 +131,18 @@ impl Materials {
                 );
             }
         });
+        // Blender writes the diffuse colour for the specular one, and half of the strength that it draws with.
+        let creator = file.document.find("Creator").and_then(|record| record.text(0));
+        let is_of_blender = creator.is_some_and(|creator| creator.starts_with("Blender"));
         let mut left_out = Few::default();
         let mut materials = Vec::with_capacity(names.len());
         for (index, name) in names.into_iter().enumerate() {
             materials.push(match found.get(index) {
-                Some(&object) => material(name, objects, object, images, &mut left_out),
+                Some(&object) => {
+                    let made = material(name, objects, object, images, &mut left_out);
+                    let layers = if is_of_blender { Layers::default() } else { made.layers };
+                    Material { layers, ..made }
+                }
                 None => Material {
                     name,
                     ..Material::default()

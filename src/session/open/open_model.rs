@@ -272,11 +272,13 @@ impl OpenModel {
             })
     }
 
-    /// The clip that is shown first: the first that moves, since one that stands still looks as if the others had failed; else the first.
+    /// The clip that is shown first: the first that moves of those that joined, which somebody gave for their own sake, else of all; else the
+    /// first. One that stands still looks as if the others had failed.
     pub fn first_clip(&self) -> Option<usize> {
-        let clips = &self.model.clips;
-        let moving = clips.iter().position(|clip| !clip.is_still());
-        moving.or((!clips.is_empty()).then_some(0))
+        let clips = || self.model.clips.iter().zip(&self.clip_facts);
+        let joined = clips().position(|(clip, facts)| facts.joined && !clip.is_still());
+        let moving = joined.or_else(|| clips().position(|(clip, _)| !clip.is_still()));
+        moving.or(clips().next().map(|_| 0))
     }
 
     /// Whether a clip leads away from where it starts.

@@ -52,7 +52,10 @@ fn materials_have_the_numbers_that_ufbx_finds() {
                 bright += usize::from(material.emissive != [0.0; 3]);
             }
             let [shine, factor] = [&pbr.specular_color, &pbr.specular_factor];
-            if theirs.shader_type == ufbx::ShaderType::FbxPhong && shine.has_value {
+            if scene.metadata.creator.contains("Blender") {
+                let layers = &material.layers;
+                assert_eq!((layers.specular, layers.specular_color), (1.0, [1.0; 3]), "{name}");
+            } else if theirs.shader_type == ufbx::ShaderType::FbxPhong && shine.has_value {
                 let (shine, factor) = (shine.value_vec4, factor.value_vec4.x);
                 let layers = &material.layers;
                 for (ours, theirs) in layers.specular_color.into_iter().zip([shine.x, shine.y, shine.z]) {
@@ -226,7 +229,14 @@ fn phongs_specular_colour_is_a_part_of_what_glass_reflects() {
     }
     let material = "\"Material::Paint\", \"\" {\n";
     let lambert = phong.replacen(material, &format!("{material}\t\tShadingModel: \"lambert\"\n"), 1);
-    assert_eq!(fresnel0(&lambert), fresnel0(&painted(&[], &[])), "Lambert's has none");
+    let plain = fresnel0(&painted(&[], &[]));
+    assert_eq!(fresnel0(&lambert), plain, "Lambert's has none");
+    let of_blender = phong.replacen(
+        "Objects:  {",
+        "Creator: \"Blender (stable FBX IO) - 3.4.1\"\nObjects:  {",
+        1,
+    );
+    assert_eq!(fresnel0(&of_blender), plain, "Blender's says nothing");
 }
 
 #[test]

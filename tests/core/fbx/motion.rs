@@ -9,7 +9,9 @@ use bindpose::export::{MapImages, glb, m3d};
 use bindpose::format::Dialect;
 use bindpose::import::import;
 use bindpose::model::{Clip, JointIndex, JointNames, Model};
-use bindpose::session::{Command, ExportOptions, File, FileCommand, HistoryCommand, PlayCommand, Session};
+use bindpose::session::{
+    Command, ExportOptions, File, FileCommand, HistoryCommand, MAX_LINK_LEN, PlayCommand, Session,
+};
 use glam::{Affine3A, Quat, Vec3};
 
 use super::files;
@@ -120,6 +122,13 @@ fn a_character_and_its_motions_open_as_one_model() {
     let open = session.open_model().expect("it opened");
     assert_eq!(open.file.path, "walker.fbx");
     assert_eq!(names(&open.model.clips), ["Scene", "walking", "waving"]);
+    let shown = session.clip().map(|clip| &*clip.name);
+    assert_eq!(
+        shown,
+        Some("walking"),
+        "what was given for its own sake, and not the rest pose that breathes"
+    );
+    assert_eq!(session.link(Vec::new(), MAX_LINK_LEN).text, "");
     // Each bone is where the motion has it, though the character was exported in another pose.
     for (clip, file) in open.model.clips.iter().zip(["walker.fbx", "walking.fbx", "waving.fbx"]) {
         let motion = import(&fixture(file).bytes).expect("it is sound").model;
