@@ -44,7 +44,11 @@ if (isFramed && parent !== window) {
   [document.documentElement, document.body].forEach(({ classList }) => classList.add("framed"));
   const whole = element("whole");
   whole.hidden = options.get("ui") === "none";
-  whole.onclick = whole.onpointerdown = () => (whole.href = bindpose.link().replace("ui=transport", ""));
+  whole.onfocus = whole.onclick = whole.onpointerdown = () => {
+    const address = new URL(bindpose.link());
+    address.searchParams.delete("ui");
+    whole.href = address.href;
+  };
 }
 
 let viewer = null;

@@ -196,9 +196,12 @@ impl<'a> Reader<'a> {
             }
             self.skip_space();
             has_comma = self.pass_comma();
-            if let Some(row) = row.as_mut().filter(|_| has_comma) {
-                slices.pause().await;
-                has_comma = self.plain_numbers(row);
+            match row.as_mut().filter(|_| has_comma) {
+                Some(row) => {
+                    slices.pause().await;
+                    has_comma = self.plain_numbers(row);
+                }
+                None => slices.pause_before(values.len()).await,
             }
         }
         Ok(match row {

@@ -7,7 +7,7 @@ import { BACKEND, PAGE, atRest, call, running, state, test, until } from "./harn
 export const QUERY = `?backend=${BACKEND}&scale=0.2`;
 export const OWN = { own: true, query: QUERY, passes: true };
 
-/** As people would write them, in the order in which the page writes. Each field of a view at rest stands in one. */
+/** As people would write them, in the order in which the page writes. Each field of a view at rest stands in one, but for clips in place. */
 export const LINKS = [
   "t=0.5&play=0",
   "clip=Walk&play=0",

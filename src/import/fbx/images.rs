@@ -110,13 +110,18 @@ fn textures<'s, 'f, 'a>(
 
 /// A picture's path beside the file, with `/`. What leads out of the folder is of another machine: its name alone counts then.
 fn path(record: &Record<'_>) -> Option<String> {
-    /// No program opens longer ones.
+    /// Of a longer one the name alone counts: few systems open such.
     const MOST_BYTES: usize = 1024;
+    let short = |text: &'_ [u8]| {
+        let start = text
+            .iter()
+            .rposition(|byte| matches!(byte, b'/' | b'\\'))
+            .map_or(0, |at| at + 1);
+        let text = if text.len() > MOST_BYTES { &text[start..] } else { text };
+        (text.len() <= MOST_BYTES).then(|| String::from_utf8_lossy(text).into_owned())
+    };
     let names = ["RelativeFilename", "FileName", "Filename"].into_iter();
-    let mut texts = names
-        .filter_map(|name| record.find(name)?.bytes(0))
-        .filter(|text| text.len() <= MOST_BYTES)
-        .map(String::from_utf8_lossy);
+    let mut texts = names.filter_map(|name| short(record.find(name)?.bytes(0)?));
     let found = texts.find(|text| !text.trim().is_empty())?;
     let path = found.trim().replace('\\', "/");
     let is_away = path.starts_with('/') || path.contains(':') || path.split('/').any(|part| part == "..");

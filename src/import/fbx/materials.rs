@@ -282,7 +282,7 @@ fn is_lambert(object: &Object<'_, '_>) -> bool {
     model.is_some_and(|model| model.eq_ignore_ascii_case("lambert"))
 }
 
-/// Phong's specular colour: a part of what glass reflects, as one of 1 is about a twentieth.
+/// Phong's specular colour: it scales the 4 % that a dielectric reflects face on; 1 leaves them.
 fn layers(object: &Object<'_, '_>) -> Layers {
     let is_physical = || number(object, names::METALLIC).is_some() || number(object, names::ROUGHNESS).is_some();
     let color = color(object, &["SpecularColor", "Specular"]).filter(|_| !is_lambert(object) && !is_physical());

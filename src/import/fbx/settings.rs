@@ -58,14 +58,17 @@ impl Settings {
     }
 }
 
-/// As ufbx has it: headers since 1004 may say that times are counted in the unit of FBX 8, which 127 says they are not.
+/// Ticks of a second in the unit of FBX 8.
+const NEW_TICKS_PER_SEC: f64 = 141_120_000.0;
+
+/// As ufbx has it: headers since version 1004 may name the unit of times. 127 is the old one, all else that of FBX 8.
 fn ticks_per_sec(document: &Document<'_>) -> f64 {
     let integer = |record: Option<&Record<'_>>| record.and_then(|record| record.integer(0));
     let header = document.find("FBXHeaderExtension");
     let version = integer(header.and_then(|header| header.find("FBXHeaderVersion")));
     let unit = integer(header.and_then(|header| header.find("OtherFlags")?.find("TCDefinition")));
     if version >= Some(1004) && unit.is_some_and(|unit| unit != 127) {
-        141_120_000.0
+        NEW_TICKS_PER_SEC
     } else {
         TICKS_PER_SEC
     }

@@ -1,7 +1,7 @@
 //! What stands behind `#` in an address: what a session shows, as far as it differs from a first visit of the model, as `name=value` joined
 //! by `&`.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use percent_encoding::percent_decode_str;
 use serde::{Deserialize, Serialize};
@@ -68,23 +68,23 @@ impl Session {
     /// What a link says of the open model, and the fields of it that are damaged, unknown or not of this model, cut short.
     pub fn read_link(&self, text: &str) -> (Linked, Vec<String>) {
         let (linked, left_out) = self.read_fields(text, self.first_visit(), false);
-        (linked, told(text, left_out))
+        (linked, told(left_out))
     }
 
     /// The same where what it does not name, or names wrongly, stays as it is now, with these panels open. Another clip begins at its start.
     pub fn read_change(&self, text: &str, panels: &[String]) -> (Linked, Vec<String>) {
         let name = |field: &str| field.split('=').next().unwrap_or_default().to_owned();
-        let read = |text: &str| {
-            let has_clip = text.split('&').any(|field| name(field) == "clip");
-            self.read_fields(text, self.seen_now(panels.to_vec()), !has_clip)
-        };
-        let (_, left_out) = read(text);
+        let has_no_clip = |text: &str| !text.split('&').any(|field| name(field) == "clip");
+        let now = || self.seen_now(panels.to_vec());
+        let (_, left_out) = self.read_fields(text, now(), has_no_clip(text));
         let understood: Vec<_> = text
             .split('&')
             // A time beyond the clip is its end.
-            .filter(|field| name(field) == "t" || !left_out.contains(&name(field)))
+            .filter(|field| name(field) == "t" || !left_out.contains_key(&name(field)))
             .collect();
-        (read(&understood.join("&")).0, told(text, left_out))
+        let understood = understood.join("&");
+        let (linked, _) = self.read_fields(&understood, now(), has_no_clip(&understood));
+        (linked, told(left_out))
     }
 
     fn seen_now(&self, panels: Vec<String>) -> Linked {
@@ -95,15 +95,19 @@ impl Session {
         }
     }
 
-    /// What `linked` becomes by the fields of a link. Without `has_time` it stands at the clip's start, unless they say when.
-    fn read_fields(&self, text: &str, mut linked: Linked, mut has_time: bool) -> (Linked, BTreeSet<String>) {
-        let mut left_out = BTreeSet::new();
+    /// What `linked` becomes by the fields of a link, and the values of those that are left out, by their names. Without `has_time` it stands
+    /// at the clip's start, unless they say when.
+    fn read_fields<'t>(&self, text: &'t str, mut linked: Linked, mut has_time: bool) -> (Linked, LeftOut<'t>) {
+        let mut left_out = LeftOut::new();
+        let mut said = BTreeMap::new();
         let mut camera = None;
         // No page writes one so long. Each field costs time.
         let (text, rest) = text.split_at(text.floor_char_boundary(2 * MAX_LINK_LEN));
-        left_out.extend((!rest.is_empty()).then(|| format!("all behind {} characters", 2 * MAX_LINK_LEN)));
+        let behind = || (format!("all behind {} characters", 2 * MAX_LINK_LEN), None);
+        left_out.extend((!rest.is_empty()).then(behind));
         for field in text.split('&').filter(|field| !field.is_empty()) {
-            let (name, value) = field.split_once('=').unwrap_or((field, ""));
+            let given = field.split_once('=');
+            let (name, value) = given.unwrap_or((field, ""));
             let understood = match FIELDS.iter().find(|(known, ..)| *known == name) {
                 Some((_, place, form)) => {
                     let read = form.read(value).and_then(|value| with(&linked, place, value));
@@ -117,15 +121,19 @@ impl Session {
                 None => None,
             };
             match understood {
-                Some(understood) => linked = understood,
-                None => _ = left_out.insert(shortened(name)),
+                Some(understood) => {
+                    linked = understood;
+                    said.insert(name, value);
+                }
+                None => _ = left_out.insert(shortened(name), given.map(|_| value)),
             }
         }
-        left_out.extend(self.forget_foreign(&mut linked.view).into_iter().map(str::to_owned));
+        let of_understood = |name: &'static str| (name.to_owned(), said.get(name).copied());
+        left_out.extend(self.forget_foreign(&mut linked.view).into_iter().map(of_understood));
         if let Some(clip) = self.clip_of(&linked.view) {
             let time_secs = &mut linked.view.playback.time_secs;
             let within = time_secs.max(clip.start_secs).min(clip.end_secs);
-            left_out.extend((has_time && within != *time_secs).then(|| "t".to_owned()));
+            left_out.extend((has_time && within != *time_secs).then(|| of_understood("t")));
             *time_secs = if has_time { within } else { clip.start_secs };
         }
         if let Some(read) = camera {
@@ -136,6 +144,11 @@ impl Session {
             );
         }
         (linked, left_out)
+    }
+
+    fn shows_joined_clip(&self) -> bool {
+        let facts = self.open_model().zip(self.clip_index());
+        facts.is_some_and(|(open, clip)| open.clip_facts.get(clip).is_some_and(|facts| facts.joined))
     }
 
     fn first_clip(&self) -> Option<&Clip> {
@@ -165,7 +178,8 @@ impl Session {
         let mut fields = Vec::new();
         for (name, place, form) in FIELDS {
             let [now, first] = [&now_json, &first_json].map(|json| json.pointer(place).unwrap_or(&Value::Null));
-            if now != first
+            // A clip that joined is none that everybody has who opens the model.
+            if (now != first || (*name == "clip" && self.shows_joined_clip()))
                 && let Some(text) = form.written(now)
             {
                 fields.push((*name, text));
@@ -335,19 +349,19 @@ fn with(linked: &Linked, place: &str, value: Value) -> Option<Linked> {
     serde_json::from_value(json).ok()
 }
 
-/// The fields of these names as they stand in a link, as far as they can be shown.
-fn told(text: &str, names: BTreeSet<String>) -> Vec<String> {
-    let field = |name: String| {
-        let mut fields = text.rsplit('&').filter_map(|field| field.split_once('='));
-        let Some((_, value)) = fields.find(|(of, _)| shortened(of) == name) else {
-            return name;
-        };
+/// Fields of a link that are not followed: the value of each name, where it has one.
+type LeftOut<'t> = BTreeMap<String, Option<&'t str>>;
+
+/// They as they stand in the link, as far as they can be shown.
+fn told(left_out: LeftOut<'_>) -> Vec<String> {
+    let field = |(name, value): (String, Option<&str>)| {
+        let Some(value) = value else { return name };
         let value = percent_decode_str(value).decode_utf8_lossy();
         let mut plain = value.chars().filter(|char| !char.is_control());
         let start: String = plain.by_ref().take(MOST_OF_VALUE).collect();
         format!("{name}={start}{}", if plain.next().is_some() { "…" } else { "" })
     };
-    names.into_iter().map(field).collect()
+    left_out.into_iter().map(field).collect()
 }
 
 /// A name of a damaged link, as far as it can be shown.

@@ -182,11 +182,9 @@ impl Session {
         let to_keep = || chosen().into_iter().filter(|name| !is_kept(name)).collect();
         let for_book = options.for_book && options.format.is_m3d();
         // The first of them gets the demo's name by itself.
-        let first = chosen().into_iter().next();
-        let watched = self
-            .demo_clip(options)
-            .filter(|name| for_book && first.as_deref() != Some(*name));
-        let watched = watched.filter(|name| *name != DEMO_CLIP);
+        let first = self.kept_clips(options).next();
+        let watched = self.demo_clip(options).filter(|_| for_book);
+        let watched = watched.filter(|name| Some(*name) != first && *name != DEMO_CLIP);
         let edits = Edits {
             clips: options.clips.clone(),
             in_place: if options.in_place { to_keep() } else { Vec::new() },
@@ -212,25 +210,24 @@ impl Session {
 
     /// The clip that the books' demo plays of a file that is made for it: `Take1` where one that is kept has that name, else the clip on show,
     /// else the first that is kept.
-    pub fn demo_clip(&self, options: &ExportOptions) -> Option<&str> {
+    pub fn demo_clip<'a>(&'a self, options: &'a ExportOptions) -> Option<&'a str> {
+        let mut kept = self.kept_clips(options);
+        let shown = self.clip().map(|clip| clip.name.as_str());
+        let shown = shown.filter(|shown| self.kept_clips(options).any(|name| name == *shown));
+        let first = self.kept_clips(options).next();
+        kept.find(|name| *name == DEMO_CLIP).or(shown).or(first)
+    }
+
+    /// The clips that are written, in the model's order.
+    fn kept_clips<'a>(&'a self, options: &'a ExportOptions) -> impl Iterator<Item = &'a str> {
+        let names = self.content.clips().iter().map(|clip| clip.name.as_str());
         let is_kept = |name: &&str| {
             options
                 .clips
                 .as_ref()
                 .is_none_or(|kept| kept.iter().any(|kept| kept == name))
         };
-        let kept = || {
-            self.content
-                .clips()
-                .iter()
-                .map(|clip| clip.name.as_str())
-                .filter(is_kept)
-        };
-        let shown = self.clip().map(|clip| clip.name.as_str()).filter(is_kept);
-        kept()
-            .find(|name| *name == DEMO_CLIP)
-            .or(shown)
-            .or_else(|| kept().next())
+        names.filter(is_kept)
     }
 
     /// The timeline's range, where its clip is the only one of these.

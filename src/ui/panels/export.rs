@@ -204,7 +204,7 @@ fn demo(ui: &mut Ui, session: &Session, options: &mut ExportOptions) {
     }
     let words: Cow<'_, str> = match (is_of_book, options.for_book) {
         (false, _) if options.format == ExportFormat::Text => "The demos of what stands still read it.".into(),
-        (false, _) => "A demo of the books reads .m3d only: the switch chooses that.".into(),
+        (false, _) => "A demo of the books reads .m3d only: turning this on chooses it.".into(),
         (true, true) => match session.demo_clip(options) {
             None => "No clip is kept: the demo shows the model standing still.".into(),
             Some(DEMO_CLIP) => "The demo plays one clip, Take1. Maps come along as DDS.".into(),

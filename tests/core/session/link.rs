@@ -416,3 +416,13 @@ proptest! {
         }
     }
 }
+
+/// Whoever writes a link, reading it ends soon.
+#[test]
+fn of_a_link_of_megabytes_the_start_is_read() {
+    let session = opened(moving("a.m3d"));
+    let fields: Vec<String> = (0..300_000).map(|number| format!("x{number}=1")).collect();
+    let (_, left_out) = session.read_link(&fields.join("&"));
+    assert!(left_out.contains(&"x0=1".to_owned()), "{left_out:?}");
+    assert!((100..1_000).contains(&left_out.len()), "{}", left_out.len());
+}

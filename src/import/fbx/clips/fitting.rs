@@ -74,7 +74,9 @@ impl Source<'_> {
             let [from, to] = ends(way);
             is_near(from, to, 0.1) && probes(way).iter().all(|(_, value)| is_near(from, *value, 0.1))
         };
-        let values = || times.iter().map(|&secs| (secs as f32, self.at(secs, false)));
+        let end = times[times.len() - 1];
+        // At the end it stays where it came to.
+        let values = || times.iter().map(|&secs| (secs as f32, self.at(secs, secs == end)));
         if ways.iter().all(stays) {
             let moves = values().any(|(_, value)| !is_near(start, value, 0.1));
             return if moves {
@@ -83,11 +85,9 @@ impl Source<'_> {
                 Fitted::Rest(Some((first as f32, start)))
             };
         }
-        let end = times[times.len() - 1];
         // How far a straight line is off.
         let off = |&way: &[f64; 2]| {
             let [from, to] = ends(way);
-            // At the end it stays where it came to.
             let jump = if way[1] == end {
                 0.0
             } else {
@@ -102,9 +102,8 @@ impl Source<'_> {
             most = most.max(off);
             off <= self.tolerance
         }) {
-            let value = |&secs: &f64| (secs as f32, self.at(secs, secs == end));
             return Fitted::Straight(self.without_needless(
-                &times.iter().map(value).collect::<Vec<_>>(),
+                &values().collect::<Vec<_>>(),
                 (self.tolerance - most).min(0.1 * self.tolerance),
             ));
         }

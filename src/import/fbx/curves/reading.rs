@@ -44,16 +44,19 @@ impl Growing {
 
     fn curve(mut self, beyond: [(Beyond, u32); 2]) -> Curve {
         for at in 0..self.keys.len() {
-            if let (Way::Straight, Some(&next)) = (self.keys[at].way, self.keys.get(at + 1)) {
-                let slope = (next.value - self.keys[at].value) / (next.secs - self.keys[at].secs);
-                self.keys[at].slopes[1] = slope;
-                self.keys[at + 1].slopes[0] = slope;
-            }
             if self.keys[at].way == Way::Cubic {
                 let around = [at.checked_sub(1), Some(at), Some(at + 1)].map(|at| self.keys.get(at?).copied());
                 if let Some(slopes) = slopes::solved(around, self.slopes[at]) {
                     self.keys[at].slopes = slopes;
                 }
+            }
+        }
+        // After all are solved: until then an automatic key has another number for its first slope.
+        for at in 0..self.keys.len() {
+            if let (Way::Straight, Some(&next)) = (self.keys[at].way, self.keys.get(at + 1)) {
+                let slope = (next.value - self.keys[at].value) / (next.secs - self.keys[at].secs);
+                self.keys[at].slopes[1] = slope;
+                self.keys[at + 1].slopes[0] = slope;
             }
         }
         Curve {
@@ -231,7 +234,7 @@ fn beyond(record: &Record<'_>) -> [(Beyond, u32); 2] {
     ["Pre-Extrapolation", "Post-Extrapolation"].map(|name| {
         let record = record.find(name);
         let most = record.and_then(|record| record.find("Repetition")?.integer(0));
-        // A count below 0 is none.
+        // A negative count, or none, repeats without end.
         let most = most.and_then(|most| u32::try_from(most).ok()).unwrap_or(u32::MAX);
         let kind = record.and_then(|record| record.find("Type"));
         let kind = kind.and_then(|kind| match kind.values.first()? {
