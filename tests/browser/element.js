@@ -194,7 +194,7 @@ test("what is asked early is done when the model is there; what is asked again i
   assert.deepEqual(await camera(), dragged, "a bone and a clip that are not there change nothing");
   assert.equal((await seen(page, "a")).clip, "Run");
   await page.waitForTimeout(50);
-  assert.match(warned.join(), /not understood, or not in figure\.m3d: bone .*: clip/);
+  assert.match(warned.join(), /not understood, or not in figure\.m3d: bone=999 .*: clip/);
   await set("bone", null);
   await set("skeleton", true);
   await set("skeleton", false);
