@@ -148,7 +148,7 @@ fn world_line(
     return line_corner(corner, start, end, color_srgb);
 }
 
-// A corner of a triangle, which covers all that it covers.
+// A corner of a triangle in the world. It is filled: no edge of it is smoothed here.
 @vertex
 fn world_vertex(@location(0) position: vec3<f32>, @location(1) color_srgb: vec4<f32>) -> LineVertex {
     return LineVertex(line_clip(position), color_srgb, 0.0);

@@ -12,7 +12,7 @@ use super::error::EditError;
 use crate::model::{Clip, JointIndex, Model, Track, UpAxis};
 
 /// A way over the ground that is less than this part of the model's reach, which is all its bones in a row, is none: hips sway so far on the spot.
-/// How far a root stands from the origin is no bone.
+/// How far a root stands from the origin does not count.
 const LEAST_WAY: f64 = 0.02;
 
 /// Keeps the clips of these names in place, each once.

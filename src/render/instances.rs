@@ -140,7 +140,7 @@ fn texture(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, height: u32) -
     (view.texture().clone(), group)
 }
 
-/// Anything else of three texels, [`JOINTS_PER_ROW`] of it a row. None where a texture has too few rows.
+/// A texture of rows of items with three texels each, [`JOINTS_PER_ROW`] items a row. None where a texture may not have so many rows.
 pub(super) fn texels_in_rows(
     device: &wgpu::Device,
     queue: &Queue,

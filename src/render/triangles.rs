@@ -112,7 +112,7 @@ pub(super) struct Edges {
     pub(super) buffer: wgpu::Buffer,
     /// The pairs of each submesh in `buffer`, in the order in which they were passed.
     pub(super) ranges: Vec<Range<u32>>,
-    /// The vertices that they join, as `lines.wgsl` reads them: an edge has two, and a shader only those that it looks up.
+    /// The mesh's vertices as a texture: a shader of an edge looks up both of its ends there.
     pub(super) vertices: wgpu::BindGroup,
 }
 

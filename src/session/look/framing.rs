@@ -130,7 +130,7 @@ impl Session {
         points
     }
 
-    /// Takes the camera for one that frames the model from here, or else did so before it came here.
+    /// Says that the camera frames the model: in every window where it would be framed to the same place now, else in windows of this shape.
     pub(in crate::session) fn hold_framed(&mut self) {
         self.view.framed = Framed::InShape(self.view.aspect);
         if self.is_framed_from_here() {
