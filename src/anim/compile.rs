@@ -1,13 +1,14 @@
 //! A clip made ready for sampling: four tracks side by side, on one time line.
 
 use std::borrow::Cow;
+use std::cell::Cell;
 use std::sync::Arc;
 
-use glam::{DQuat, Vec4};
+use glam::{DQuat, Quat, Vec3, Vec4};
 
 use super::lanes::{ArcLanes, JointLanes, angle_between, set_straight_between};
-use super::straight::unbent;
-use crate::model::{Clip, JointIndex, LocalJoint, Track, Way};
+use super::straight::{MOST_PIECES, unbent};
+use crate::model::{Channel, ChannelValue, Clip, JointIndex, Track, Way};
 use crate::slices::{Slices, Stage, at_once};
 
 /// Probe times of a clip at most.
@@ -66,12 +67,13 @@ impl CompiledClip {
     /// [`CompiledClip::all`] in slices.
     pub async fn all_in(clips: &[Clip], slices: &Slices) -> Vec<Self> {
         let mut all = Vec::with_capacity(clips.len());
+        let pieces_left = Cell::new(MOST_PIECES);
         for (done, clip) in clips.iter().enumerate() {
             let mut groups = Vec::with_capacity(clip.tracks.len().div_ceil(JointLanes::COUNT));
             let mut times_secs = Arc::default();
             for tracks in clip.tracks.chunks(JointLanes::COUNT) {
                 slices.pause_at(Stage::Compiling, done, clips.len()).await;
-                let group = TrackGroup::new(tracks, &times_secs, slices).await;
+                let group = TrackGroup::new(tracks, &times_secs, &pieces_left, slices).await;
                 times_secs = Arc::clone(&group.times_secs);
                 groups.push(group);
             }
@@ -154,8 +156,8 @@ impl CompiledClip {
 
 impl TrackGroup {
     /// Up to four tracks; the lanes of missing ones are identities. `times_before` are those of another group, to share.
-    async fn new(tracks: &[Track], times_before: &Arc<[f32]>, slices: &Slices) -> Self {
-        let tracks: Vec<_> = tracks.iter().map(unbent).collect();
+    async fn new(tracks: &[Track], times_before: &Arc<[f32]>, pieces_left: &Cell<usize>, slices: &Slices) -> Self {
+        let tracks: Vec<_> = tracks.iter().map(|track| unbent(track, pieces_left)).collect();
         let times_secs = match common_times(&tracks) {
             same if same[..] == times_before[..] => Arc::clone(times_before),
             other => other.into(),
@@ -169,9 +171,6 @@ impl TrackGroup {
             rotation,
             arc: ArcLanes::NONE,
         };
-        let mut rotations = vec![still; times_secs.len()];
-        let mut translations = vec![translation; times_secs.len()];
-        let mut scales = vec![scale; times_secs.len()];
         let mut goes = [Vec4::ONE; 3];
         for (lane, track) in tracks.iter().enumerate() {
             let holds = [
@@ -182,9 +181,21 @@ impl TrackGroup {
             for (goes, holds) in goes.iter_mut().zip(holds) {
                 goes[lane] = if holds { 0.0 } else { 1.0 };
             }
-            let [holds_rotation, ..] = holds;
-            let places = rotations.iter_mut().zip(translations.iter_mut().zip(&mut scales));
-            fill_lane(lane, places.zip(track.at_times(&times_secs)), holds_rotation, slices).await;
+        }
+        let channels = tracks.iter().map(|track| track.rotation());
+        let mut rotations = vec![still; key_count(channels.clone(), &times_secs)];
+        for (lane, channel) in channels.enumerate() {
+            fill_rotations(lane, &mut rotations, (channel, &times_secs), slices).await;
+        }
+        let channels = tracks.iter().map(|track| track.translation());
+        let mut translations = vec![translation; key_count(channels.clone(), &times_secs)];
+        for (lane, channel) in channels.enumerate() {
+            fill_vectors(lane, &mut translations, (channel, &times_secs), slices).await;
+        }
+        let channels = tracks.iter().map(|track| track.scale());
+        let mut scales = vec![scale; key_count(channels.clone(), &times_secs)];
+        for (lane, channel) in channels.enumerate() {
+            fill_vectors(lane, &mut scales, (channel, &times_secs), slices).await;
         }
         Self {
             times_secs,
@@ -276,27 +287,53 @@ impl<T> Values<T> {
     }
 }
 
-type Places<'a> = (&'a mut RotationLanes, (&'a mut [Vec4; 3], &'a mut [Vec4; 3]));
+/// How many values four channels take: one where all stay, else one at each time. What stays is not even laid out at each time while it is made: of a
+/// joint that only scales, that would be most.
+fn key_count<'a, T: ChannelValue + 'a>(
+    mut channels: impl Iterator<Item = &'a Channel<T>>,
+    times_secs: &[f32],
+) -> usize {
+    if channels.all(Channel::is_still) {
+        1
+    } else {
+        times_secs.len()
+    }
+}
 
-/// Puts a joint into one lane at each key. No arc leads to the next one where rotations hold.
-async fn fill_lane<'a>(
+/// Puts a channel into one lane at each key. No arc leads to the next one where rotations hold.
+async fn fill_rotations(
     lane: usize,
-    keyed: impl Iterator<Item = (Places<'a>, LocalJoint)>,
-    holds_rotation: bool,
+    keys: &mut [RotationLanes],
+    (channel, times_secs): (&Channel<Quat>, &[f32]),
     slices: &Slices,
 ) {
-    let mut before: Option<(&'a mut RotationLanes, DQuat)> = None;
-    let fill = |((key, (translation, scale)), joint): (Places<'a>, LocalJoint)| {
-        set_lane(&mut key.rotation, lane, joint.rotation.to_array());
-        set_lane(translation, lane, joint.translation.to_array());
-        set_lane(scale, lane, joint.scale.to_array());
-        let rotation = joint.rotation.as_dquat();
-        if let Some((key, start)) = before.take().filter(|_| !holds_rotation) {
+    let holds = *channel.way() == Way::Held;
+    let mut before: Option<(&mut RotationLanes, DQuat)> = None;
+    let fill = |(key, rotation): (_, Quat)| {
+        let key: &mut RotationLanes = key;
+        set_lane(&mut key.rotation, lane, rotation.to_array());
+        let rotation = rotation.as_dquat();
+        if let Some((key, start)) = before.take().filter(|_| !holds) {
             key.arc.set(lane, angle_between(start, rotation));
         }
         before = Some((key, rotation));
     };
-    slices.for_each(keyed, fill).await;
+    slices
+        .for_each(keys.iter_mut().zip(channel.at_times(times_secs)), fill)
+        .await;
+}
+
+/// Puts a channel into one lane at each key.
+async fn fill_vectors(
+    lane: usize,
+    keys: &mut [[Vec4; 3]],
+    (channel, times_secs): (&Channel<Vec3>, &[f32]),
+    slices: &Slices,
+) {
+    let fill = |(key, value): (&mut [Vec4; 3], Vec3)| set_lane(key, lane, value.to_array());
+    slices
+        .for_each(keys.iter_mut().zip(channel.at_times(times_secs)), fill)
+        .await;
 }
 
 fn set_lane<const N: usize>(lanes: &mut [Vec4; N], lane: usize, values: [f32; N]) {

@@ -294,7 +294,7 @@ impl<T: ChannelValue> Channel<T> {
     }
 
     /// Whether all its values are the same to the bit.
-    pub(super) fn is_still(&self) -> bool {
+    pub(crate) fn is_still(&self) -> bool {
         self.values.iter().all(|value| value.bits() == self.values[0].bits())
     }
 
@@ -314,7 +314,7 @@ impl<T: ChannelValue> Channel<T> {
     }
 
     /// [`Channel::at`] of some times, in order.
-    pub(super) fn at_times<'a>(&'a self, times_secs: &'a [f32]) -> impl ExactSizeIterator<Item = T> + 'a {
+    pub(crate) fn at_times<'a>(&'a self, times_secs: &'a [f32]) -> impl ExactSizeIterator<Item = T> + 'a {
         let mut from = 0;
         times_secs.iter().map(move |&time_secs| {
             while self
