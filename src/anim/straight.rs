@@ -17,8 +17,8 @@ const MOST_HALVINGS: u32 = 9;
 /// So often it may always be halved. Beyond this all pieces come out of [`MOST_PIECES`].
 const FREE_HALVINGS: u32 = 3;
 
-/// So many pieces some tracks become beyond those that are free. Clips of characters take some ten thousand; a file can be made whose curves swing out at
-/// each of a million keys.
+/// The most pieces that the tracks of all clips become together, beyond those that are free. A file can be made whose curves swing
+/// out at each of a million keys.
 pub(super) const MOST_PIECES: usize = 1 << 20;
 
 /// A track whose channels all go straight from key to key, and that strays from the given one by less than [`MOST_ERROR`]. A value that

@@ -15,7 +15,7 @@ use crate::shared::shared;
 const MOST_GROWTH: u64 = 20;
 const LEAST: u64 = 1 << 16;
 
-/// How long reading one of these files may take. None takes more than a second, also in a build without optimisation on a machine with other work; one on
+/// How long reading one of these files may take. The slowest take some five seconds in a build with little optimisation. One on
 /// which reading hangs, or looks through all for each, takes minutes.
 const MOST_TIME: Duration = Duration::from_secs(10);
 
