@@ -68,8 +68,17 @@ pub mod session;
 #[allow(missing_docs, reason = "used by this package alone, where a name says it")]
 pub mod shaders;
 pub mod slices;
+pub mod sorting;
 #[cfg(feature = "viewer")]
 #[allow(missing_docs, reason = "used by this package alone, where a name says it")]
 pub mod ui;
 #[cfg(all(feature = "element", target_arch = "wasm32"))]
 mod web;
+
+/// Whether this is the small program for other people's pages. Scripts are told findings there, but no verdicts and no reports: it is without their
+/// words, and without the code that works them out.
+const IS_SMALL_PROGRAM: bool = cfg!(all(
+    feature = "element",
+    not(feature = "viewer"),
+    target_arch = "wasm32"
+));

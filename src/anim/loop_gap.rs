@@ -5,6 +5,7 @@ use super::buffers::PoseBuffers;
 use super::compile::CompiledClip;
 use super::sample::sample_joint;
 use crate::model::{JointIndex, Skeleton};
+use crate::sorting;
 
 /// A jump of the surface by less than this fraction of the model's size is not seen: two pixels where the model fills a
 /// picture a thousand pixels high. A moving edge is blurred by as much.
@@ -44,7 +45,7 @@ impl LoopGap {
     /// the skeleton's order.
     pub fn by_travel(&self) -> Vec<JointIndex> {
         let mut order: Vec<JointIndex> = (0..self.joints.len() as u32).map(JointIndex).collect();
-        order.sort_by(|a, b| {
+        sorting::sort_by(&mut order, |a, b| {
             let [a, b] = [a, b].map(|joint| &self.joints[joint.index()]);
             let by_turn = b.rotation_degrees.total_cmp(&a.rotation_degrees);
             let by_scale = b.scale.total_cmp(&a.scale);

@@ -17,6 +17,11 @@ pub fn named(name: &str) -> Option<&'static Code> {
     all().find(|code| code.name == name)
 }
 
+/// What only reports tell, which the small program has not.
+const fn long(words: &'static str) -> &'static str {
+    if crate::IS_SMALL_PROGRAM { "" } else { words }
+}
+
 /// A constant for each row, and a list for each group. A row has, in this order: name, severity, sentence; what it means; what is done about it
 /// here; what the author of the file does about it; and how the program mends it, where it does.
 macro_rules! table {
@@ -36,9 +41,9 @@ macro_rules! table {
                 name: $name,
                 severity: Severity::$severity,
                 sentence: $sentence,
-                explanation: $explanation,
-                handling: $handling,
-                mending: $mending,
+                explanation: long($explanation),
+                handling: long($handling),
+                mending: long($mending),
                 mended: table!(@mended $($mended)?),
             };
         )*)*

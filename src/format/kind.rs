@@ -3,6 +3,7 @@
 use super::error::quoted;
 use super::label::Section;
 use crate::diagnostic::{Code, Diagnostic, Position, codes};
+use crate::sorting;
 
 /// A kind of diagnostic that does not stop the reader.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -227,7 +228,7 @@ impl KindCounts {
 
     /// One diagnostic for each kind, in the order of the file.
     pub(super) fn into_diagnostics(mut self) -> Vec<Diagnostic> {
-        self.tallies.sort_by_key(|tally| tally.places.first().copied());
+        sorting::sort_by_key(&mut self.tallies, |tally| tally.places.first().copied());
         self.tallies
             .into_iter()
             .map(|tally| {

@@ -22,12 +22,8 @@ const KNOWN: [&str; 10] = [
 /// # Errors
 /// When it is no JSON, or a value is of another kind than glTF gives it.
 pub fn parse(container: &Container<'_>) -> Result<Root, Fault> {
-    // Text that is known to be UTF-8 is not looked at again, string by string.
-    let parsed = match std::str::from_utf8(container.json) {
-        Ok(text) => serde_json::from_str(text),
-        Err(_) => serde_json::from_slice(container.json),
-    };
-    parsed.map_err(|error| {
+    // One way in: a second one, for text that is known to be UTF-8, would be all types of the file once more in the program.
+    serde_json::from_slice(container.json).map_err(|error: serde_json::Error| {
         if !error.is_data() {
             let message = format!("The JSON cannot be read: {}.", words(&error));
             return Box::new(placed(codes::GLTF_NOT_JSON.says(message), &error, container));

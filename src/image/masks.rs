@@ -2,6 +2,7 @@
 
 use super::format::Channels;
 use crate::diagnostic::{Fault, codes};
+use crate::sorting;
 
 /// Where a channel's bits lie in a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,7 +110,7 @@ impl Masks {
             .zip(self.fields)
             .filter_map(|(letter, field)| Some((letter, field?)))
             .collect();
-        named.sort_by_key(|(_, field)| field.shift);
+        sorting::sort_by_key(&mut named, |(_, field)| field.shift);
         let used: u32 = named.iter().map(|(_, field)| field.width()).sum();
         let mut label: String = named
             .iter()

@@ -5,6 +5,7 @@ use glam::Quat;
 use crate::diagnostic::collect::{Moments, counted};
 use crate::diagnostic::{Code, Moment, codes};
 use crate::model::unit_rotation;
+use crate::sorting;
 
 /// A rotation whose length is off by more than this was not meant to be rounded.
 const UNIT_TOLERANCE: f64 = 1e-3;
@@ -68,7 +69,7 @@ impl Mended {
         }
         if let Some(early) = keys.windows(2).find(|two| two[0].0 > two[1].0) {
             add(&mut self.unsorted, &early[1]);
-            keys.sort_by(|a, b| a.0.total_cmp(&b.0));
+            sorting::sort_by(&mut keys, |a, b| a.0.total_cmp(&b.0));
         }
         let mut kept: Vec<(f32, T)> = Vec::with_capacity(keys.len());
         for group in keys.chunk_by(|a, b| a.0 == b.0) {

@@ -1,5 +1,6 @@
 //! Which way bitangents go in the texture, and so the green of normal maps.
 
+use crate::sorting;
 use std::ops::Range;
 
 use glam::DVec3;
@@ -81,7 +82,7 @@ impl Model {
         let such = submeshes.filter(|submesh| is_such(submesh.material as usize));
         let range = |submesh: &Submesh| submesh.triangle_start..submesh.triangle_start + submesh.triangle_count;
         let mut ranges: Vec<Range<u32>> = such.map(range).collect();
-        ranges.sort_unstable_by_key(|range| range.start);
+        sorting::sort_by_key(&mut ranges, |range| range.start);
         let mut end = 0;
         ranges.into_iter().flat_map(move |range| {
             let start = range.start.max(end);

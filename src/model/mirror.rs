@@ -1,5 +1,6 @@
 //! Which joints are each other's mirror image.
 
+use crate::sorting;
 use std::collections::{HashMap, HashSet};
 
 use glam::{Affine3A, Vec3};
@@ -67,7 +68,7 @@ pub fn mirror_pairs(skeleton: &Skeleton, tree: &JointTree, world_from_model: Aff
             pairs.push(MirrorPair { left, right });
         }
     }
-    pairs.sort_by_key(|pair| pair.left);
+    sorting::sort_by_key(&mut pairs, |pair| pair.left);
     pairs
 }
 
@@ -176,7 +177,9 @@ impl Search {
                 }
             }
         }
-        candidates.sort_by(|x, y| x.0.total_cmp(&y.0).then((x.1, x.2).cmp(&(y.1, y.2))));
+        sorting::sort_by(&mut candidates, |x, y| {
+            x.0.total_cmp(&y.0).then((x.1, x.2).cmp(&(y.1, y.2)))
+        });
         let mut taken = HashSet::new();
         candidates.retain(|(_, a, b)| {
             let free = !taken.contains(a) && !taken.contains(b);

@@ -31,6 +31,7 @@ mod session;
 mod shaders;
 #[path = "../common/shared.rs"]
 mod shared;
+mod sorting;
 mod textbook;
 #[path = "../common/twins/mod.rs"]
 mod twins;

@@ -8,6 +8,7 @@ use crate::diagnostic::limits::{MOST_BONE_INDEX, MOST_BONES, MOST_MATERIALS, MOS
 use crate::diagnostic::{Code, Diagnostic, codes};
 use crate::format::{Document, Keyframe, Material, QuickRows, QuickRun, Vertex};
 use crate::model::Handedness;
+use crate::sorting;
 
 /// What is known of a file beside its bytes. What is not known is not judged.
 #[derive(Clone, Copy, Debug, Default)]
@@ -238,7 +239,7 @@ impl Limits {
             self.add(&codes::BOOK_CLIP_NAME, message);
         }
         let mut names: Vec<_> = clips.iter().map(|clip| first_word(&clip.name)).collect();
-        names.sort_unstable();
+        sorting::sort(&mut names);
         let all = names.len();
         names.dedup();
         if names.len() < all {

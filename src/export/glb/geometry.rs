@@ -11,6 +11,7 @@ use super::binary::{Binary, Target, UNSIGNED_BYTE, UNSIGNED_INT, UNSIGNED_SHORT}
 use super::skeleton::is_unweighted;
 use super::space::Space;
 use crate::model::{Influences, Model, Object, Submesh};
+use crate::sorting;
 
 /// Primitives that name no more vertices than this together share them all, as the model has them.
 const FEW_VERTICES: usize = 4096;
@@ -154,7 +155,7 @@ fn add_parts(model: &Model, submeshes: &[&Submesh], all: Range<u32>, parts: &mut
     let mesh = &model.mesh;
     let triangles = submeshes.iter().map(|submesh| corners_of(submesh));
     let mut ranges: Vec<Range<usize>> = triangles.map(|range| range.start / 3..range.end / 3).collect();
-    ranges.sort_by_key(|range| (range.start, range.end));
+    sorting::sort_by_key(&mut ranges, |range| (range.start, range.end));
     // How many submeshes draw each part.
     let mut joined: Vec<(Range<usize>, usize)> = Vec::new();
     for range in &ranges {

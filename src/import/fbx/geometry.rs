@@ -11,6 +11,7 @@ use crate::diagnostic::{Fault, codes};
 use crate::fbx::{Budget, Place, Record};
 use crate::import::scene::Vertices;
 use crate::slices::Slices;
+use crate::sorting;
 
 /// Triangles of one material, by its place among those of the node.
 pub(super) struct Part {
@@ -277,7 +278,7 @@ pub(super) async fn read(
         let (positions, triangles) = (&geometry.vertices.positions, &mut geometry.parts[part].triangles);
         not_whole += usize::from(!triangulate(&of_polygon, positions, triangles, &file.ear_tests_left));
     }
-    geometry.parts.sort_by_key(|part| part.material);
+    sorting::sort_by_key(&mut geometry.parts, |part| part.material);
     let open = corners.iter().rev().take_while(|corner| **corner >= 0).count();
     for (count, [one, many], what) in [
         (

@@ -17,6 +17,7 @@ use crate::fbx::Place;
 use crate::import::scene::{MeshBuilder, MeshUse, Rig};
 use crate::model::{Influences, Mesh, Object};
 use crate::slices::{Slices, Stage};
+use crate::sorting;
 
 /// What is kept of a part of a mesh on each node that has it, besides what its triangles take.
 const BYTES_PER_PART: u64 = 64;
@@ -61,7 +62,7 @@ impl Meshes {
             let all = [object].into_iter().chain(hanging.map(|(index, _)| index));
             uses.extend(all.filter(&mut has_points).map(|geometry| (geometry, node)));
         }
-        uses.sort();
+        sorting::sort(&mut uses);
         for (at, &(index, node)) in uses.iter().enumerate() {
             slices.pause_at(Stage::Building, at, uses.len()).await;
             let object = objects.get(index);

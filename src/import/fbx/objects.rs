@@ -10,6 +10,7 @@ use std::rc::Rc;
 use glam::DVec3;
 
 use crate::fbx::{Document, Place, Record};
+use crate::sorting;
 
 /// An object by its number among all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -147,7 +148,7 @@ impl<'f, 'a> Objects<'f, 'a> {
         }
         let classes: Vec<&str> = objects.all.iter().map(|object| &*object.record.name).collect();
         for object in &mut objects.all {
-            object.children.sort_by_key(|child| classes[child.to.index()]);
+            sorting::sort_by_key(&mut object.children, |child| classes[child.to.index()]);
         }
         objects.by_key = by_key;
         objects

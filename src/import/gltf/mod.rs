@@ -26,6 +26,7 @@ use crate::diagnostic::{Diagnostic, Position, Severity, codes};
 use crate::gltf::{self, Buffers, Container, Fault, FindFile, Reader, Root, Uri};
 use crate::model::{Front, Handedness, Model, UpAxis};
 use crate::slices::{Slices, Stage};
+use crate::sorting;
 
 pub(super) use crate::gltf::begins_like_gltf as begins_like_model;
 
@@ -90,7 +91,7 @@ pub(super) fn files_beside(bytes: &[u8]) -> Vec<String> {
             _ => None,
         })
         .collect();
-    paths.sort();
+    sorting::sort(&mut paths);
     paths.dedup();
     paths
 }

@@ -9,6 +9,7 @@ use crate::import::offsets::{self, Words};
 pub(super) use crate::import::scene::Rig;
 use crate::import::scene::{MeshUse, Scene, Skin};
 use crate::model::Skeleton;
+use crate::sorting;
 
 const INVERSE_BIND_MATRICES: Words = Words {
     one_has: "inverse bind matrix has",
@@ -76,7 +77,7 @@ pub(super) fn find_meshes(root: &Root, scene: &mut Scene, diagnostics: &mut Diag
             is_on_node,
         });
     }
-    scene.uses.sort();
+    sorting::sort(&mut scene.uses);
     Ok(())
 }
 

@@ -18,6 +18,7 @@ use crate::diagnostic::{Diagnostic, Fault};
 use crate::format::{self, Dialect, Document, LineMap, Parsed};
 use crate::model::{Front, Model, UpAxis};
 use crate::slices::{Slices, Stage, at_once};
+use crate::sorting;
 
 pub(super) use crate::format::begins_like_model;
 
@@ -30,7 +31,7 @@ pub(super) async fn import(bytes: &[u8], slices: &Slices) -> Result<Imported, Bo
         .await
         .map_err(|fault| refused(*fault, parsed.diagnostics.clone()))?;
     let mut diagnostics = [&parsed.diagnostics[..], &of_model].concat();
-    diagnostics.sort_by_key(|diagnostic| diagnostic.position);
+    sorting::sort_by_key(&mut diagnostics, |diagnostic| diagnostic.position);
     Ok(Imported {
         model,
         diagnostics,

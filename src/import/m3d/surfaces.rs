@@ -4,6 +4,7 @@ use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Code, Subject, codes};
 use crate::format::{self, Dialect, Document, LineMap, Subset};
 use crate::model::{AlphaMode, Material, Reflectance, Submesh, unique_names};
+use crate::sorting;
 
 /// The ranges to draw. May add one default material for subsets that have none.
 pub(super) fn submeshes_from_document(
@@ -103,7 +104,7 @@ fn note_coverage(submeshes: &[Submesh], triangle_count: u32, lines: &LineMap, di
         .filter(|submesh| submesh.triangle_count > 0)
         .map(|submesh| (submesh.triangle_start, submesh.triangle_start + submesh.triangle_count))
         .collect();
-    ranges.sort_unstable();
+    sorting::sort(&mut ranges);
     let (mut drawn_to, mut shared_to) = (0, 0);
     let (mut undrawn, mut shared) = (Tally::default(), Tally::default());
     for (start, end) in ranges {

@@ -6,6 +6,7 @@ use crate::diagnostic::{Diagnostic, Fault, codes};
 use crate::image::{self, Image};
 use crate::scene::Background;
 use crate::session::open::files::{File, FileSet};
+use crate::sorting;
 
 /// The sky of a session. It belongs to no model, and stays when another opens.
 #[derive(Clone, Debug, Default)]
@@ -55,7 +56,9 @@ impl Sky {
         if cubes.is_empty() && diagnostics.is_empty() {
             return cubes;
         }
-        cubes.sort_by_key(|file| std::cmp::Reverse((image::cube_side(&file.bytes), file.bytes.len())));
+        sorting::sort_by_key(&mut cubes, |file| {
+            std::cmp::Reverse((image::cube_side(&file.bytes), file.bytes.len()))
+        });
         cubes.retain(|file| {
             let checked = image::check(&file.bytes, file.base_name());
             let is_sound = checked.is_ok();

@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::archive;
 use crate::slices::{Slices, Stage, at_once};
+use crate::sorting;
 use crate::{image, import};
 
 /// One file: where it lay relative to what was dropped, and its bytes.
@@ -282,7 +283,7 @@ fn models_among(files: &[File]) -> (Vec<usize>, Vec<usize>) {
             models.retain(|&index| import::begins_like_model(&files[index].bytes));
         }
     }
-    models.sort_by_key(|&index| std::cmp::Reverse(files[index].bytes.len()));
+    sorting::sort_by_key(&mut models, |&index| std::cmp::Reverse(files[index].bytes.len()));
     let (motions, others): (Vec<usize>, Vec<usize>) = models
         .iter()
         .partition(|&&index| import::is_motion(&files[index].bytes));

@@ -16,6 +16,7 @@ use crate::diagnostic::{Diagnostic, Severity, Subject, codes};
 use crate::edit::{self, Retargeted};
 use crate::model::{Skeleton, unique_names};
 use crate::slices::Slices;
+use crate::sorting;
 
 /// Numbers of two bone offsets that differ by less are the same: lengths as fractions of the model's size, axes as they are.
 /// Two exports of one rig differ in the last of six digits; a thousandth of the size is hardly seen.
@@ -190,7 +191,7 @@ impl OpenModel {
             .filter(|((ours, theirs), _)| !are_same(ours, theirs, size))
             .map(|(_, &bone)| bone)
             .collect();
-        differing.sort_unstable();
+        sorting::sort(&mut differing);
         let &first = differing.first()?;
         let message = format!(
             "{} of the {} bone offsets of {} differ from those of {}, the first that of bone {first}: its clips were made for \

@@ -10,6 +10,7 @@ use crate::format::{self, Excerpt};
 use crate::import;
 use crate::session::published::verdicts::{Verdicts, missing_maps};
 use crate::slices::{Slices, Stage, at_once};
+use crate::sorting;
 
 /// A file that could not be opened.
 #[derive(Clone, Debug, PartialEq)]
@@ -168,7 +169,7 @@ async fn are_same(a: &[u8], b: &[u8], slices: &Slices) -> bool {
 /// The motions of a drop, as Mixamo gives them, join after those of before; one of the same name takes its place.
 fn join_motions(files: &FileSet, joined: &mut Vec<JoinedFile>) {
     let mut motions = files.motions();
-    motions.sort_by_key(|motion| motion.path.to_lowercase());
+    sorting::sort_by_key(&mut motions, |motion| motion.path.to_lowercase());
     for motion in motions {
         let now = JoinedFile::of(motion, files);
         let same = |joined: &&mut JoinedFile| joined.file.base_name() == motion.base_name();
@@ -209,7 +210,6 @@ pub(in crate::session) async fn load_whole(
     file: &File,
     mut maps: Maps,
     before: Option<Loaded>,
-    judges: bool,
     slices: &Slices,
 ) -> Result<Box<Loaded>, Box<LoadError>> {
     let mut joined = before.as_ref().map_or(Vec::new(), |before| before.open.joined.clone());
@@ -224,9 +224,7 @@ pub(in crate::session) async fn load_whole(
     maps.add_in(&open.model.materials, pictures, slices).await;
     let of_same = same.filter(|before| missing_maps(&before.maps) == missing_maps(&maps));
     let verdicts = of_same.map_or_else(Verdicts::default, |before| before.verdicts.clone());
-    if judges {
-        verdicts.of_in(&open, &maps, slices).await;
-    }
+    verdicts.of_in(&open, &maps, slices).await;
     if let Some(open) = Arc::get_mut(&mut open) {
         open.source.forget();
     }

@@ -15,6 +15,7 @@ use crate::import::{FileFormat, Imported, Source};
 use crate::model::{Clip, JointIndex, Model};
 use crate::scene::Aabb;
 use crate::slices::{Slices, Stage, at_once};
+use crate::sorting;
 
 /// A model that is on screen, with the file it came from.
 #[derive(Clone, Debug)]
@@ -143,7 +144,7 @@ impl OpenModel {
         } = imported;
         let compiled = CompiledClip::all_in(&model.clips, slices).await;
         diagnostics.extend(check::model_in(&model, &compiled, &*source.places(&file.bytes), slices).await);
-        diagnostics.sort_by_key(|diagnostic| diagnostic.position);
+        sorting::sort_by_key(&mut diagnostics, |diagnostic| diagnostic.position);
         Self {
             file: file.clone(),
             format: source.format,

@@ -14,6 +14,7 @@ use super::wish::{Ready, Wish};
 use crate::session::Session;
 use crate::session::changes::Changes;
 use crate::slices::{Sliced, Slices, Stage, StageProgress};
+use crate::sorting;
 
 /// A command about files.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,11 +82,6 @@ impl Session {
     /// From now on this session opens in these slices.
     pub fn open_in(&mut self, slices: &Slices) {
         self.opening.slices = slices.clone();
-    }
-
-    /// From now on opening works out no verdicts: nobody asks for [`Session::verdicts`].
-    pub fn leave_out_verdicts(&mut self) {
-        self.opening.without_verdicts = true;
     }
 
     /// What is read or being opened; never anything for a session without slices.
@@ -233,9 +229,8 @@ impl Session {
             maps: content.maps.clone(),
             verdicts: content.verdicts.clone(),
         });
-        let judges = !self.opening.without_verdicts;
         let work = Sliced::new(&self.opening.slices, async move |slices| {
-            wish.fulfil(shown, judges, &slices).await
+            wish.fulfil(shown, &slices).await
         });
         self.opening.now = Some(Underway {
             work,
@@ -328,7 +323,7 @@ impl Session {
     pub fn models(&self) -> Vec<&File> {
         fn sorted(opened: &Opened) -> Vec<&File> {
             let mut models = opened.files.models();
-            models.sort_by_cached_key(|file| (file.path.to_lowercase(), file.path.clone()));
+            sorting::sort_by_key(&mut models, |file| (file.path.to_lowercase(), file.path.clone()));
             models
         }
         self.content.opened.iter().flat_map(sorted).collect()

@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use crate::diagnostic::{Diagnostic, Subject, codes};
 use crate::model::{MapSlot, Material};
+use crate::sorting;
 
 use super::files::File;
 
@@ -121,7 +122,7 @@ impl<'a> FileNames<'a> {
                 (merit, index)
             })
             .collect();
-        fitting.sort();
+        sorting::sort(&mut fitting);
         let &((rank, ..), file) = fitting.first()?;
         let rivals = fitting.iter().skip(1);
         let rivals = rivals.take_while(|((other, ..), _)| *other == rank);

@@ -15,7 +15,6 @@ pub(in crate::session) struct Opening {
     pub(super) fetching: Option<(String, [usize; 2])>,
     /// Those that the session was given.
     pub(super) slices: Slices,
-    pub(super) without_verdicts: bool,
 }
 
 #[derive(Debug)]
@@ -34,7 +33,6 @@ impl Clone for Opening {
     fn clone(&self) -> Self {
         Self {
             slices: self.slices.clone(),
-            without_verdicts: self.without_verdicts,
             ..Self::default()
         }
     }

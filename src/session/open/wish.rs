@@ -68,8 +68,8 @@ impl Wish {
         file.map_or("", File::base_name).to_owned()
     }
 
-    /// Makes it ready beside what is shown; nothing of that changes. `judges`: with the books' verdicts.
-    pub(in crate::session) async fn fulfil(self, shown: Option<Loaded>, judges: bool, slices: &Slices) -> Ready {
+    /// Makes it ready beside what is shown; nothing of that changes.
+    pub(in crate::session) async fn fulfil(self, shown: Option<Loaded>, slices: &Slices) -> Ready {
         match self {
             Self::Files(files) => {
                 let files = Arc::new(FileSet::new_in(files, slices).await);
@@ -79,11 +79,11 @@ impl Wish {
                 // The model alone, dropped again, keeps the pictures that came before.
                 let before = shown.filter(|shown| shown.open.file.base_name() == file.base_name());
                 let maps = before.as_ref().map_or_else(Maps::default, |before| before.maps.clone());
-                Ready::Model(load_whole(files, &file, maps, before, judges, slices).await)
+                Ready::Model(load_whole(files, &file, maps, before, slices).await)
             }
             Self::Listed(files, file, maps) => {
                 let before = shown.filter(|shown| shown.open.file.path == file.path);
-                Ready::Model(load_whole(files, &file, *maps, before, judges, slices).await)
+                Ready::Model(load_whole(files, &file, *maps, before, slices).await)
             }
             Self::Clips(files) => {
                 let files = FileSet::new_in(files, slices).await;

@@ -12,6 +12,7 @@ use crate::session::open::content::Opened;
 use crate::session::open::files::File;
 use crate::session::open::open_model::JoinedFile;
 use crate::session::{Command, MaterialCommand, NameCommand, QualityCommand, Session};
+use crate::sorting;
 
 /// All that a session has open, for another one. In their order: each of `openings` is opened, then `model` is shown, the clips of each of `clips`
 /// are added, `sky` is opened, and [`Session::go_on_from`] takes `rest`.
@@ -46,7 +47,7 @@ impl Session {
     pub fn handed_over(&self, panels: Vec<String>) -> HandedOver {
         let content = &self.content;
         let mut openings: Vec<_> = content.opened.iter().collect();
-        openings.sort_by_key(|opened| self.is_shown_of(opened));
+        sorting::sort_by_key(&mut openings, |opened| self.is_shown_of(opened));
         let joined = content.open.iter().flat_map(|open| &open.joined);
         HandedOver {
             openings: openings.into_iter().map(|opened| self.with_pictures(opened)).collect(),

@@ -51,7 +51,7 @@ pub(in crate::session) fn missing_maps(maps: &Maps) -> Option<&[String]> {
 }
 
 async fn of_books(open: &OpenModel, maps: &Maps, slices: &Slices) -> Vec<Verdict> {
-    if open.format.dialect().is_none() {
+    if crate::IS_SMALL_PROGRAM || open.format.dialect().is_none() {
         return Vec::new();
     }
     let bytes = &open.file.bytes;

@@ -56,7 +56,6 @@ async fn draw_frames(
     watch_device(&surface.gpu.device, waker.clone(), tell_of_loss);
     let theme = shared.face.shown_theme();
     shared.session.borrow_mut().apply(Command::SetTheme(theme));
-    shared.session.borrow_mut().leave_out_verdicts();
     app.replace(Some(App::new(Rc::clone(&shared.session), surface, waker)));
     let mut next = NextPass::AtOnce;
     loop {

@@ -5,6 +5,7 @@ use web_sys::Storage;
 
 use crate::model::SavedNames;
 use crate::session::{NameCommand, Session};
+use crate::sorting;
 
 /// More text than this is not kept, in bytes: names for two thousand joints.
 const MOST_BYTES: usize = 64 * 1024;
@@ -77,7 +78,7 @@ fn make_room(store: &Storage, key: &str) -> Option<()> {
     let all = (0..store.length().ok()?).filter_map(|index| store.key(index).ok()?);
     let mut kept: Vec<String> = all.filter(|kept| kept.starts_with(PREFIX) && kept != key).collect();
     // Those that are not in the order come first.
-    kept.sort_by_key(|kept| {
+    sorting::sort_by_key(&mut kept, |kept| {
         order
             .split(' ')
             .position(|known| known == kept)
