@@ -74,11 +74,3 @@ pub mod sorting;
 pub mod ui;
 #[cfg(all(feature = "element", target_arch = "wasm32"))]
 mod web;
-
-/// Whether this is the small program for other people's pages. Scripts are told findings there, but no verdicts and no reports: it is without their
-/// words, and without the code that works them out.
-const IS_SMALL_PROGRAM: bool = cfg!(all(
-    feature = "element",
-    not(feature = "viewer"),
-    target_arch = "wasm32"
-));

@@ -17,9 +17,17 @@ pub fn named(name: &str) -> Option<&'static Code> {
     all().find(|code| code.name == name)
 }
 
-/// What only reports tell, which the small program has not.
+/// Whether this program makes reports and the books' verdicts. The small one for other people's pages tells scripts what was found, and is without
+/// their words and without the code that works verdicts out.
+pub(crate) const HAS_REPORTS: bool = !cfg!(all(
+    feature = "element",
+    not(feature = "viewer"),
+    target_arch = "wasm32"
+));
+
+/// What only reports tell.
 const fn long(words: &'static str) -> &'static str {
-    if crate::IS_SMALL_PROGRAM { "" } else { words }
+    if HAS_REPORTS { words } else { "" }
 }
 
 /// A constant for each row, and a list for each group. A row has, in this order: name, severity, sentence; what it means; what is done about it

@@ -269,7 +269,6 @@ fn what_many_share_is_neither_copied_nor_looked_through_for_each() {
         let start = Instant::now();
         let peak_bytes = peak_bytes(name, &bytes);
         let taken = start.elapsed();
-        println!("{name}: {} MiB and {taken:.1?}", peak_bytes >> 20);
         if peak_bytes > MOST_BYTES + MOST_GROWTH * bytes.len() as u64 || taken > MOST_TIME {
             told.push(format!(
                 "{name}: {} MiB and {taken:.1?} for {}",

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use crate::check::book::{self, Book, Known, Limit, MOST_MATERIALS, Verdict};
-use crate::diagnostic::codes;
+use crate::diagnostic::codes::{self, HAS_REPORTS};
 use crate::edit::too_large_for_book;
 use crate::model::Model;
 use crate::session::open::maps::Maps;
@@ -51,7 +51,7 @@ pub(in crate::session) fn missing_maps(maps: &Maps) -> Option<&[String]> {
 }
 
 async fn of_books(open: &OpenModel, maps: &Maps, slices: &Slices) -> Vec<Verdict> {
-    if crate::IS_SMALL_PROGRAM || open.format.dialect().is_none() {
+    if !HAS_REPORTS || open.format.dialect().is_none() {
         return Vec::new();
     }
     let bytes = &open.file.bytes;
