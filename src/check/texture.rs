@@ -4,7 +4,6 @@ use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Entry, Places, Subject, codes};
 use crate::model::{Front, Green, Material, Mesh, Model};
 use crate::slices::{Slices, at_once};
-use crate::sorting;
 
 /// The cosine of the angle between a bitangent and the way in which v grows, below which it points clearly the other way: by more than 135°. In the books'
 /// files a few slanted triangles come to 131°, and all else agrees.
@@ -123,7 +122,7 @@ async fn against_in(model: &Model, slices: &Slices) -> Vec<u32> {
             slices.for_each(model.triangles_of(is_such), hear).await;
         }
     }
-    sorting::sort(&mut accused);
+    accused.sort_unstable();
     accused.dedup();
     accused.retain(|&vertex: &u32| !cleared[vertex as usize]);
     accused

@@ -17,15 +17,11 @@ pub fn named(name: &str) -> Option<&'static Code> {
     all().find(|code| code.name == name)
 }
 
-/// Whether this program makes reports and the books' verdicts. The small one for other people's pages tells scripts what was found, and is without
-/// their words and without the code that works verdicts out.
-pub(crate) const HAS_REPORTS: bool = !cfg!(all(
-    feature = "element",
-    not(feature = "viewer"),
-    target_arch = "wasm32"
-));
+/// Whether this program makes reports and works out the books' verdicts. The small program for other people's pages only tells scripts what was
+/// found: it has neither the longer words of codes nor the code of verdicts.
+pub(crate) const HAS_REPORTS: bool = cfg!(any(feature = "viewer", feature = "cli", not(feature = "element")));
 
-/// What only reports tell.
+/// Words that only reports have; empty where there are none.
 const fn long(words: &'static str) -> &'static str {
     if HAS_REPORTS { words } else { "" }
 }

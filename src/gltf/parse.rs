@@ -22,7 +22,7 @@ const KNOWN: [&str; 10] = [
 /// # Errors
 /// When it is no JSON, or a value is of another kind than glTF gives it.
 pub fn parse(container: &Container<'_>) -> Result<Root, Fault> {
-    // One way in: a second one, for text that is known to be UTF-8, would be all types of the file once more in the program.
+    // Always from bytes: were text read by `from_str` too, the program would hold the readers of all these types twice.
     serde_json::from_slice(container.json).map_err(|error: serde_json::Error| {
         if !error.is_data() {
             let message = format!("The JSON cannot be read: {}.", words(&error));

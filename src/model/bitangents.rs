@@ -1,11 +1,11 @@
 //! Which way bitangents go in the texture, and so the green of normal maps.
 
-use crate::sorting;
 use std::ops::Range;
 
 use glam::DVec3;
 
 use super::{Mesh, Model, Submesh};
+use crate::sorting;
 
 /// Where the green of a normal map points in its picture, which is where bitangents go: w · cross(normal, tangent).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

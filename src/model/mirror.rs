@@ -1,11 +1,11 @@
 //! Which joints are each other's mirror image.
 
-use crate::sorting;
 use std::collections::{HashMap, HashSet};
 
 use glam::{Affine3A, Vec3};
 
 use super::{Aabb, JointIndex, JointTree, Skeleton};
+use crate::sorting;
 
 /// How far apart the ways of two partners from their parents may end, one of them mirrored: this fraction of the longest side of
 /// the box of all joints, and this fraction of the way. Bind poses of real figures lean a little, so that a hand is far from

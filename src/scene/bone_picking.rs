@@ -6,7 +6,6 @@ use glam::{Mat4, Vec2, Vec3, Vec4, Vec4Swizzles};
 
 use super::Bones;
 use crate::model::JointIndex;
-use crate::sorting;
 
 /// Bones whose distances from the pointer differ by less than this fraction of the radius count as equally near. Of
 /// those the one nearest to the eye is picked.
@@ -142,7 +141,7 @@ pub fn label_places(bones: &Bones, screen: &Screen, spacing: f32, first: &[Joint
             .position(|&joint| joint == place.joint)
             .unwrap_or(first.len())
     };
-    sorting::sort_by(places, |a, b| rank(a).cmp(&rank(b)).then(a.depth.total_cmp(&b.depth)));
+    places.sort_by(|a, b| rank(a).cmp(&rank(b)).then(a.depth.total_cmp(&b.depth)));
     if spacing > 0.0 {
         let mut taken = Taken::new(spacing);
         places.retain(|place| taken.take(screen.in_heights(place.position)));

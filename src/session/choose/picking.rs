@@ -13,7 +13,6 @@ use crate::model::{MapSlot, Material, Mesh, Wrap};
 use crate::scene::{Hit, Ray, pick, value_at};
 use crate::session::open::content::Content;
 use crate::session::open::maps::Maps;
-use crate::sorting;
 
 /// Buffers that are kept from pick to pick.
 #[derive(Debug, Default)]
@@ -138,7 +137,7 @@ fn may_be_clear(material: &Material) -> bool {
 /// The nearest of what a ray meets of some instances, with whose it is. `entered` has the distances at which it comes into their
 /// boxes. `meet` is asked about the nearest box first, and no more when what was met is nearer than the next box.
 pub fn first_met(entered: &mut [(f32, usize)], mut meet: impl FnMut(usize) -> Option<Hit>) -> Option<(usize, Hit)> {
-    sorting::sort_by(entered, |(a, of_a), (b, of_b)| a.total_cmp(b).then(of_a.cmp(of_b)));
+    entered.sort_unstable_by(|(a, of_a), (b, of_b)| a.total_cmp(b).then(of_a.cmp(of_b)));
     let mut nearest: Option<(usize, Hit)> = None;
     for &(distance, instance) in entered.iter() {
         if nearest.is_some_and(|(_, nearest)| nearest.distance < distance) {
