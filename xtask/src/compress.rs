@@ -51,7 +51,8 @@ impl Coding {
                 let quality = if effort == Effort::Best { 11 } else { 3 };
                 let params = brotli::enc::BrotliEncoderParams {
                     quality,
-                    lgwin: 22,
+                    // The widest that each browser reads: a program is larger than 4 MB.
+                    lgwin: 24,
                     size_hint: bytes.len(),
                     ..Default::default()
                 };
