@@ -18,9 +18,9 @@ pub(crate) use repeated::repeated_triangles;
 pub(crate) use texture::tangents_against;
 
 use crate::anim::CompiledClip;
-use crate::diagnostic::collect::Diagnostics;
-use crate::diagnostic::{Diagnostic, Places};
-use crate::model::Model;
+use crate::diagnostic::collect::{Diagnostics, line_start};
+use crate::diagnostic::{Diagnostic, Entry, Places, Subject};
+use crate::model::{Mesh, Model, Submesh};
 use crate::slices::{Slices, Stage, at_once};
 
 /// Checks a model that is sound: its mesh, its maps' coordinates, its bones, and all clips in motion. `compiled` are the model's clips,
@@ -61,5 +61,41 @@ pub async fn model_in(
     exploded::note_exploded(model, compiled, places, &mut diagnostics);
     at(10).await;
     overflow::note_overflows(model, compiled, places, &mut diagnostics);
-    diagnostics.into_vec()
+    let mut all = diagnostics.into_vec();
+    all.iter_mut()
+        .for_each(|diagnostic| fill_place(diagnostic, &model.mesh, places));
+    all
+}
+
+/// Gives a diagnostic that has no place yet that of its part of the model. Formats that make vertices and triangles anew have no place for
+/// one: then it is that of its subset.
+fn fill_place(diagnostic: &mut Diagnostic, mesh: &Mesh, places: &dyn Places) {
+    let has_place = diagnostic.position.is_some() || diagnostic.pointer.is_some() || diagnostic.byte_offset.is_some();
+    let Some(subject) = diagnostic.subject.filter(|_| !has_place) else {
+        return;
+    };
+    let subset_of = |triangle: usize| {
+        let draws = |submesh: &Submesh| {
+            let behind = triangle.checked_sub(submesh.triangle_start as usize);
+            behind.is_some_and(|behind| behind < submesh.triangle_count as usize)
+        };
+        Some(Entry::Subset(mesh.submeshes.iter().position(draws)? as u32))
+    };
+    let entry = match subject {
+        Subject::Material(index) => Some(Entry::Material(index)),
+        Subject::Subset(index) => Some(Entry::Subset(index)),
+        Subject::Bone(index) => Some(Entry::Bone(index)),
+        Subject::Clip(index) => Some(Entry::Clip(index)),
+        Subject::Triangle(index) => subset_of(index as usize),
+        Subject::Vertex(index) => {
+            let corner = mesh.indices.iter().position(|&vertex| vertex == index);
+            corner.and_then(|corner| subset_of(corner / 3))
+        }
+        Subject::Map(_) => None,
+    };
+    let Some(entry) = entry else { return };
+    diagnostic.pointer = places.pointer(entry);
+    diagnostic.byte_offset = places.byte_offset(entry);
+    diagnostic.position = places.line(entry).map(line_start);
+    diagnostic.places.extend(diagnostic.position);
 }

@@ -52,7 +52,7 @@ impl fmt::Display for Entry {
     }
 }
 
-/// What a format can tell of places. A text has lines, glTF has JSON pointers; what a format does not have is `None`.
+/// What a format can tell of places. A text has lines, glTF has JSON pointers, binary FBX has bytes; what a format does not have is `None`.
 pub trait Places {
     /// The line on which an entry begins, from 1.
     fn line(&self, _entry: Entry) -> Option<u32> {
@@ -66,6 +66,11 @@ pub trait Places {
 
     /// The pointer to an entry.
     fn pointer(&self, _entry: Entry) -> Option<String> {
+        None
+    }
+
+    /// Where an entry begins in a binary file, in bytes from its start.
+    fn byte_offset(&self, _entry: Entry) -> Option<u64> {
         None
     }
 

@@ -3,7 +3,7 @@
 use crate::diagnostic::{Code, Diagnostic, Fault, Position, codes};
 
 /// Where something is in the file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Place {
     /// In a binary one: bytes from its start.
     Offset(u64),

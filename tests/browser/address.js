@@ -235,7 +235,7 @@ test("a page of notes frames a moment with its timeline, or the picture alone", 
   const copied = await page.evaluate(async () => (await import("/web/link.js")).embedding(location.href, "A step"));
   let notes;
   const { address, stop } = await serve(() => notes);
-  const waits = { polling: 50, timeout: 30_000 };
+  const waits = { polling: 50 };
   const isShown = () => globalThis.bindpose?.state().timeSecs === 0.5 && document.getElementById("shell").hidden;
   const transport = ["timeline", "play", "time", "range-in", "range-out", "clips", "speed", "next-loop-mode"];
   const framed = [["transport", copied, transport], ["none", copied.replace("ui=transport", "ui=none"), []]];

@@ -427,7 +427,7 @@ test("the small program brings back what every link says, but panels", {
   for (const link of LINKS) {
     const text = link.replace(/&panel=[^&]*/, "");
     assert.deepEqual(await page.evaluate((text) => newest.followLink(text, false), text), [], link);
-    await page.waitForFunction((text) => newest.link().text === text, text, { polling: 50, timeout: 20_000 }).catch(async (error) => {
+    await page.waitForFunction((text) => newest.link().text === text, text, { polling: 50 }).catch(async (error) => {
       throw new Error(`${text}: ${await page.evaluate(() => newest.link().text)}`, { cause: error });
     });
   }

@@ -118,7 +118,7 @@ test("a newer build says so, is taken by a click and leaves the pages of the old
   host.asked.length = 0;
   await page.evaluate(async () => (await navigator.serviceWorker.ready).update());
   // A page that lies behind another one may have no frames to wait by.
-  const waits = { polling: 50, timeout: 60_000 };
+  const waits = { polling: 50 };
   for (const each of [page, other]) await each.waitForFunction(() => !document.getElementById("newer").hidden, null, waits).catch(() => assert.fail(`no card; asked for ${host.asked}`));
   await page.waitForFunction(() => document.getElementById("spoken").textContent.includes("A newer Bindpose is here: reload the page to have it now."), null, waits);
   assert.deepEqual(host.asked.filter((name) => name.endsWith(".wasm")), [], "what both builds have is not fetched again");
@@ -157,7 +157,7 @@ test("a newer build that came during a visit is taken by the next one, whole", {
   await keptWhole(page, one);
   host.build = "two";
   await page.evaluate(async () => (await navigator.serviceWorker.ready).update());
-  await page.waitForFunction(() => !document.getElementById("newer").hidden, null, { polling: 50, timeout: 60_000 });
+  await page.waitForFunction(() => !document.getElementById("newer").hidden, null, { polling: 50 });
   assert.equal(await buildOf(page), one);
   await page.goto("about:blank");
   await visit(page, host);

@@ -4,6 +4,7 @@ mod damage;
 mod materials;
 mod motion;
 mod oracle;
+mod places;
 mod polygons;
 mod surface;
 

@@ -13,6 +13,7 @@ use crate::failure::{Doing as _, Failure};
 use crate::headers;
 use crate::licenses;
 use crate::npm;
+use crate::scripts;
 use crate::site::Site;
 use crate::sizes::{self, Size};
 use crate::wasm::{self, Profile, Program};
@@ -88,9 +89,10 @@ pub(crate) fn write_for_tests(site: &Site) -> Result<(), Failure> {
     }
     for build in ["one", "two"] {
         let mut sources = sources(site)?;
-        for address in ["web/fault.js", "web/sample/figure.m3d"] {
+        for (address, more) in [("web/fault.js", ";\n"), ("web/sample/figure.m3d", "\n")] {
             let file = sources.get_mut(address).filter(|_| build == "two");
-            file.into_iter().for_each(|bytes| bytes.push(b'\n'));
+            file.into_iter()
+                .for_each(|bytes| bytes.extend_from_slice(more.as_bytes()));
         }
         let licenses = "As in dist/, though not all of them.\n".to_owned();
         for (name, bytes) in made(sources, licenses)? {
@@ -112,9 +114,12 @@ pub(crate) fn sources(site: &Site) -> Result<BTreeMap<String, Vec<u8>>, Failure>
     Ok(sources)
 }
 
-/// The same as a host gets them: with the licences of what is in them, under hashed names, with the worker that keeps them.
+/// The same as a host gets them: scripts without comments, with the licences of what is in them, under hashed names, with the worker that keeps them.
 fn made(mut sources: BTreeMap<String, Vec<u8>>, licenses: String) -> Result<BTreeMap<String, Vec<u8>>, Failure> {
     sources.insert(licenses::NAME.to_owned(), licenses.into_bytes());
+    for (_, script) in sources.iter_mut().filter(|(address, _)| address.ends_with(".js")) {
+        *script = scripts::without_comments(&String::from_utf8_lossy(script)).into_bytes();
+    }
     let template = sources.remove(worker::TEMPLATE).unwrap_or_default();
     let mut files = hashed(&sources)?;
     worker::join(&mut files, &String::from_utf8_lossy(&template))?;

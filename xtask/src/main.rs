@@ -44,6 +44,7 @@ mod prerequisites;
 mod process;
 #[cfg(test)]
 mod published;
+mod scripts;
 mod second_tries;
 mod serve;
 mod site;

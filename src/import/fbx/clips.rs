@@ -78,7 +78,7 @@ impl Stack {
             let span = take
                 .find("LocalTime")
                 .and_then(|time| Some([time.number(0)?, time.number(1)?]));
-            let layer = Layer::of_take(take, objects, nodes, file.settings.unit_metres);
+            let layer = Layer::of_take(take, file, objects, nodes);
             // Files of 7.x have takes without curves.
             if !layer.is_empty() {
                 stacks.push(Self {
@@ -122,7 +122,7 @@ pub(super) fn mark_moved(stacks: &[Stack], nodes: &mut Nodes) {
     }
 }
 
-/// The clips of a file for a skeleton; `size` is the model's. Stacks that move no joint are none.
+/// The clips of a file for a skeleton, and where their stacks stand; `size` is the model's. Stacks that move no joint are none.
 ///
 /// # Errors
 /// When the budget has no room for their keys.
@@ -133,7 +133,7 @@ pub(super) async fn clips(
     rig: &Rig,
     size: f64,
     slices: &Slices,
-) -> Result<Vec<Clip>, Fault> {
+) -> Result<(Vec<Clip>, Vec<Place>), Fault> {
     let mut read = Vec::new();
     // Tracks whose numbers are too great for any, those that would take too long, and those that are off.
     let (mut unwritten, mut unfollowed, mut off) = (0, 0, Few::default());
@@ -229,5 +229,7 @@ pub(super) async fn clips(
         }
     }
     let clips = names.into_iter().zip(read);
-    Ok(clips.map(|(name, (_, tracks))| Clip::new(name, tracks)).collect())
+    Ok(clips
+        .map(|(name, (stack, tracks))| (Clip::new(name, tracks), stack.place))
+        .unzip())
 }

@@ -117,7 +117,7 @@ async fn model(
         .mesh(&nodes, (&objects, &materials), &rig, diagnostics, slices)
         .await?;
     let size = size(&meshed.mesh.positions, &rig.skeleton);
-    let clips = clips::clips(file, &nodes, &stacks, &rig, size, slices).await?;
+    let (clips, of_clips) = clips::clips(file, &nodes, &stacks, &rig, size, slices).await?;
     left_out::note(file, &objects, &nodes);
     if meshed.mesh.positions.is_empty() && rig.skeleton.joint_count() == 0 {
         file.note(&codes::FBX_EMPTY, codes::FBX_EMPTY.sentence.to_owned());
@@ -137,7 +137,7 @@ async fn model(
         .iter()
         .map(|&index| objects.get(index).record.place)
         .collect();
-    let places = Places::of(&objects, &nodes, &rig, [of_materials, meshed.places]);
+    let places = Places::of(&objects, &nodes, &rig, [of_materials, meshed.places, of_clips]);
     let model = Model {
         materials: materials.materials,
         mesh: meshed.mesh,

@@ -1,4 +1,4 @@
-//! Where the parts of a model stand in an FBX file: lines of text ones. Binary ones have none to show.
+//! Where the parts of a model stand in an FBX file: lines of text ones, bytes of binary ones.
 
 use super::nodes::Nodes;
 use super::objects::Objects;
@@ -14,15 +14,17 @@ pub(crate) struct Places {
     materials: Vec<Place>,
     /// Of the geometry of each subset.
     subsets: Vec<Place>,
+    /// Of the stack of each clip.
+    clips: Vec<Place>,
 }
 
 impl Places {
-    /// `materials` and `subsets` are where these stand.
+    /// `materials`, `subsets` and `clips` are where these stand.
     pub(super) fn of(
         objects: &Objects<'_, '_>,
         nodes: &Nodes,
         rig: &Rig,
-        [materials, subsets]: [Vec<Place>; 2],
+        [materials, subsets, clips]: [Vec<Place>; 3],
     ) -> Self {
         let node = |joint: usize| nodes.objects[rig.node_of_joint[joint] as usize];
         let bones = rig.skeleton.joint_of_bone().iter();
@@ -32,21 +34,34 @@ impl Places {
                 .collect(),
             materials,
             subsets,
+            clips,
         }
+    }
+
+    fn place(&self, entry: Entry) -> Option<Place> {
+        let (places, index) = match entry {
+            Entry::Material(material) => (&self.materials, material),
+            Entry::Subset(subset) => (&self.subsets, subset),
+            Entry::Bone(bone) | Entry::Offset(bone) => (&self.bones, bone),
+            Entry::Clip(clip) | Entry::Track { clip, .. } | Entry::Key { clip, .. } => (&self.clips, clip),
+            _ => return None,
+        };
+        places.get(index as usize).copied()
     }
 }
 
 impl diagnostic::Places for Places {
     fn line(&self, entry: Entry) -> Option<u32> {
-        let place = match entry {
-            Entry::Material(material) => self.materials.get(material as usize),
-            Entry::Subset(subset) => self.subsets.get(subset as usize),
-            Entry::Bone(bone) | Entry::Offset(bone) => self.bones.get(bone as usize),
-            _ => None,
-        };
-        match place? {
+        match self.place(entry)? {
             Place::At(position) => Some(position.line),
             Place::Offset(_) => None,
+        }
+    }
+
+    fn byte_offset(&self, entry: Entry) -> Option<u64> {
+        match self.place(entry)? {
+            Place::Offset(offset) => Some(offset),
+            Place::At(_) => None,
         }
     }
 }

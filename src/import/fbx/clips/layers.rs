@@ -162,36 +162,40 @@ impl Layer {
     }
 
     /// The one layer of a take of 6.1.
-    pub(super) fn of_take(take: &Record<'_>, objects: &Objects<'_, '_>, nodes: &Nodes, unit_metres: f64) -> Self {
+    pub(super) fn of_take(
+        take: &Record<'_>,
+        file: &mut File<'_, '_>,
+        objects: &Objects<'_, '_>,
+        nodes: &Nodes,
+    ) -> Self {
         let mut moved: HashMap<u32, Moved> = HashMap::new();
         for model in take.all("Model") {
-            let Some(node) = model
-                .bytes(0)
-                .and_then(|name| objects.named(name))
-                .and_then(|object| node_of(nodes, object))
-            else {
+            let object = model.bytes(0).and_then(|name| objects.named(name));
+            let Some((object, node)) = object.and_then(|object| Some((object, node_of(nodes, object)?))) else {
                 continue;
             };
             let transform = model.all("Channel").filter(|channel| named(channel) == "Transform");
             for channel in transform.flat_map(|transform| transform.all("Channel")) {
-                let Some(property) = Property::named(&named(channel)) else {
+                let channel_name = named(channel);
+                let Some(property) = Property::named(&channel_name) else {
                     continue;
                 };
+                let of = format!("{}, {channel_name}", objects.get(object).name);
                 let mut axes = Axes::default();
                 for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
                     let Some(of_axis) = channel.all("Channel").find(|channel| named(channel) == name) else {
                         continue;
                     };
                     axes.without[axis] = of_axis.find("Default").and_then(|default| default.number(0));
-                    axes.curves[axis] =
-                        Some(Rc::new(Curve::read_take(of_axis))).filter(|curve| curve.times_secs().next().is_some());
+                    let curve = Curve::read_take(of_axis, file, &of);
+                    axes.curves[axis] = Some(Rc::new(curve)).filter(|curve| curve.times_secs().next().is_some());
                 }
                 moved.entry(node).or_default().0[property as usize] = Some(axes);
             }
         }
         Self {
             moved,
-            unit_metres,
+            unit_metres: file.settings.unit_metres,
             ..Self::default()
         }
     }

@@ -18,6 +18,8 @@ struct Growing {
     slopes: Vec<Slopes>,
     /// With what the next key is reached: slope and weight.
     next: [f64; 2],
+    /// How many keys are left out.
+    left_out: usize,
 }
 
 impl Growing {
@@ -27,6 +29,7 @@ impl Growing {
         let secs = ticks / self.ticks_per_sec;
         let is_later = self.keys.last().is_none_or(|before| before.secs < secs);
         if !(value.is_finite() && secs.is_finite() && is_later) {
+            self.left_out += 1;
             return;
         }
         let finite = |[slope, weight]: [f64; 2]| [if slope.is_finite() { slope } else { 0.0 }, weight.clamp(0.0, 1.0)];
@@ -42,7 +45,14 @@ impl Growing {
         self.next = next;
     }
 
-    fn curve(mut self, beyond: [(Beyond, u32); 2]) -> Curve {
+    /// The curve that a record says; `of` names what it moves.
+    fn curve(mut self, record: &Record<'_>, file: &mut File<'_, '_>, of: &str) -> Curve {
+        if self.left_out > 0 {
+            let keys = counted(self.left_out, "key", "keys");
+            let message =
+                format!("The curve of \"{of}\" has {keys} without a number, or no later than one before; left out.");
+            file.note_of(record.place, &codes::FBX_RULE_BROKEN, message);
+        }
         for at in 0..self.keys.len() {
             if self.keys[at].way == Way::Cubic {
                 let around = [at.checked_sub(1), Some(at), Some(at + 1)].map(|at| self.keys.get(at?).copied());
@@ -61,7 +71,7 @@ impl Growing {
         }
         Curve {
             keys: self.keys,
-            beyond,
+            beyond: beyond(record),
         }
     }
 }
@@ -125,11 +135,11 @@ impl Curve {
                 _ => growing.add(ticks as f64, value, way, set, still, still),
             }
         }
-        Ok(growing.curve(beyond(record)))
+        Ok(growing.curve(record, file, of))
     }
 
-    /// A channel of a `Take` of 6.1, where words stand between the numbers of a key.
-    pub(in crate::import::fbx) fn read_take(record: &Record<'_>) -> Self {
+    /// A channel of a `Take` of 6.1, where words stand between the numbers of a key; `of` names what it moves.
+    pub(in crate::import::fbx) fn read_take(record: &Record<'_>, file: &mut File<'_, '_>, of: &str) -> Self {
         let mut growing = Growing {
             ticks_per_sec: TICKS_PER_SEC,
             ..Growing::default()
@@ -158,7 +168,7 @@ impl Curve {
             let Some((way, set, right, next)) = given else { break };
             growing.add(ticks, value, way, set, right, next);
         }
-        growing.curve(beyond(record))
+        growing.curve(record, file, of)
     }
 }
 

@@ -271,6 +271,12 @@ fn what_clips_cannot_follow_is_told_with_its_bone() {
         "The curve of \"Bone 0, Lcl Translation\" has 3 times, but 2 values; what has no other half is left out.";
     assert_eq!(told(&imported), [("fbx-rule-broken", short)]);
     assert_eq!(imported.model.clips[0].end_secs, 1.0);
+    let again = |times: &str| times.replacen("a: 0,46186158000,", "a: 0,0,", 1);
+    let file = again(&of_bone(&[0.0, 100.0, 200.0], STRAIGHT, "Lcl Translation").file());
+    let imported = import(file.as_bytes()).expect("it is read");
+    let late =
+        "The curve of \"Bone 0, Lcl Translation\" has 1 key without a number, or no later than one before; left out.";
+    assert_eq!(told(&imported), [("fbx-rule-broken", late)]);
 }
 
 #[test]
