@@ -7,12 +7,10 @@ pub(crate) fn without_comments(script: &str) -> String {
     let (mut in_comment, mut in_template) = (false, false);
     for line in script.lines() {
         let text = line.trim();
+        let begins_comment = text.starts_with("/*") && (text.ends_with("*/") || !text.contains("*/"));
         if in_template {
             kept.push_str(line);
-        } else if in_comment {
-            in_comment = !text.ends_with("*/");
-            continue;
-        } else if text.starts_with("/*") && (text.ends_with("*/") || !text.contains("*/")) {
+        } else if in_comment || begins_comment {
             in_comment = !text.ends_with("*/");
             continue;
         } else if text.is_empty() || text.starts_with("//") {
