@@ -1,27 +1,40 @@
 //! Scripts as they are shipped: without what only their readers need.
 
-/// A script without the lines that are comments alone, without empty lines and without indentation, outside of templates (between
+/// A script without the comments that begin a line, without empty lines and without indentation, outside of templates (between
 /// backquotes). What stands behind code on its line stays: to see whether that is a comment one has to read the language.
 pub(crate) fn without_comments(script: &str) -> String {
     let mut kept = String::with_capacity(script.len());
     let (mut in_comment, mut in_template) = (false, false);
     for line in script.lines() {
-        let text = line.trim();
-        let begins_comment = text.starts_with("/*") && (text.ends_with("*/") || !text.contains("*/"));
-        if in_template {
-            kept.push_str(line);
-        } else if in_comment || begins_comment {
-            in_comment = !text.ends_with("*/");
-            continue;
-        } else if text.is_empty() || text.starts_with("//") {
-            continue;
-        } else {
-            kept.push_str(text);
+        let mut code = line;
+        if !in_template {
+            code = behind_comments(line.trim(), &mut in_comment);
+            if code.is_empty() || code.starts_with("//") {
+                continue;
+            }
         }
+        kept.push_str(code);
         kept.push('\n');
-        in_template ^= opens_or_closes_template(line);
+        in_template ^= opens_or_closes_template(code);
     }
     kept
+}
+
+/// What stands on a line behind the comments at its beginning; `in_comment` says whether one goes on there, and then whether one goes on
+/// behind the line.
+fn behind_comments<'a>(mut line: &'a str, in_comment: &mut bool) -> &'a str {
+    loop {
+        if *in_comment {
+            let Some((_, behind)) = line.split_once("*/") else {
+                return "";
+            };
+            (line, *in_comment) = (behind.trim_start(), false);
+        }
+        let Some(comment) = line.strip_prefix("/*") else {
+            return line;
+        };
+        (line, *in_comment) = (comment, true);
+    }
 }
 
 /// Whether a template that begins on a line goes on behind it, or one that went on ends.
@@ -51,7 +64,10 @@ export function f(a) {
   ` + b
     * 3;
 }
-/* with code */ f(1);
+/* `with code */ f(1); /* and behind it */
+/* begins
+ ends */ f(2);
+f(3);
 ";
         assert_eq!(
             without_comments(script),
@@ -64,7 +80,9 @@ return `
   ` + b
 * 3;
 }
-/* with code */ f(1);
+f(1); /* and behind it */
+f(2);
+f(3);
 "
         );
     }
