@@ -62,7 +62,8 @@ fn line_corner(corner: u32, from_world: vec3<f32>, to_world: vec3<f32>, color_sr
 }
 
 fn vertex_texel(vertex: u32, part: u32) -> vec4<f32> {
-    let texel = vec2<u32>((vertex % JOINTS_PER_ROW) * 3u + part, vertex / JOINTS_PER_ROW);
+    let per_row = textureDimensions(vertices).x / 3u;
+    let texel = vec2<u32>((vertex % per_row) * 3u + part, vertex / per_row);
     return textureLoad(vertices, vec2<i32>(texel), 0);
 }
 

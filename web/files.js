@@ -1,11 +1,12 @@
 // Which file is what, by its name.
 
-/** The extensions of each kind, as the program has them in src/session/open/files.rs. "unread" are pictures that the viewer names and cannot read. */
+/** The extensions of each kind, as the program has them in src/session/open/files.rs. "unread" are pictures that the viewer names and cannot read. A text is a model where it begins like one. */
 export const KINDS = {
   model: ["m3d", "glb", "gltf", "fbx"],
   archive: ["zip"],
   picture: ["dds", "png", "jpg", "jpeg", "webp", "tga", "bmp", "hdr"],
   buffer: ["bin"],
+  text: ["txt"],
   unread: ["exr"],
 };
 

@@ -10,6 +10,8 @@ use walkdir::WalkDir;
 use super::diagnostic::write_diagnostic;
 use super::failure::Failure;
 use crate::diagnostic::{Diagnostic, codes};
+use crate::format::BEGINNING_LEN;
+use crate::import;
 use crate::session::{self, FileKind};
 
 /// The name of standard input.
@@ -58,8 +60,18 @@ pub(super) fn not_a_file() -> Diagnostic {
     codes::NOT_A_FILE.says(codes::NOT_A_FILE.sentence)
 }
 
+/// By its name or, of a text, by how it begins.
 fn is_model(path: &Path) -> bool {
-    session::File::new(&path.to_string_lossy(), []).kind() == Some(FileKind::Model)
+    match session::File::new(&path.to_string_lossy(), []).kind() {
+        Some(FileKind::Text) => path.is_file() && begins_like_model(path),
+        kind => kind == Some(FileKind::Model),
+    }
+}
+
+fn begins_like_model(path: &Path) -> bool {
+    let mut beginning = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(BEGINNING_LEN as u64).read_to_end(&mut beginning));
+    read.is_ok() && import::begins_like_model(&beginning)
 }
 
 /// The bytes of a file, or of standard input where the path says `-`.

@@ -3,6 +3,7 @@
 //! A [`Subject`] is a part of the model. An [`Entry`](super::Entry) is what the file says of it, and [`Places`](super::Places) tells where in the file
 //! that stands. A [`Place`] is what a diagnostic is told of both; [`Tally`] gathers one for many parts alike.
 
+use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 use std::fmt;
 
@@ -23,7 +24,7 @@ pub(crate) struct Diagnostics {
 
 impl Diagnostics {
     /// Up to this many diagnostics of one code are kept apart.
-    const MOST_APART: u32 = 4;
+    pub(crate) const MOST_APART: u32 = 4;
 
     pub(crate) fn add(&mut self, code: &Code, place: Place, message: String) {
         let met = self.met.entry(code.name).or_default();
@@ -313,9 +314,14 @@ impl fmt::Display for Few {
 
 /// A name between quotation marks. A very long one is cut.
 pub(crate) fn quoted(name: &str) -> String {
+    format!("\"{}\"", shortened(name))
+}
+
+/// The first letters of a name that may be long.
+pub(crate) fn shortened(name: &str) -> Cow<'_, str> {
     const MOST_LETTERS: usize = 40;
     match name.char_indices().nth(MOST_LETTERS) {
-        Some((end, _)) => format!("\"{}…\"", &name[..end]),
-        None => format!("\"{name}\""),
+        Some((end, _)) => Cow::Owned(format!("{}…", &name[..end])),
+        None => Cow::Borrowed(name),
     }
 }

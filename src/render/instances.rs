@@ -47,7 +47,7 @@ impl BoneTexture {
     /// For palettes of `joint_count` joints, at most [`BoneTexture::max_joints`]. To be written before it is read.
     pub fn new(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, joint_count: usize) -> Self {
         let rows = (joint_count as u32).div_ceil(JOINTS_PER_ROW).max(1);
-        let (texture, group) = texture(device, layout, rows);
+        let (texture, group) = texture(device, layout, [TEXELS_PER_ROW, rows]);
         Self {
             device: device.clone(),
             layout: layout.clone(),
@@ -83,7 +83,7 @@ impl BoneTexture {
         if height > self.texture.height() {
             // More than is needed, since the number of poses changes from frame to frame.
             let height = height.next_power_of_two().min(limits.max_texture_dimension_2d);
-            (self.texture, self.group) = texture(&self.device, &self.layout, height);
+            (self.texture, self.group) = texture(&self.device, &self.layout, [TEXELS_PER_ROW, height]);
             self.texels_before.clear();
         }
         let differs = |&row: &u32| row_of(&self.texels, row) != row_of(&self.texels_before, row);
@@ -117,11 +117,11 @@ fn write_rows(queue: &Queue, texture: &wgpu::Texture, first: u32, texels: &[[f32
         bytemuck::cast_slice(texels),
         wgpu::TexelCopyBufferLayout {
             offset: 0,
-            bytes_per_row: Some(TEXELS_PER_ROW * BYTES_PER_TEXEL),
+            bytes_per_row: Some(texture.width() * BYTES_PER_TEXEL),
             rows_per_image: None,
         },
         wgpu::Extent3d {
-            height: texels.len() as u32 / TEXELS_PER_ROW,
+            height: texels.len() as u32 / texture.width(),
             ..texture.size()
         },
     );
@@ -133,29 +133,37 @@ fn row_of(texels: &[[f32; 4]], row: u32) -> Option<&[u8]> {
     row.map(bytemuck::cast_slice)
 }
 
-fn texture(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, height: u32) -> (wgpu::Texture, wgpu::BindGroup) {
-    let (size, format) = ([TEXELS_PER_ROW, height], wgpu::TextureFormat::Rgba32Float);
-    let view = flat_texture(device, "bones", size, format, UPLOADED_AND_READ);
+fn texture(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, size: [u32; 2]) -> (wgpu::Texture, wgpu::BindGroup) {
+    let view = flat_texture(
+        device,
+        "bones",
+        size,
+        wgpu::TextureFormat::Rgba32Float,
+        UPLOADED_AND_READ,
+    );
     let group = bind_group(device, "bones", layout, [wgpu::BindingResource::TextureView(&view)]);
     (view.texture().clone(), group)
 }
 
-/// A texture of rows of items with three texels each, [`JOINTS_PER_ROW`] items a row. None where a texture may not have so many rows.
+/// A texture of rows of items with three texels each, [`JOINTS_PER_ROW`] items a row or, of many, as many as make it a square. None where a
+/// texture may not have such a side.
 pub(super) fn texels_in_rows(
     device: &wgpu::Device,
     queue: &Queue,
     layout: &wgpu::BindGroupLayout,
     elements: impl ExactSizeIterator<Item = [[f32; 4]; 3]>,
 ) -> Option<wgpu::BindGroup> {
-    let rows = (elements.len() as u32).div_ceil(JOINTS_PER_ROW).max(1);
-    if rows > device.limits().max_texture_dimension_2d {
+    let count = elements.len() as u32;
+    let per_row = JOINTS_PER_ROW.max(count.div_ceil(TEXELS_PER_JOINT).isqrt() + 1);
+    let size = [per_row * TEXELS_PER_JOINT, count.div_ceil(per_row).max(1)];
+    if size.into_iter().max() > Some(device.limits().max_texture_dimension_2d) {
         return None;
     }
-    let (texture, group) = texture(device, layout, rows);
+    let (texture, group) = texture(device, layout, size);
     let (mut row, mut elements) = (0, elements.peekable());
     while elements.peek().is_some() {
-        let mut texels: Vec<_> = elements.by_ref().take(JOINTS_PER_ROW as usize).flatten().collect();
-        texels.resize(TEXELS_PER_ROW as usize, [0.0; 4]);
+        let mut texels: Vec<_> = elements.by_ref().take(per_row as usize).flatten().collect();
+        texels.resize(size[0] as usize, [0.0; 4]);
         write_rows(queue, &texture, row, &texels);
         row += 1;
     }

@@ -117,7 +117,7 @@ pub(super) struct Edges {
 }
 
 impl Edges {
-    /// None where a texture has too few rows for the vertices.
+    /// None where no texture is large enough for the vertices: 22 million where its side is 8192.
     pub(super) fn new(
         (device, queue): (&wgpu::Device, &Queue),
         layouts: &Layouts,

@@ -213,7 +213,11 @@ impl Shared {
 
     /// The bytes of some files, read in pieces. The session tells how far that is. Those that can bring a model overtake what is being opened.
     async fn read(&self, records: Vec<Record>, replaces: bool) -> Result<Vec<File>, JsValue> {
-        let total: usize = records.iter().map(Record::size).sum();
+        let is_model = |record: &Record| matches!(record.kind(), Some(FileKind::Model | FileKind::Archive));
+        let has_model = records.iter().any(is_model);
+        let may_be_note = |record: &Record| has_model && record.kind() == Some(FileKind::Text);
+        let sure = records.iter().filter(|record| !may_be_note(record));
+        let total: usize = sure.map(Record::size).sum();
         if total > MOST_BYTES {
             let in_mib = |bytes: usize| bytes.div_ceil(1 << 20);
             let (total, most) = (in_mib(total), in_mib(MOST_BYTES));
@@ -223,16 +227,24 @@ impl Shared {
         let largest = records.iter().max_by_key(|record| record.size());
         let name = largest.map_or("", |record| record.base_name()).to_owned();
         let mine = self.session.borrow_mut().begin_fetching(name, total, replaces);
-        let read = self.read_unless_overtaken(records, mine).await;
+        let read = self.read_unless_overtaken(records, may_be_note, mine).await;
         if self.session.borrow().openings() == mine {
             self.session.borrow_mut().end_fetching();
         }
         read
     }
 
-    async fn read_unless_overtaken(&self, records: Vec<Record>, openings: u64) -> Result<Vec<File>, JsValue> {
+    async fn read_unless_overtaken(
+        &self,
+        records: Vec<Record>,
+        may_be_note: impl Fn(&Record) -> bool,
+        openings: u64,
+    ) -> Result<Vec<File>, JsValue> {
         let (mut files, mut told_secs) = (Vec::new(), now_secs());
         for record in records {
+            if may_be_note(&record) && !record.begins_like_model().await? {
+                continue;
+            }
             let mut bytes = Vec::with_capacity(record.size());
             while bytes.len() < record.size() && !record.is_refused_by(&bytes) {
                 let piece = record.piece(bytes.len()).await?;
@@ -277,9 +289,16 @@ impl Record {
     /// Whether a file that begins so is refused, whatever follows: it is of another format. The beginning says all that is told of it.
     fn is_refused_by(&self, beginning: &[u8]) -> bool {
         beginning.len() == HEAD_LEN
-            && matches!(self.kind(), None | Some(FileKind::Model))
+            && matches!(self.kind(), None | Some(FileKind::Model | FileKind::Text))
             && !import::is_of_others(beginning)
             && format::begins_like_another(beginning)
+    }
+
+    /// Whether it does, and is not too large. Beside a model, a text that does not is notes: it is not read.
+    async fn begins_like_model(&self) -> Result<bool, JsValue> {
+        let mut beginning = Vec::new();
+        append(&mut beginning, &self.piece(0).await?);
+        Ok(self.size() <= MOST_BYTES && import::begins_like_model(&beginning))
     }
 
     /// The bytes from an offset on, as many as are read at once.

@@ -135,7 +135,7 @@ const TOGETHER = [
 ];
 const fieldsOf = (links) => new Set(links.flatMap((text) => text.split("&").map((field) => field.split("=")[0])));
 
-test("links bring back in the page as it is what they say", OWN, async (page) => {
+test("links bring back in the page as it is what they say", { ...OWN, draws: true }, async (page) => {
   for (const text of LINKS) {
     await follow(page, text);
     const now = await state(page);

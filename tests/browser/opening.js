@@ -70,11 +70,15 @@ test("a static model of the books opens, and goes out as it came; a text that is
 test("a dropped folder opens with the paths in it", { own: true }, async (page) => {
   const { folder } = copyOfSample("pack", "models", "deep", "hero.m3d");
   writeFileSync(join(folder, "pack", "readme.md"), "not for the viewer");
+  writeFileSync(join(folder, "pack", "letter.txt"), `Dear reader,\n${" ".repeat(5 << 20)}`);
+  writeFileSync(join(folder, "pack", "point.txt"), "VertexCount: 1\nTriangleCount: 0\nVertexList (pos, normal)\n{\n0 0 0 0 1 0\n}\nTriangleList\n{\n}\n");
   await watchReads(page);
-  const { outcome, model } = await dropAndWait(page, [join(folder, "pack")]);
+  const { outcome, model, models } = await dropAndWait(page, [join(folder, "pack")]);
   assert.equal(outcome, "load");
   assert.equal(model.path, "pack/models/deep/hero.m3d");
-  assert.deepEqual(await page.evaluate(() => globalThis.reads), ["hero.m3d"], "and only what is of use");
+  assert.deepEqual([...models].sort(), ["pack/models/deep/hero.m3d", "pack/point.txt"]);
+  const reads = new Set(await page.evaluate(() => globalThis.reads));
+  assert.deepEqual([...reads].sort(), ["hero.m3d", "letter.txt", "point.txt"], "and only what is of use");
 });
 
 test("a folder of more entries than one call gives is read to its end", { own: true }, async (page) => {

@@ -586,6 +586,8 @@ fn a_folder_is_every_model_below_it_in_order_with_counts_at_the_end() {
     ] {
         std::fs::copy(fixture(fixture_name), folder.join(name)).expect("can be written");
     }
+    let text = "VertexCount: 0\nTriangleCount: 0\nVertexList (pos, normal)\n{\n}\nTriangleList\n{\n}\n";
+    std::fs::write(inner.join("skull.txt"), text).expect("can be written");
     let folder = folder.to_str().expect("UTF-8");
     let found = run(["check", "--json", folder]).json();
     let files: Vec<_> = found
@@ -598,13 +600,14 @@ fn a_folder_is_every_model_below_it_in_order_with_counts_at_the_end() {
         files,
         [
             &format!("{folder}/a.m3d"),
+            &format!("{folder}/b/skull.txt"),
             &format!("{folder}/b/x.m3d"),
             &format!("{folder}/c.M3D")
         ]
     );
     let text = run(["check", folder]);
     assert_eq!((text.code, text.err.as_str()), (Some(1), ""));
-    assert_eq!(text.out.lines().last(), Some("3 files: 1 error, 0 warnings, 1 note"));
+    assert_eq!(text.out.lines().last(), Some("4 files: 1 error, 0 warnings, 1 note"));
 }
 
 #[test]

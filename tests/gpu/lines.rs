@@ -1,7 +1,7 @@
 //! Lines over the model and beside it.
 
 use bindpose::scene::{Light, Overlay, Overlays, Projection};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use crate::gpu::{Easel, Gpu, Picture, difference};
 use crate::scenes::{FRONT, Scene, bent_tube, card};
@@ -49,6 +49,22 @@ on_both_backends! {
         for (x, y) in [(-0.75, 1.5), (-0.25, 0.5), (0.25, 1.5), (0.75, 0.5)] {
             assert_eq!(at(x, y), 0, "({x}, {y})");
         }
+    }
+
+    /// Vertices that no triangle uses stand before those of the squares, so many that the texture of the vertices has longer rows than of few.
+    fn wires_of_many_vertices_are_those_of_few(gpu) {
+        let few = with(gpu, &mut Scene::of(card(FRONT)), Overlay::Wireframe);
+        let mut model = card(FRONT);
+        let before = 300_000;
+        let mesh = &mut model.mesh;
+        mesh.positions = [vec![Vec3::ZERO; before], mesh.positions.clone()].concat();
+        mesh.normals = [vec![Vec3::NEG_Z; before], mesh.normals.clone()].concat();
+        mesh.tangents = [vec![Vec3::X.extend(1.0); before], mesh.tangents.clone()].concat();
+        mesh.tex_coords = vec![Vec2::ZERO; mesh.positions.len()];
+        mesh.indices.iter_mut().for_each(|index| *index += before as u32);
+        let many = with(gpu, &mut Scene::of(model), Overlay::Wireframe);
+        assert!(changed(&few[0], &few[1]) > 0.01);
+        assert_eq!(changed(&few[1], &many[1]), 0.0);
     }
 
     fn normals_and_tangents_stand_on_vertices(gpu) {

@@ -1,12 +1,13 @@
 //! A file while a model is made of it.
 
 use std::cell::Cell;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use glam::DAffine3;
 
 use super::objects::ObjectIndex;
 use super::settings::Settings;
+use crate::diagnostic::collect::Diagnostics;
 use crate::diagnostic::{Code, Diagnostic, Fault, Subject};
 use crate::fbx::{Budget, Document, Place};
 
@@ -24,6 +25,8 @@ pub(super) struct File<'f, 'a> {
     /// Bones that a skin bound elsewhere.
     pub(super) disagreeing: BTreeSet<ObjectIndex>,
     pub(super) noted: Vec<Diagnostic>,
+    /// How often each kind of note was told that any number of objects can have.
+    pub(super) told: BTreeMap<&'static str, (u32, &'static Code)>,
 }
 
 impl File<'_, '_> {
@@ -33,6 +36,30 @@ impl File<'_, '_> {
 
     pub(super) fn note_of(&mut self, place: Place, code: &Code, message: String) {
         self.noted.push(place.says(code, message));
+    }
+
+    /// Notes what any number of objects can have: the first few of a kind apart. `kind` names such objects where the rest is told.
+    pub(super) fn note_each(
+        &mut self,
+        place: Place,
+        code: &'static Code,
+        kind: &'static str,
+        message: impl FnOnce() -> String,
+    ) {
+        let (told, _) = self.told.entry(kind).or_insert((0, code));
+        *told += 1;
+        if *told <= Diagnostics::MOST_APART {
+            self.note_of(place, code, message());
+        }
+    }
+
+    /// Notes how many of each kind were not told apart.
+    pub(super) fn note_rest(&mut self) {
+        for (kind, (told, code)) in std::mem::take(&mut self.told) {
+            if let Some(rest @ 1..) = told.checked_sub(Diagnostics::MOST_APART) {
+                self.note(code, format!("{kind}: {rest} more."));
+            }
+        }
     }
 
     pub(super) fn note_about(&mut self, subject: Subject, code: &Code, message: String) {

@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use super::ears::triangulate;
 use super::file::File;
-use crate::diagnostic::collect::counted;
+use crate::diagnostic::collect::{counted, quoted};
 use crate::diagnostic::{Fault, codes};
 use crate::fbx::{Budget, Place, Record};
 use crate::import::scene::Vertices;
@@ -280,22 +280,30 @@ pub(super) async fn read(
     }
     sorting::sort_by_key(&mut geometry.parts, |part| part.material);
     let open = corners.iter().rev().take_while(|corner| **corner >= 0).count();
-    for (count, [one, many], what) in [
+    for (count, [one, many], what, kind) in [
         (
             without_values,
             ["corner", "corners"],
             "without a normal, a texture coordinate, a colour or a tangent; 0 is taken, and white as a colour",
+            "Geometries with corners without a value",
         ),
-        (open, ["corner", "corners"], "behind the last polygon; left out"),
+        (
+            open,
+            ["corner", "corners"],
+            "behind the last polygon; left out",
+            "Geometries with corners behind the last polygon",
+        ),
         (
             not_whole,
             ["polygon", "polygons"],
             "without an area, with sides that cross or with too many corners; triangles may overlap",
+            "Geometries with polygons whose triangles may overlap",
         ),
     ] {
         if count > 0 {
-            let message = format!("{} of \"{name}\" {what}.", counted(count, one, many));
-            file.note_of(record.place, &codes::FBX_RULE_BROKEN, message);
+            file.note_each(record.place, &codes::FBX_RULE_BROKEN, kind, || {
+                format!("{} of {} {what}.", counted(count, one, many), quoted(name))
+            });
         }
     }
     Ok(geometry)

@@ -11,7 +11,7 @@ use super::materials::Materials;
 use super::nodes::{self, Nodes};
 use super::objects::{ObjectIndex, Objects};
 use super::skins::{self, BYTES_PER_SLOT, Weights};
-use crate::diagnostic::collect::{Diagnostics, counted};
+use crate::diagnostic::collect::{Diagnostics, counted, quoted};
 use crate::diagnostic::{Fault, codes};
 use crate::fbx::Place;
 use crate::import::scene::{MeshBuilder, MeshUse, Rig};
@@ -71,12 +71,14 @@ impl Meshes {
                 let geometry = geometry::read((object.record, &object.name), file, slices).await;
                 let geometry = geometry.map_err(in_object(&object.name))?;
                 if geometry.left_out > 0 {
-                    let message = format!(
-                        "{} of \"{}\" with fewer than three corners; left out.",
-                        counted(geometry.left_out, "polygon", "polygons"),
-                        object.name
-                    );
-                    file.note_of(object.record.place, &codes::FBX_LEFT_OUT, message);
+                    let kind = "Geometries with polygons of fewer than three corners";
+                    file.note_each(object.record.place, &codes::FBX_LEFT_OUT, kind, || {
+                        format!(
+                            "{} of {} with fewer than three corners; left out.",
+                            counted(geometry.left_out, "polygon", "polygons"),
+                            quoted(&object.name)
+                        )
+                    });
                 }
                 let weights = match geometry.parts.is_empty() {
                     true => None,

@@ -21,7 +21,7 @@ mod skins;
 mod transform;
 
 use std::cell::Cell;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use glam::DAffine3;
 
@@ -67,9 +67,11 @@ pub(super) async fn import(bytes: &[u8], find: FindFile<'_>, slices: &Slices) ->
         bind_pose: HashMap::new(),
         disagreeing: BTreeSet::new(),
         noted: Vec::new(),
+        told: BTreeMap::new(),
     };
     let mut diagnostics = Diagnostics::default();
     let read = model(&mut file, find, &mut diagnostics, slices).await;
+    file.note_rest();
     let mut noted = file.noted;
     noted.extend(diagnostics.into_vec());
     match read {

@@ -121,14 +121,18 @@ pub(super) fn read(
         .filter(|(_, deformer)| deformer.kind == "Skin");
     let Some((_, skin)) = skins.next() else { return Ok(None) };
     if let Some((_, other)) = skins.next() {
-        let message = format!("\"{}\" has several skins; the first moves it.", geometry.name);
-        file.note_of(other.record.place, &codes::FBX_LEFT_OUT, message);
+        let kind = "Geometries with several skins";
+        file.note_each(other.record.place, &codes::FBX_LEFT_OUT, kind, || {
+            format!("{} has several skins; the first moves it.", quoted(&geometry.name))
+        });
     }
     let method = skin.record.find("SkinningType").and_then(|kind| kind.text(0));
     if method.is_some_and(|kind| matches!(&*kind, "DualQuaternion" | "Blend")) {
-        let name = &geometry.name;
-        let message = format!("\"{name}\" is skinned by dual quaternions; here it is linearly.");
-        file.note_of(skin.record.place, &codes::FBX_LEFT_OUT, message);
+        let kind = "Geometries that are skinned by dual quaternions";
+        file.note_each(skin.record.place, &codes::FBX_LEFT_OUT, kind, || {
+            let name = quoted(&geometry.name);
+            format!("{name} is skinned by dual quaternions; here it is linearly.")
+        });
     }
     let mut clusters = Vec::new();
     let mut entries = Vec::new();
@@ -164,18 +168,22 @@ fn cluster(
     let mut bones = objects.children(cluster, "Model");
     let bone = bones.find_map(|(model, _)| Some((model, nodes.node_of[model.index()]?)));
     let Some((bone, node)) = bone else {
-        let name = quoted(&cluster.name);
-        let message = format!("Cluster {name} names no bone; its weights are left out.");
-        file.note_of(record.place, &codes::FBX_RULE_BROKEN, message);
+        let kind = "Clusters without a bone";
+        file.note_each(record.place, &codes::FBX_RULE_BROKEN, kind, || {
+            let name = quoted(&cluster.name);
+            format!("Cluster {name} names no bone; its weights are left out.")
+        });
         return Ok(None);
     };
     let named = in_object(&cluster.name);
     let points = record.integers_of("Indexes", &file.budget).map_err(&named)?;
     let weights = record.numbers_of("Weights", &file.budget).map_err(&named)?;
     if points.len() != weights.len() {
-        let counts = format!("{} control points, but {} weights", points.len(), weights.len());
-        let message = format!("Cluster {} has {counts}.", quoted(&cluster.name));
-        file.note_of(record.place, &codes::FBX_RULE_BROKEN, message);
+        let kind = "Clusters with more control points than weights, or fewer";
+        file.note_each(record.place, &codes::FBX_RULE_BROKEN, kind, || {
+            let counts = format!("{} control points, but {} weights", points.len(), weights.len());
+            format!("Cluster {} has {counts}.", quoted(&cluster.name))
+        });
     }
     let mut add = add;
     points

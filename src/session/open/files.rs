@@ -112,12 +112,14 @@ pub enum FileKind {
     Picture,
     /// Data that a model names.
     Buffer,
+    /// A model where it begins like one; else notes.
+    Text,
     /// A picture of an environment, in a format that is not read.
     Unread,
 }
 
 /// The extensions of each kind. The page has the same table, in web/files.js.
-pub const FILE_KINDS: [(FileKind, &[&str]); 5] = [
+pub const FILE_KINDS: [(FileKind, &[&str]); 6] = [
     (FileKind::Model, &["m3d", "glb", "gltf", "fbx"]),
     (FileKind::Archive, &["zip"]),
     (
@@ -125,6 +127,7 @@ pub const FILE_KINDS: [(FileKind, &[&str]); 5] = [
         &["dds", "png", "jpg", "jpeg", "webp", "tga", "bmp", "hdr"],
     ),
     (FileKind::Buffer, &["bin"]),
+    (FileKind::Text, &["txt"]),
     (FileKind::Unread, &["exr"]),
 ];
 
@@ -189,7 +192,7 @@ impl FileSet {
         &self.files
     }
 
-    /// Files that are models by their name, the largest first. When there is none, any file that is no picture
+    /// Files that are models by their name, and texts that begin like one, the largest first. When there is none, any file that is no picture
     /// counts, so that a renamed model opens and any other file is told what it is; but beside pictures, which come with
     /// notes and sources, only one that begins like a model.
     pub fn models(&self) -> Vec<&File> {
@@ -276,7 +279,10 @@ fn models_among(files: &[File]) -> (Vec<usize>, Vec<usize>) {
         let files = files.iter().enumerate().filter(|(_, file)| wanted(file));
         files.map(|(index, _)| index).collect::<Vec<_>>()
     };
-    let mut models = by_name(|file| file.kind() == Some(FileKind::Model));
+    let mut models = by_name(|file| match file.kind() {
+        Some(FileKind::Text) => import::begins_like_model(&file.bytes),
+        kind => kind == Some(FileKind::Model),
+    });
     if models.is_empty() {
         models = by_name(|file| !matches!(file.kind(), Some(FileKind::Picture | FileKind::Unread)));
         if models.len() < files.len() {

@@ -136,14 +136,14 @@ test("pictures, clips and nothing that are dropped meanwhile replace no folder",
   assert.deepEqual(told, [["skin.png", false], ["walk.glb", true], nothing, ["big/old.m3d", false]]);
 });
 
-test("of a folder archives and what cannot be read yet arrive too, and notes do not", async () => {
+test("of a folder archives, what cannot be read yet and texts that may be models arrive too, and nothing else", async () => {
   const { drop, told } = dropArea();
   const names = ["pack.zip", "notes.txt", "studio.HDR", "a.gltf", "a.bin", "skin.jpeg", "sky.exr", "scene.blend"];
   const folder = folderEntry("big", names.map((name) => fileEntry(`big/${name}`)));
   folder.come();
   await drop([folder]);
-  assert.deepEqual(told, [["big/pack.zip,big/studio.HDR,big/a.gltf,big/a.bin,big/skin.jpeg,big/sky.exr", false]]);
-  assert.deepEqual(["m3d", "a.m3d.txt", ".zip", "x/y.zip"].map(isUseful), [false, false, true, true]);
+  assert.deepEqual(told, [["big/pack.zip,big/notes.txt,big/studio.HDR,big/a.gltf,big/a.bin,big/skin.jpeg,big/sky.exr", false]]);
+  assert.deepEqual(["m3d", "a.m3d.txt", ".zip", "x/y.zip"].map(isUseful), [false, true, true, true]);
   assert.deepEqual([[], [file("a.png")], [file("a.png"), file("b.zip")]].map(onlyJoins), [false, true, false]);
 });
 

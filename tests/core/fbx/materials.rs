@@ -1,7 +1,7 @@
 //! What materials of a file become: numbers as ufbx finds them, maps, and what is told where a map has no place.
 
 use bindpose::import::{Imported, import, import_beside};
-use bindpose::model::{MapSlot, Reflectance};
+use bindpose::model::{AlphaMode, MapSlot, Reflectance, Wrap};
 use bindpose::session::{File, FileCommand, Session};
 
 use super::{files, told};
@@ -214,6 +214,133 @@ fn one_picture_of_metal_and_roughness_is_taken_and_two_are_told() {
         let count = told(&imported, LEFT_OUT).join(" ").matches("Maya|TEX_").count();
         assert_eq!(count, if map.is_some() { 0 } else { 2 }, "{rough}");
     }
+}
+
+/// Each property takes its map to one slot, and to no other.
+#[test]
+fn maps_come_to_the_slot_of_their_property() {
+    use MapSlot::{Diffuse, Emissive, Normal, Occlusion};
+    for (property, slot) in [
+        ("DiffuseColor", Diffuse),
+        ("Maya|TEX_color_map", Diffuse),
+        ("Maya|baseColor", Diffuse),
+        ("3dsMax|Parameters|base_color_map", Diffuse),
+        ("3dsMax|main|base_color_map", Diffuse),
+        ("NormalMap", Normal),
+        ("Bump", Normal),
+        ("Maya|TEX_normal_map", Normal),
+        ("Maya|normalCamera", Normal),
+        ("3dsMax|Parameters|bump_map", Normal),
+        ("3dsMax|main|norm_map", Normal),
+        ("EmissiveColor", Emissive),
+        ("Maya|TEX_emissive_map", Emissive),
+        ("3dsMax|Parameters|emit_color_map", Emissive),
+        ("Maya|TEX_ao_map", Occlusion),
+        ("3dsMax|main|ao_map", Occlusion),
+    ] {
+        let imported = read(&painted(&[], &[(property, "map.png", None)]));
+        let material = &imported.model.materials[0];
+        let filled: Vec<MapSlot> = MapSlot::ALL
+            .into_iter()
+            .filter(|slot| material.map(*slot).is_some())
+            .collect();
+        assert_eq!(filled, [slot], "{property}");
+        assert!(told(&imported, LEFT_OUT).is_empty(), "{property}");
+    }
+}
+
+#[test]
+fn what_is_transparent_is_blended_and_a_picture_of_it_alone_is_told() {
+    let material = |properties: &[&str], textures: &[(&str, &str, Option<&str>)]| {
+        let imported = read(&painted(properties, textures));
+        let told = told(&imported, LEFT_OUT).len();
+        let material = &imported.model.materials[0];
+        (material.opacity, material.alpha, told)
+    };
+    let factor = "\"TransparencyFactor\", \"Number\", \"\", \"A\",";
+    let quarter = format!("{factor}0.25");
+    let color = "\"TransparentColor\", \"Color\", \"\", \"A\",1,0.5,0";
+    assert_eq!(material(&[&quarter], &[]), (0.75, AlphaMode::Blend, 0));
+    assert_eq!(material(&[&quarter, color], &[]), (0.875, AlphaMode::Blend, 0));
+    // Some exporters say that nothing is seen, and mean all.
+    assert_eq!(material(&[&format!("{factor}1")], &[]), (1.0, AlphaMode::Opaque, 0));
+    // The alpha of the colour's own picture cuts it; another picture has no place.
+    let cut = |by| [("DiffuseColor", "leaf.png", None), ("TransparentColor", by, None)];
+    assert_eq!(material(&[], &cut("leaf.png")), (1.0, AlphaMode::Blend, 0));
+    assert_eq!(material(&[], &cut("other.png")), (1.0, AlphaMode::Opaque, 1));
+}
+
+#[test]
+fn phongs_exponent_is_a_roughness_and_lamberts_is_none() {
+    let exponent = |value: f32| format!("\"ShininessExponent\", \"Number\", \"\", \"A\",{value}");
+    let roughness = |file: &str| match read(file).model.materials[0].reflectance {
+        Reflectance::MetallicRoughness { roughness, .. } => roughness,
+        _ => panic!("no roughness"),
+    };
+    // α² = 2 / (n + 2), and α is the square of the roughness: 0 is rough, 30 is a half, 2^9 - 2 a quarter.
+    for (given, wanted) in [(0.0, 1.0), (30.0, 0.5), (510.0, 0.25)] {
+        let file = painted(&[&exponent(given)], &[]);
+        assert!((roughness(&file) - wanted).abs() < 1e-6, "{given}");
+        let material = "\"Material::Paint\", \"\" {\n";
+        let lambert = file.replacen(material, &format!("{material}\t\tShadingModel: \"lambert\"\n"), 1);
+        assert!((roughness(&lambert) - 1.0).abs() < 1e-6, "{given}");
+    }
+}
+
+#[test]
+fn pictures_lie_on_the_mesh_as_ufbx_has_them() {
+    let mut file = painted(&[], &[("DiffuseColor", "tiles.png", None)]);
+    let property = |name: &str, numbers: &str| format!("\t\t\tP: \"{name}\", \"Vector3D\", \"\", \"A\",{numbers}\n");
+    let properties = [
+        property("Translation", "0.125,-0.25,0"),
+        property("Rotation", "0,0,30"),
+        property("Scaling", "2,0.5,1"),
+        property("TextureRotationPivot", "0.5,0.25,0"),
+        property("TextureScalingPivot", "0.25,0.75,0"),
+        "\t\t\tP: \"WrapModeU\", \"enum\", \"\", \"\",1\n".to_owned(),
+    ];
+    let path = "RelativeFilename: \"tiles.png\"\n";
+    let block = format!("{path}\t\tProperties70:  {{\n{}\t\t}}\n", properties.concat());
+    file = file.replacen(path, &block, 1);
+    let of_files = files("files").into_iter().map(|(name, bytes)| (name, bytes));
+    let mut turned = 0;
+    for (name, bytes) in of_files.chain([("a made one".to_owned(), file.into_bytes())]) {
+        let (Ok(imported), Ok(scene)) = (import(&bytes), ufbx::load_memory(&bytes, ufbx::LoadOpts::default())) else {
+            continue;
+        };
+        for material in &imported.model.materials {
+            let Some(map) = &material.diffuse_map else { continue };
+            let of_name = |texture: &&ufbx::Texture| {
+                let path = texture.relative_filename.replace('\\', "/");
+                path.rsplit('/').next() == Some(&map.name)
+            };
+            let mut all = scene.textures.iter().map(|texture| &**texture).filter(of_name);
+            let (Some(texture), None) = (all.next(), all.next()) else {
+                continue;
+            };
+            let theirs = &texture.uv_to_texture;
+            for (u, v) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.3, 0.6)] {
+                let x = theirs.m00 * u + theirs.m01 * v + theirs.m03;
+                let y = theirs.m10 * u + theirs.m11 * v + theirs.m13;
+                // In FBX v runs upwards.
+                let ours = map
+                    .sampling
+                    .map_from_mesh
+                    .transform_point2(glam::Vec2::new(u as f32, 1.0 - v as f32));
+                let off = (f64::from(ours.x) - x).abs().max((f64::from(ours.y) - (1.0 - y)).abs());
+                assert!(
+                    off < 1e-4,
+                    "{name}, {}: {ours} at ({u}, {v}), not ({x}, {})",
+                    map.name,
+                    1.0 - y
+                );
+            }
+            let clamped = [texture.wrap_u, texture.wrap_v].map(|wrap| wrap == ufbx::WrapMode::Clamp);
+            assert_eq!(map.sampling.wrap.map(|wrap| wrap == Wrap::Clamp), clamped, "{name}");
+            turned += usize::from(texture.has_uv_transform);
+        }
+    }
+    assert!(turned > 0, "no picture is turned");
 }
 
 #[test]

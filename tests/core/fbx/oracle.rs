@@ -131,15 +131,36 @@ fn axes(scene: &Scene) -> DMat3 {
     }
 }
 
-/// Where the points of a node's mesh are that faces use, with the four greatest weights.
+/// What brings a vertex of a node's mesh into the world: its bones, by the four greatest weights, or the node.
+fn world_from_vertex(node: &Node, mesh: &Mesh, index: usize) -> DAffine3 {
+    let skin = mesh.skin_deformers.iter().next();
+    if let Some(skin) = skin.filter(|skin| !skin.clusters.is_empty()) {
+        let vertex = &skin.vertices[index];
+        let first = vertex.weight_begin as usize;
+        let mut weights: Vec<(f64, u32)> = (first..first + vertex.num_weights as usize)
+            .map(|weight| (skin.weights[weight].weight, skin.weights[weight].cluster_index))
+            .filter(|(weight, _)| *weight > 0.0)
+            .collect();
+        weights.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        weights.truncate(4);
+        let sum: f64 = weights.iter().map(|(weight, _)| weight).sum();
+        if sum > 0.0 {
+            let mut blended = [0.0; 12];
+            for (weight, cluster) in weights {
+                let columns = matrix(&skin.clusters[cluster as usize].geometry_to_world).to_cols_array();
+                for (blended, number) in blended.iter_mut().zip(columns) {
+                    *blended += number * weight / sum;
+                }
+            }
+            return DAffine3::from_cols_array(&blended);
+        }
+    }
+    matrix(&node.geometry_to_world)
+}
+
+/// Where the points of a node's mesh are that faces use.
 fn points(scene: &Scene, node: &Node, mesh: &Mesh, out: &mut Vec<DVec3>) {
     let axes = axes(scene);
-    let geometry_to_world = matrix(&node.geometry_to_world);
-    let skin = mesh
-        .skin_deformers
-        .iter()
-        .next()
-        .filter(|skin| !skin.clusters.is_empty());
     let mut is_used = vec![false; mesh.num_vertices];
     for face in mesh.faces.iter().filter(|face| face.num_indices >= 3) {
         for corner in face.index_begin..face.index_begin + face.num_indices {
@@ -148,28 +169,7 @@ fn points(scene: &Scene, node: &Node, mesh: &Mesh, out: &mut Vec<DVec3>) {
     }
     for (index, position) in mesh.vertices.iter().enumerate().filter(|(index, _)| is_used[*index]) {
         let position = DVec3::new(position.x, position.y, position.z);
-        let mut placed = geometry_to_world.transform_point3(position);
-        if let Some(skin) = skin {
-            let vertex = &skin.vertices[index];
-            let first = vertex.weight_begin as usize;
-            let mut weights: Vec<(f64, u32)> = (first..first + vertex.num_weights as usize)
-                .map(|weight| (skin.weights[weight].weight, skin.weights[weight].cluster_index))
-                .filter(|(weight, _)| *weight > 0.0)
-                .collect();
-            weights.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-            weights.truncate(4);
-            let sum: f64 = weights.iter().map(|(weight, _)| weight).sum();
-            if sum > 0.0 {
-                placed = weights
-                    .iter()
-                    .map(|&(weight, cluster)| {
-                        matrix(&skin.clusters[cluster as usize].geometry_to_world).transform_point3(position)
-                            * (weight / sum)
-                    })
-                    .sum();
-            }
-        }
-        out.push(axes * placed);
+        out.push(axes * world_from_vertex(node, mesh, index).transform_point3(position));
     }
 }
 

@@ -54,7 +54,8 @@ fn a_name_says_what_a_file_is() {
         ("skin.JPeg", Some(FileKind::Picture)),
         ("studio.hdr", Some(FileKind::Picture)),
         ("studio.exr", Some(FileKind::Unread)),
-        ("readme.txt", None),
+        ("readme.txt", Some(FileKind::Text)),
+        ("readme.md", None),
         ("m3d", None),
     ] {
         assert_eq!(File::new(name, []).kind(), kind, "{name}");
@@ -93,7 +94,7 @@ fn models_come_largest_first_and_pictures_are_none() {
 }
 
 #[test]
-fn without_a_model_by_name_anything_but_pictures_is_tried_and_beside_them_what_begins_like_one() {
+fn a_text_is_a_model_where_it_begins_like_one_and_without_any_all_but_pictures_is_tried() {
     let names = |files: &[File]| {
         let set = FileSet::new(files.iter().cloned());
         set.models()
@@ -102,8 +103,17 @@ fn without_a_model_by_name_anything_but_pictures_is_tried_and_beside_them_what_b
             .collect::<Vec<_>>()
     };
     let model = File::new("model.txt", *b"***m3d-File-Header***\n#Materials 1\n");
-    let (picture, notes) = (file("a.png", 3), file("notes.txt", 100));
-    assert_eq!(names(&[notes.clone(), model.clone()]), ["notes.txt", "model.txt"]);
+    let (picture, notes, named) = (file("a.png", 3), file("notes.txt", 100), file("a.m3d", 3));
+    assert_eq!(names(&[notes.clone(), model.clone()]), ["model.txt"]);
+    assert_eq!(names(&[notes.clone()]), ["notes.txt"], "it is told what it is");
+    assert_eq!(
+        names(&[notes.clone(), named.clone(), model.clone()]),
+        ["model.txt", "a.m3d"]
+    );
+    let renamed = File::new("model.old", model.bytes.to_vec());
+    assert_eq!(names(&[named, renamed.clone()]), ["a.m3d"]);
+    assert_eq!(names(&[notes.clone(), renamed.clone()]), ["notes.txt", "model.old"]);
+    assert_eq!(names(&[picture.clone(), notes.clone(), renamed]), ["model.old"]);
     assert_eq!(names(&[picture.clone(), notes.clone(), model]), ["model.txt"]);
     assert!(names(&[picture.clone(), notes]).is_empty());
     assert!(names(&[picture]).is_empty());
@@ -111,7 +121,7 @@ fn without_a_model_by_name_anything_but_pictures_is_tried_and_beside_them_what_b
 
 #[test]
 fn when_the_last_model_of_a_drop_is_closed_no_other_file_of_it_is_taken_for_one() {
-    let renamed = File::new("model.txt", models::still("a.m3d").bytes);
+    let renamed = File::new("model.old", models::still("a.m3d").bytes);
     let mut session = super::opened(models::still("b.m3d"));
     session.apply(FileCommand::Add(vec![
         models::still("a.m3d"),

@@ -7,6 +7,7 @@ use std::rc::Rc;
 use glam::DVec3;
 
 use crate::diagnostic::Fault;
+use crate::diagnostic::collect::shortened;
 use crate::fbx::Record;
 use crate::import::fbx::curves::Curve;
 use crate::import::fbx::file::File;
@@ -93,6 +94,11 @@ pub(super) struct Layer {
     moved: HashMap<u32, Moved>,
 }
 
+/// A property of an object, as it is told.
+fn property_of(name: &str, property: &str) -> String {
+    format!("{}, {property}", shortened(name))
+}
+
 impl Layer {
     /// A layer of 7.x.
     ///
@@ -113,7 +119,10 @@ impl Layer {
             let moves =
                 |parent: &Connection<'_>| Some((node_of(nodes, parent.to)?, Property::named(&parent.property)?));
             let first = curve_node.parents.iter().find(|parent| moves(parent).is_some());
-            let first = first.map(|parent| format!("{}, {}", objects.get(parent.to).name, parent.property));
+            let of = || match first {
+                Some(parent) => property_of(&objects.get(parent.to).name, &parent.property),
+                None => shortened(&curve_node.name).into_owned(),
+            };
             let mut axes = Axes {
                 without: ["d|X", "d|Y", "d|Z"].map(|name| curve_node.number(name).filter(|number| number.is_finite())),
                 ..Axes::default()
@@ -127,11 +136,7 @@ impl Layer {
                 };
                 let known = match curves.get(&child.to) {
                     Some(known) => Rc::clone(known),
-                    None => Rc::new(Curve::read(
-                        objects.get(child.to).record,
-                        file,
-                        first.as_deref().unwrap_or(&curve_node.name),
-                    )?),
+                    None => Rc::new(Curve::read(objects.get(child.to).record, file, &of)?),
                 };
                 curves.insert(child.to, Rc::clone(&known));
                 axes.curves[axis] = Some(known);
@@ -180,7 +185,7 @@ impl Layer {
                 let Some(property) = Property::named(&channel_name) else {
                     continue;
                 };
-                let of = format!("{}, {channel_name}", objects.get(object).name);
+                let of = || property_of(&objects.get(object).name, &channel_name);
                 let mut axes = Axes::default();
                 for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
                     let Some(of_axis) = channel.all("Channel").find(|channel| named(channel) == name) else {

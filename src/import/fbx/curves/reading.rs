@@ -45,13 +45,17 @@ impl Growing {
         self.next = next;
     }
 
-    /// The curve that a record says; `of` names what it moves.
-    fn curve(mut self, record: &Record<'_>, file: &mut File<'_, '_>, of: &str) -> Curve {
+    /// The curve that a record says; `of` names what it moves, and is asked where something is told of it: names can be long.
+    fn curve(mut self, record: &Record<'_>, file: &mut File<'_, '_>, of: &dyn Fn() -> String) -> Curve {
         if self.left_out > 0 {
-            let keys = counted(self.left_out, "key", "keys");
-            let message =
-                format!("The curve of \"{of}\" has {keys} without a number, or no later than one before; left out.");
-            file.note_of(record.place, &codes::FBX_RULE_BROKEN, message);
+            let kind = "Curves with keys that are left out";
+            file.note_each(record.place, &codes::FBX_RULE_BROKEN, kind, || {
+                let keys = counted(self.left_out, "key", "keys");
+                format!(
+                    "The curve of \"{}\" has {keys} without a number, or no later than one before; left out.",
+                    of()
+                )
+            });
         }
         for at in 0..self.keys.len() {
             if self.keys[at].way == Way::Cubic {
@@ -81,10 +85,15 @@ impl Curve {
     ///
     /// # Errors
     /// When an array is damaged, or the budget has no room for its keys.
-    pub(in crate::import::fbx) fn read(record: &Record<'_>, file: &mut File<'_, '_>, of: &str) -> Result<Self, Fault> {
+    pub(in crate::import::fbx) fn read(
+        record: &Record<'_>,
+        file: &mut File<'_, '_>,
+        of: &dyn Fn() -> String,
+    ) -> Result<Self, Fault> {
         let (document, budget) = (file.document, &file.budget);
-        let integers = |name| record.integers_of(name, budget).map_err(in_object(of));
-        let numbers = |name| record.numbers_of(name, budget).map_err(in_object(of));
+        let named = |fault| in_object(&of())(fault);
+        let integers = |name| record.integers_of(name, budget).map_err(named);
+        let numbers = |name| record.numbers_of(name, budget).map_err(named);
         let (times, values) = (integers("KeyTime")?, numbers("KeyValueFloat")?);
         let (flags, counts) = (integers("KeyAttrFlags")?, integers("KeyAttrRefCount")?);
         let are_bits = !document.is_binary && document.version >= BITS_SINCE;
@@ -100,13 +109,15 @@ impl Curve {
             .collect();
         budget.keep((size_of::<Key>() * times.len().min(values.len())) as u64, record.place)?;
         if times.len() != values.len() {
-            let (times, values) = (
-                counted(times.len(), "time", "times"),
-                counted(values.len(), "value", "values"),
-            );
-            let message =
-                format!("The curve of \"{of}\" has {times}, but {values}; what has no other half is left out.");
-            file.note_of(record.place, &codes::FBX_RULE_BROKEN, message);
+            let kind = "Curves with more times than values, or fewer";
+            file.note_each(record.place, &codes::FBX_RULE_BROKEN, kind, || {
+                format!(
+                    "The curve of \"{}\" has {}, but {}; what has no other half is left out.",
+                    of(),
+                    counted(times.len(), "time", "times"),
+                    counted(values.len(), "value", "values"),
+                )
+            });
         }
         // Runs of keys have the same attributes.
         let mut run = 0;
@@ -139,7 +150,11 @@ impl Curve {
     }
 
     /// A channel of a `Take` of 6.1, where words stand between the numbers of a key; `of` names what it moves.
-    pub(in crate::import::fbx) fn read_take(record: &Record<'_>, file: &mut File<'_, '_>, of: &str) -> Self {
+    pub(in crate::import::fbx) fn read_take(
+        record: &Record<'_>,
+        file: &mut File<'_, '_>,
+        of: &dyn Fn() -> String,
+    ) -> Self {
         let mut growing = Growing {
             ticks_per_sec: TICKS_PER_SEC,
             ..Growing::default()

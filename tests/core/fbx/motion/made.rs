@@ -280,6 +280,63 @@ fn what_clips_cannot_follow_is_told_with_its_bone() {
 }
 
 #[test]
+fn curves_with_the_same_fault_are_told_apart_up_to_four() {
+    let mut made = Made::new();
+    made.layer(11, "");
+    let long = "a".repeat(100_000);
+    for bone in 0..6 {
+        let (id, curve, node) = (1000 + bone, 2000 + bone, 3000 + bone);
+        made.object("Model", id, &format!("{bone}{long}"), "");
+        made.curve(curve, &[0.0, 100.0, 200.0], STRAIGHT);
+        made.curve_node(node, 11, curve);
+        made.hang(node, id, "Lcl Translation");
+    }
+    let file = made.file().replace("a: 0,46186158000,", "a: 0,0,");
+    let imported = import(file.as_bytes()).expect("it is read");
+    let told = told(&imported);
+    assert_eq!(told.len(), 5, "{told:?}");
+    for (bone, (code, message)) in told[..4].iter().enumerate() {
+        let name = format!("{bone}{}…", &long[..39]);
+        let late = "has 1 key without a number, or no later than one before; left out.";
+        assert_eq!(*code, "fbx-rule-broken");
+        assert_eq!(*message, format!("The curve of \"{name}, Lcl Translation\" {late}"));
+    }
+    assert_eq!(
+        told[4],
+        ("fbx-rule-broken", "Curves with keys that are left out: 2 more.")
+    );
+}
+
+#[test]
+fn keys_of_a_take_that_are_left_out_are_told() {
+    let take = |keys: &str| {
+        let text = format!(
+            "; FBX 6.1.0 project file\nFBXHeaderExtension:  {{\n\tFBXVersion: 6100\n}}\nObjects:  {{\n\tModel: \"Model::Hip\", \"Limb\" \
+             {{\n\t}}\n}}\nConnections:  {{\n\tConnect: \"OO\", \"Model::Hip\", \"Model::Scene\"\n}}\nTakes:  {{\n\tTake: \"Walk\" {{\n\t\t\
+             Model: \"Model::Hip\" {{\n\t\t\tChannel: \"Transform\" {{\n\t\t\t\tChannel: \"T\" {{\n\t\t\t\t\tChannel: \"X\" \
+             {{\n\t\t\t\t\t\tKeyVer: 4005\n\t\t\t\t\t\tKey: {keys}\n\t\t\t\t\t}}\n\t\t\t\t}}\n\t\t\t}}\n\t\t}}\n\t}}\n}}\n"
+        );
+        import(text.as_bytes()).expect("it is read")
+    };
+    let told = |keys| {
+        let imported = take(keys);
+        let findings = imported.diagnostics.into_iter().map(|finding| finding.message);
+        (findings.collect::<Vec<_>>(), imported.model.clips[0].end_secs)
+    };
+    let left_out = |keys| {
+        vec![format!(
+            "The curve of \"Hip, T\" has {keys} without a number, or no later than one before; left out."
+        )]
+    };
+    assert_eq!(told("0,0,L,46186158000,100,L"), (vec![], 1.0));
+    assert_eq!(told("0,0,L,0,50,L,46186158000,100,L"), (left_out("1 key"), 1.0));
+    assert_eq!(
+        told("0,0,L,46186158000,100,L,92372316000,1e999,L,46186158000,7,L"),
+        (left_out("2 keys"), 1.0)
+    );
+}
+
+#[test]
 fn a_cluster_without_its_own_matrix_is_bound_by_its_bones_place_in_the_files_axes() {
     let z_up = "GlobalSettings:  {\n\tProperties70:  {\n\t\tP: \"UpAxis\", \"int\", \"Integer\", \"\",2\n\t\tP: \"FrontAxis\", \"int\", \
                 \"Integer\", \"\",1\n\t\tP: \"FrontAxisSign\", \"int\", \"Integer\", \"\",-1\n\t}\n}\nObjects:  {";

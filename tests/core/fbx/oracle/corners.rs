@@ -1,10 +1,11 @@
 //! What vertices have besides their place: normals, texture coordinates, colours, tangents.
 
+use bindpose::anim::{PoseBuffers, SkinnedVertices, skin};
 use bindpose::model::Model;
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DAffine3, DVec2, DVec3, DVec4};
 use ufbx::Scene;
 
-use super::{CYCLE, NO_NUMBERS, Outcome, TOLERANCE, Table, all_points, axes, compare_all, matrix, ours, size};
+use super::{CYCLE, NO_NUMBERS, Outcome, TOLERANCE, Table, all_points, axes, compare_all, size, world_from_vertex};
 
 /// Of numbers that are 1 at most, as normals are.
 const MOST_OFF: f64 = 1e-3;
@@ -58,11 +59,14 @@ fn their_corners(scene: &Scene) -> Vec<Corner> {
     let mut all = Vec::new();
     for node in scene.nodes.iter() {
         let Some(mesh) = &node.mesh else { continue };
-        let to_world = matrix(&node.geometry_to_world);
-        let normal_matrix = to_world.matrix3.inverse().transpose();
+        let to_world: Vec<DAffine3> = (0..mesh.num_vertices)
+            .map(|vertex| world_from_vertex(node, mesh, vertex))
+            .collect();
         for face in mesh.faces.iter().filter(|face| face.num_indices >= 3) {
             for corner in (face.index_begin..face.index_begin + face.num_indices).map(|corner| corner as usize) {
-                let position = vector(mesh.vertices[mesh.vertex_indices[corner] as usize]);
+                let vertex = mesh.vertex_indices[corner] as usize;
+                let (position, to_world) = (vector(mesh.vertices[vertex]), to_world[vertex]);
+                let normal_matrix = to_world.matrix3.inverse().transpose();
                 let along = |stream: &ufbx::VertexVec3| {
                     let along = stream
                         .exists
@@ -90,20 +94,24 @@ fn their_corners(scene: &Scene) -> Vec<Corner> {
 
 fn our_corners(model: &Model) -> Vec<Corner> {
     let mesh = &model.mesh;
-    let corner = |(vertex, place): (usize, DVec3)| {
-        let normal = mesh.normals[vertex].as_dvec3();
+    let mut skinned = SkinnedVertices::default();
+    let mut pose = PoseBuffers::for_skeleton(&model.skeleton);
+    pose.set_rest_pose(&model.skeleton);
+    skin(mesh, &pose.palette, &mut skinned);
+    let corner = |vertex: usize| {
+        let normal = skinned.normals[vertex].as_dvec3();
         Corner {
-            place,
+            place: skinned.positions[vertex].as_dvec3(),
             normal: Some(normal),
             tex_coord: mesh.tex_coords.get(vertex).map_or(DVec2::ZERO, |uv| uv.as_dvec2()),
             color: mesh.colors.get(vertex).map_or(DVec4::ONE, |color| color.as_dvec4()),
-            tangent: mesh.tangents.get(vertex).map(|tangent| {
+            tangent: skinned.tangents.get(vertex).map(|tangent| {
                 let along = tangent.truncate().as_dvec3();
                 [along, normal.cross(along) * f64::from(tangent.w)]
             }),
         }
     };
-    ours(model, None).into_iter().enumerate().map(corner).collect()
+    (0..skinned.positions.len()).map(corner).collect()
 }
 
 /// The greatest way from what a corner has to what the nearest of the others has at its place.
@@ -124,9 +132,6 @@ fn off(corners: &[Corner], others: &[Corner], within: f64) -> f64 {
 }
 
 fn compare(_: &str, model: &Model, scene: &Scene) -> Outcome {
-    if scene.meshes.iter().any(|mesh| !mesh.skin_deformers.is_empty()) {
-        return Outcome::Nothing("skinned: its normals are turned by its bones");
-    }
     let [our_corners, their_corners] = [our_corners(model), their_corners(scene)];
     if our_corners.is_empty() || their_corners.is_empty() {
         return Outcome::Nothing("no corners");
