@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { readFileSync, statSync } from "node:fs";
-import { SAMPLE, keep, settled, test, withViewer } from "./harness.js";
+import { FOLDER, SAMPLE, keep, settled, test, withViewer } from "./harness.js";
 import { held } from "./held.js";
 import { FIGURE, SMALL, STRICT, hears, pageOf, seen } from "./notes.js";
 import { GROUND, click, place, still } from "./widgets.js";
@@ -49,10 +49,8 @@ test("a page scrolls over a viewer until somebody turns to it; its controls are 
   assert.ok(Math.abs(currentTime - 0.25) < 1e-3, `${currentTime}`);
 });
 
-test("a viewer that leaves the page gives all back, and comes again where it was; the last source wins", {
-  ...pageOf(`<bindpose-viewer id="a" ${FIGURE} clip="Walk" current-time="0.5"></bindpose-viewer>`),
-  draws: true,
-}, async (page) => {
+/** Takes the viewer "a" out of its page and puts it in again, `ROUNDS` times: it comes back where it was, and nothing that it held stays. */
+async function goesAndComes(page, folder) {
   await hears(page, "a", "load");
   await page.evaluate(() => (globalThis.viewer = document.getElementById("a")).setAttribute("camera", "70 12"));
   const { link } = await seen(page, "a");
@@ -69,10 +67,10 @@ test("a viewer that leaves the page gives all back, and comes again where it was
       for (const type of Object.keys(details)) delete details[type];
       performance.clearResourceTimings();
     });
-    if (round === 10) tenth = await held(page, SMALL);
-    if (round === 3) first = await held(page, SMALL);
+    if (round === 10) tenth = await held(page, folder);
+    if (round === 3) first = await held(page, folder);
   }
-  const last = await held(page, SMALL);
+  const last = await held(page, folder);
   for (const kind of COUNTED) assert.ok(last[kind] <= first[kind], `${kind}: ${JSON.stringify([first, last])}`);
   // Memory grows in steps until it has found its high-water mark; who did not leave would keep the bytes of a file a round.
   const grown = last.wasmMB - first.wasmMB;
@@ -80,6 +78,14 @@ test("a viewer that leaves the page gives all back, and comes again where it was
   for (const kind of tenth ? ["wasmMB", "scriptMB", "gpuMB"] : []) {
     assert.ok(last[kind] <= 1.05 * tenth[kind], `${kind}: ${tenth[kind]}, then ${last[kind]}`);
   }
+  return link;
+}
+
+test("a viewer that leaves the page gives all back, and comes again where it was; the last source wins", {
+  ...pageOf(`<bindpose-viewer id="a" ${FIGURE} clip="Walk" current-time="0.5"></bindpose-viewer>`),
+  draws: true,
+}, async (page) => {
+  const link = await goesAndComes(page, SMALL);
   // Another interface is another start with the same moment.
   await page.evaluate(() => (viewer.ui = "full"));
   await hears(page, "a", "load", ROUNDS + 2);
@@ -106,6 +112,13 @@ test("a viewer that leaves the page gives all back, and comes again where it was
   await hears(page, "a", "load", ROUNDS + 5);
   assert.deepEqual(await shown(), [null, "figure.m3d"], "also where it was set out of the page");
 });
+
+if (ROUNDS > 6) {
+  test("with the page's interface too, a viewer that leaves the page gives all back", {
+    ...pageOf(`<bindpose-viewer id="a" ${FIGURE} clip="Walk" current-time="0.5" ui="full"></bindpose-viewer>`),
+    draws: true,
+  }, (page) => goesAndComes(page, FOLDER));
+}
 
 /** How many frames a viewer has drawn. */
 const drawn = (page, id) => page.evaluate((id) => document.getElementById(id).state().framesRendered, id);

@@ -76,7 +76,7 @@ test("a dropped folder opens with the paths in it", { own: true }, async (page) 
   const { outcome, model, models } = await dropAndWait(page, [join(folder, "pack")]);
   assert.equal(outcome, "load");
   assert.equal(model.path, "pack/models/deep/hero.m3d");
-  assert.deepEqual([...models].sort(), ["pack/models/deep/hero.m3d", "pack/point.txt"]);
+  assert.deepEqual([...models].sort(), ["figure.m3d", "pack/models/deep/hero.m3d", "pack/point.txt"]);
   const reads = new Set(await page.evaluate(() => globalThis.reads));
   assert.deepEqual([...reads].sort(), ["hero.m3d", "letter.txt", "point.txt"], "and only what is of use");
 });

@@ -15,7 +15,7 @@ use crate::slices::Slices;
 /// More tracks than this do not come from a file of a character.
 const MAX_TRACKS: usize = 1_000_000;
 
-/// The clips of a document for its skeleton. Animations that move no joint are none.
+/// The clips of a document for its skeleton, and the animation of each. Animations that move no joint are none.
 ///
 /// # Errors
 /// When a channel names what is not there, or its numbers are of the wrong kind.
@@ -25,7 +25,7 @@ pub(super) async fn clips(
     rig: &Rig,
     diagnostics: &mut Diagnostics,
     slices: &Slices,
-) -> Result<Vec<Clip>, Fault> {
+) -> Result<(Vec<Clip>, Vec<u32>), Fault> {
     let joint_count = rig.skeleton.joint_count();
     if root.animations().len().saturating_mul(joint_count) > MAX_TRACKS {
         let message = format!(
@@ -57,7 +57,9 @@ pub(super) async fn clips(
         diagnostics.add(&codes::DUPLICATE_CLIP_NAME, place, message);
     });
     let clips = names.into_iter().zip(read);
-    Ok(clips.map(|(name, (_, tracks))| Clip::new(name, tracks)).collect())
+    Ok(clips
+        .map(|(name, (animation, tracks))| (Clip::new(name, tracks), animation as u32))
+        .unzip())
 }
 
 /// What moves a joint.

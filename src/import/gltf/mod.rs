@@ -161,13 +161,13 @@ async fn model(
     {
         materials.pop();
     }
-    let clips = clips::clips(root, &reader, &rig, diagnostics, slices).await?;
+    let (clips, animations) = clips::clips(root, &reader, &rig, diagnostics, slices).await?;
     left_out::note(root, &scene, &rig, &objects, source.second_tex_coords, diagnostics);
     if mesh.positions.is_empty() && rig.skeleton.joint_count() == 0 {
         let message = codes::GLTF_EMPTY.sentence.to_owned();
         diagnostics.add(&codes::GLTF_EMPTY, Place::default(), message);
     }
-    let places = Places::of(root, &rig, places, reader.effort());
+    let places = Places::of(root, &rig, (places, animations), reader.effort());
     let model = Model {
         materials,
         mesh,

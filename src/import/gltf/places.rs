@@ -12,18 +12,26 @@ pub(crate) struct Places {
     /// Mesh and primitive of each submesh.
     primitives: Vec<[u32; 2]>,
     materials: u32,
+    /// The animation of each clip.
+    animations: Vec<u32>,
     /// What reading took.
     pub(crate) effort: Effort,
 }
 
 impl Places {
     /// Of a model of this skeleton.
-    pub(super) fn of(root: &Root, rig: &Rig, primitives: Vec<[u32; 2]>, effort: Effort) -> Self {
+    pub(super) fn of(
+        root: &Root,
+        rig: &Rig,
+        (primitives, animations): (Vec<[u32; 2]>, Vec<u32>),
+        effort: Effort,
+    ) -> Self {
         let nodes = rig.skeleton.joint_of_bone().iter();
         Self {
             nodes: nodes.map(|joint| rig.node_of_joint[joint.index()]).collect(),
             primitives,
             materials: root.materials().len() as u32,
+            animations,
             effort,
         }
     }
@@ -38,6 +46,7 @@ impl diagnostic::Places for Places {
                 Some(format!("/meshes/{mesh}/primitives/{primitive}"))
             }
             Entry::Bone(bone) | Entry::Offset(bone) => Some(format!("/nodes/{}", self.nodes.get(bone as usize)?)),
+            Entry::Clip(clip) => Some(format!("/animations/{}", self.animations.get(clip as usize)?)),
             _ => None,
         }
     }
@@ -52,6 +61,10 @@ impl diagnostic::Places for Places {
             "nodes" => {
                 let bone = self.nodes.iter().position(|&node| node == index)?;
                 Some(Entry::Bone(bone as u32))
+            }
+            "animations" => {
+                let clip = self.animations.iter().position(|&animation| animation == index)?;
+                Some(Entry::Clip(clip as u32))
             }
             "meshes" if next()? == "primitives" => {
                 let primitive: u32 = next()?.parse().ok()?;

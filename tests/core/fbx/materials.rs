@@ -302,7 +302,7 @@ fn pictures_lie_on_the_mesh_as_ufbx_has_them() {
     let path = "RelativeFilename: \"tiles.png\"\n";
     let block = format!("{path}\t\tProperties70:  {{\n{}\t\t}}\n", properties.concat());
     file = file.replacen(path, &block, 1);
-    let of_files = files("files").into_iter().map(|(name, bytes)| (name, bytes));
+    let of_files = files("files").into_iter();
     let mut turned = 0;
     for (name, bytes) in of_files.chain([("a made one".to_owned(), file.into_bytes())]) {
         let (Ok(imported), Ok(scene)) = (import(&bytes), ufbx::load_memory(&bytes, ufbx::LoadOpts::default())) else {

@@ -105,7 +105,11 @@ fn a_text_is_a_model_where_it_begins_like_one_and_without_any_all_but_pictures_i
     let model = File::new("model.txt", *b"***m3d-File-Header***\n#Materials 1\n");
     let (picture, notes, named) = (file("a.png", 3), file("notes.txt", 100), file("a.m3d", 3));
     assert_eq!(names(&[notes.clone(), model.clone()]), ["model.txt"]);
-    assert_eq!(names(&[notes.clone()]), ["notes.txt"], "it is told what it is");
+    assert_eq!(
+        names(std::slice::from_ref(&notes)),
+        ["notes.txt"],
+        "it is told what it is"
+    );
     assert_eq!(
         names(&[notes.clone(), named.clone(), model.clone()]),
         ["model.txt", "a.m3d"]
