@@ -1,6 +1,6 @@
 // Files and folders from the person: dropped on a viewer, or chosen in a dialog.
 
-import { CLIP_FILES, isUseful, onlyJoins } from "./files.js";
+import { CLIP_FILES, isUseful, onlyJoins, withoutNotes } from "./files.js";
 
 /** A folder with more than this in it was not meant for a viewer. */
 const MAX_ENTRIES = 20_000;
@@ -55,7 +55,7 @@ export function takeChoices(inputs, { receive, refuse }) {
     input.addEventListener("change", () => {
       const chosen = Array.from(input.files, (file) => ({ name: file.webkitRelativePath || file.name, file }));
       input.value = ""; // So that choosing the same file again is a change.
-      const files = what === "folder" ? chosen.filter(({ name }) => isUseful(name)) : chosen;
+      const files = what === "folder" ? withoutNotes(chosen.filter(({ name }) => isUseful(name))) : chosen;
       if (files.length) receive(files, what === "clips");
       else if (chosen.length) refuse("There is no model and no picture in this folder.");
     });
@@ -120,7 +120,7 @@ async function collect(roots) {
 
   for (const root of roots) await visit(root, true);
   if (seen > MAX_ENTRIES) problems.push(`Only the first ${MAX_ENTRIES} entries of the folder were looked at.`);
-  return { files, problems };
+  return { files: withoutNotes(files), problems };
 }
 
 function next(reader) {

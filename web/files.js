@@ -15,6 +15,16 @@ const isOf = (name, kinds) => kinds.some((kind) => KINDS[kind].includes(/\.([^./
 /** Whether a viewer has a use for the file. The rest of a folder is left where it is. */
 export const isUseful = (name) => isOf(name, Object.keys(KINDS));
 
+/**
+ * What was collected, without the notes of folders: a text may be a model, but beside pictures and without a model it is taken for notes. A path
+ * with a folder in it is from one.
+ */
+export function withoutNotes(files) {
+  const has = (...kinds) => files.some(({ name }) => isOf(name, kinds));
+  if (!has("picture", "unread") || has("model", "archive")) return files;
+  return files.filter(({ name }) => !name.includes("/") || !isOf(name, ["text"]));
+}
+
 /** Whether files can only join what is open: none of them can be a model. */
 export const onlyJoins = (files) => files.length > 0 && files.every((file) => isOf(file?.webkitRelativePath || file?.name || "", ["picture", "unread"]));
 

@@ -10,7 +10,6 @@ use walkdir::WalkDir;
 use super::diagnostic::write_diagnostic;
 use super::failure::Failure;
 use crate::diagnostic::{Diagnostic, codes};
-use crate::format::BEGINNING_LEN;
 use crate::import;
 use crate::session::{self, FileKind};
 
@@ -19,6 +18,9 @@ const STDIN: &str = "-";
 
 /// The most bytes of a file that are read. No model that a person works with is as large, and no device is read for ever.
 const MOST_BYTES: u64 = 1_000_000_000;
+
+/// So many bytes of a text decide whether it is a model. The page looks at as many.
+const BEGINNING_LEN: u64 = 64 << 10;
 
 /// The exit code after Ctrl+C, as shells have it.
 const INTERRUPTED: i32 = 130;
@@ -70,7 +72,7 @@ fn is_model(path: &Path) -> bool {
 
 fn begins_like_model(path: &Path) -> bool {
     let mut beginning = Vec::new();
-    let read = File::open(path).and_then(|file| file.take(BEGINNING_LEN as u64).read_to_end(&mut beginning));
+    let read = File::open(path).and_then(|file| file.take(BEGINNING_LEN).read_to_end(&mut beginning));
     read.is_ok() && import::begins_like_model(&beginning)
 }
 

@@ -148,7 +148,7 @@ pub fn begins_like_another(bytes: &[u8]) -> bool {
 }
 
 /// Bytes in which a model has begun if it ever does: room for a page of blank lines or comment above its header.
-pub const BEGINNING_LEN: usize = 4096;
+const BEGINNING_LEN: usize = 4096;
 
 /// Whether a file begins as a model does: its first lines have the ruler of the header, or a count of materials; or the first one
 /// counts the vertices of a text model.

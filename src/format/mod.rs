@@ -56,7 +56,7 @@ pub(crate) use cursor::Cursor;
 pub use document::*;
 pub use excerpt::{Excerpt, LineIndex, excerpt, is_printable};
 pub use label::Section;
-pub use likeness::{BEGINNING_LEN, begins_like_another, begins_like_model};
+pub use likeness::{begins_like_another, begins_like_model};
 pub use quick::QuickRows;
 pub(crate) use quick::QuickRun;
 pub use write::{write, write_in};

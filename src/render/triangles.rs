@@ -117,7 +117,7 @@ pub(super) struct Edges {
 }
 
 impl Edges {
-    /// None where no texture is large enough for the vertices: 22 million where its side is 8192.
+    /// None where no texture is large enough for the vertices: 22 million where its side is 8192, more than the streams of a mesh can have.
     pub(super) fn new(
         (device, queue): (&wgpu::Device, &Queue),
         layouts: &Layouts,

@@ -211,23 +211,19 @@ impl Shared {
         }
     }
 
-    /// The bytes of some files, read in pieces. The session tells how far that is. Those that can bring a model overtake what is being opened.
+    /// The bytes of some files, read in pieces, without texts that are notes beside a model. The session tells how far that is. Those that can bring
+    /// a model overtake what is being opened.
     async fn read(&self, records: Vec<Record>, replaces: bool) -> Result<Vec<File>, JsValue> {
         let is_model = |record: &Record| matches!(record.kind(), Some(FileKind::Model | FileKind::Archive));
         let has_model = records.iter().any(is_model);
         let may_be_note = |record: &Record| has_model && record.kind() == Some(FileKind::Text);
-        let sure = records.iter().filter(|record| !may_be_note(record));
-        let total: usize = sure.map(Record::size).sum();
-        if total > MOST_BYTES {
-            let in_mib = |bytes: usize| bytes.div_ceil(1 << 20);
-            let (total, most) = (in_mib(total), in_mib(MOST_BYTES));
-            let message = format!("These files have {total} MiB together; up to {most} MiB can be opened at once.");
-            return Err(js_sys::Error::new(&message).into());
-        }
-        let largest = records.iter().max_by_key(|record| record.size());
+        let sure = || records.iter().filter(|record| !may_be_note(record));
+        let total = sure().map(Record::size).fold(0, usize::saturating_add);
+        check_size(total)?;
+        let largest = sure().max_by_key(|record| record.size());
         let name = largest.map_or("", |record| record.base_name()).to_owned();
         let mine = self.session.borrow_mut().begin_fetching(name, total, replaces);
-        let read = self.read_unless_overtaken(records, may_be_note, mine).await;
+        let read = self.read_unless_overtaken(records, may_be_note, total, mine).await;
         if self.session.borrow().openings() == mine {
             self.session.borrow_mut().end_fetching();
         }
@@ -238,12 +234,20 @@ impl Shared {
         &self,
         records: Vec<Record>,
         may_be_note: impl Fn(&Record) -> bool,
+        mut total: usize,
         openings: u64,
     ) -> Result<Vec<File>, JsValue> {
         let (mut files, mut told_secs) = (Vec::new(), now_secs());
         for record in records {
-            if may_be_note(&record) && !record.begins_like_model().await? {
-                continue;
+            if may_be_note(&record) {
+                let is_model = record.begins_like_model().await;
+                self.check_not_overtaken(openings)?;
+                if !is_model {
+                    continue;
+                }
+                total = total.saturating_add(record.size());
+                check_size(total)?;
+                self.session.borrow_mut().note_fetched(0, record.size());
             }
             let mut bytes = Vec::with_capacity(record.size());
             while bytes.len() < record.size() && !record.is_refused_by(&bytes) {
@@ -257,6 +261,16 @@ impl Shared {
         }
         Ok(files)
     }
+}
+
+/// Refuses more bytes than can be opened at once.
+fn check_size(total: usize) -> Result<(), JsValue> {
+    if total <= MOST_BYTES {
+        return Ok(());
+    }
+    let [total, most] = [total, MOST_BYTES].map(|bytes| bytes.div_ceil(1 << 20));
+    let message = format!("These files have {total} MiB together; up to {most} MiB can be opened at once.");
+    Err(js_sys::Error::new(&message).into())
 }
 
 /// A file before it is read.
@@ -294,11 +308,12 @@ impl Record {
             && format::begins_like_another(beginning)
     }
 
-    /// Whether it does, and is not too large. Beside a model, a text that does not is notes: it is not read.
-    async fn begins_like_model(&self) -> Result<bool, JsValue> {
+    /// Whether the file begins like a model; not where it cannot be read.
+    async fn begins_like_model(&self) -> bool {
+        let Ok(piece) = self.piece(0).await else { return false };
         let mut beginning = Vec::new();
-        append(&mut beginning, &self.piece(0).await?);
-        Ok(self.size() <= MOST_BYTES && import::begins_like_model(&beginning))
+        append(&mut beginning, &piece);
+        import::begins_like_model(&beginning)
     }
 
     /// The bytes from an offset on, as many as are read at once.

@@ -38,6 +38,7 @@ async function watchReads(page) {
     globalThis.reads = [];
     File.prototype.slice = function (from, ...rest) {
       if (from === 0) globalThis.reads.push(this.name);
+      globalThis.ends = { ...globalThis.ends, [this.name]: rest[0] };
       return Blob.prototype.slice.call(this, from, ...rest);
     };
   });
@@ -77,8 +78,9 @@ test("a dropped folder opens with the paths in it", { own: true }, async (page) 
   assert.equal(outcome, "load");
   assert.equal(model.path, "pack/models/deep/hero.m3d");
   assert.deepEqual([...models].sort(), ["figure.m3d", "pack/models/deep/hero.m3d", "pack/point.txt"]);
-  const reads = new Set(await page.evaluate(() => globalThis.reads));
-  assert.deepEqual([...reads].sort(), ["hero.m3d", "letter.txt", "point.txt"], "and only what is of use");
+  const [reads, ends] = await page.evaluate(() => [globalThis.reads, globalThis.ends]);
+  assert.deepEqual([...new Set(reads)].sort(), ["hero.m3d", "letter.txt", "point.txt"], "and only what may be of use");
+  assert.equal(ends["letter.txt"], 64 << 10, "of notes the beginning alone");
 });
 
 test("a folder of more entries than one call gives is read to its end", { own: true }, async (page) => {

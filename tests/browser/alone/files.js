@@ -5,7 +5,7 @@ import { test } from "node:test";
 
 import { createApi } from "../../../web/api.js";
 import { takeChoices, takeDrops } from "../../../web/drop.js";
-import { isUseful, onlyJoins } from "../../../web/files.js";
+import { isUseful, onlyJoins, withoutNotes } from "../../../web/files.js";
 import { rememberSources } from "../../../web/sources.js";
 
 /** A file whose bytes are there when `come()` is called, or at once. */
@@ -144,6 +144,8 @@ test("of a folder archives, what cannot be read yet and texts that may be models
   await drop([folder]);
   assert.deepEqual(told, [["big/pack.zip,big/notes.txt,big/studio.HDR,big/a.gltf,big/a.bin,big/skin.jpeg,big/sky.exr", false]]);
   assert.deepEqual(["m3d", "a.m3d.txt", ".zip", "x/y.zip"].map(isUseful), [false, true, true, true]);
+  const left = (...names) => withoutNotes(names.map((name) => ({ name }))).map(({ name }) => name).join();
+  assert.deepEqual([left("a/b.txt", "a/c.png"), left("b.txt", "a/c.png"), left("a/b.txt"), left("a/b.txt", "a/c.png", "a/d.m3d")], ["a/c.png", "b.txt,a/c.png", "a/b.txt", "a/b.txt,a/c.png,a/d.m3d"]);
   assert.deepEqual([[], [file("a.png")], [file("a.png"), file("b.zip")]].map(onlyJoins), [false, true, false]);
 });
 
