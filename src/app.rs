@@ -41,6 +41,7 @@ pub struct App {
     picture_alone: bool,
     /// When the last part of an export ended, if there is more of it.
     exported_secs: Option<f64>,
+    prepare_in_secs: Option<f32>,
 }
 
 impl App {
@@ -68,6 +69,7 @@ impl App {
             now_secs: options.now_secs,
             picture_alone: false,
             exported_secs: None,
+            prepare_in_secs: None,
         }
     }
 
@@ -120,9 +122,29 @@ impl App {
             _ if refused => ui.ctx().request_repaint(),
             Some(NextPass::AtOnce) => ui.ctx().request_repaint(),
             Some(NextPass::After { secs }) => ui.ctx().request_repaint_after_secs(secs),
-            Some(NextPass::WhenAsked) | None => {}
+            Some(NextPass::ToPrepare { .. } | NextPass::WhenAsked) | None => {}
         }
+        self.prepare_in_secs = match pass.map(|pass| pass.next) {
+            Some(NextPass::ToPrepare { secs }) => Some(secs),
+            _ => None,
+        };
         requests
+    }
+
+    /// In how many seconds [`Self::prepare`] can go on with what may be asked for next, unless a pass comes before.
+    pub fn prepare_in_secs(&self) -> Option<f32> {
+        self.prepare_in_secs
+    }
+
+    /// Goes on with that, without a pass, which would draw all panels. Where the picture is another one for it, a pass is asked for.
+    pub fn prepare(&mut self) {
+        let session = self.session.borrow();
+        if !self.painter.prepares(&session, true) {
+            self.prepare_in_secs = None;
+        }
+        if !self.painter.is_current(&session) {
+            self.ctx.request_repaint();
+        }
     }
 
     /// Goes on with what is exported, for as long as all else took since the last time, however many frames that were. Returns whether

@@ -1,8 +1,9 @@
 //! The photo studio: walls, panels of light, a window, floor.
 //!
 //! The viewer stands at −z and looks along +z; x is to the right, y up. Radiances are linear and in units where 1 shows
-//! as white. Panels are small and bright, so that what shines has something to mirror, and walls are dim, so that the mean over
-//! all directions stays near 0.37: with the lamp a base colour that faces it shows about as it is.
+//! as white. Panels are small and bright, so that what shines has something to mirror, and the walls of the dark room are dim, so that the mean
+//! over all directions stays near 0.37: with the lamp a base colour that faces it shows about as it is. The bright room's mean is 0.69, and its
+//! lamp is weaker.
 
 use glam::Vec3;
 
@@ -14,7 +15,7 @@ pub enum Room {
     /// Dark walls.
     #[default]
     Dark,
-    /// Bright walls, for a model before a bright page: what it mirrors all round is bright too.
+    /// Bright walls, for a model before a bright page: what it mirrors along its edge is bright too. The lamp is weaker, and shadows are lighter.
     Bright,
 }
 
@@ -35,7 +36,7 @@ impl Room {
     pub fn lights(self) -> RoomLights {
         let (key, rim) = match self {
             Self::Dark => (0.60, 0.60),
-            Self::Bright => (0.50, 0.35),
+            Self::Bright => (0.32, 0.35),
         };
         RoomLights {
             key: Vec3::new(1.00, 0.975, 0.93) * key,
@@ -44,40 +45,111 @@ impl Room {
     }
 }
 
-/// Radiances of walls and panels.
-struct Radiances {
+/// What is behind the panels.
+struct Walls {
     ceiling: Vec3,
     wall: Vec3,
     floor: Vec3,
-    soft_box: Vec3,
-    cloth: Vec3,
-    left_strip: Vec3,
-    right_strip: Vec3,
-    window: Vec3,
+    /// What the side behind the viewer has of that: where it is dark, what is round and smooth is dark in its middle, bright towards its edge
+    /// and shows the panels, as things are photographed before white.
+    behind_viewer: f32,
 }
 
-const DARK: Radiances = Radiances {
+const DARK: Walls = Walls {
     ceiling: Vec3::new(0.235, 0.242, 0.256),
     wall: Vec3::new(0.176, 0.180, 0.188),
     // A little warm.
     floor: Vec3::new(0.138, 0.130, 0.121),
-    soft_box: Vec3::new(5.0, 4.9, 4.75),
-    cloth: Vec3::new(0.60, 0.63, 0.67),
-    left_strip: Vec3::new(6.0, 7.0, 8.0),
-    right_strip: Vec3::new(4.5, 5.2, 6.0),
-    window: Vec3::splat(10.0),
+    behind_viewer: 1.0,
 };
 
-const BRIGHT: Radiances = Radiances {
-    ceiling: Vec3::new(0.70, 0.71, 0.73),
-    wall: Vec3::new(0.30, 0.305, 0.315),
-    floor: Vec3::new(0.30, 0.29, 0.275),
-    soft_box: Vec3::new(3.5, 3.43, 3.32),
-    cloth: Vec3::new(0.60, 0.63, 0.67),
-    left_strip: Vec3::new(4.2, 4.9, 5.6),
-    right_strip: Vec3::new(3.15, 3.65, 4.2),
-    window: Vec3::splat(7.0),
+const BRIGHT: Walls = Walls {
+    ceiling: Vec3::new(0.729, 0.74, 0.755),
+    wall: Vec3::new(0.453, 0.46, 0.472),
+    floor: Vec3::new(0.721, 0.70, 0.662),
+    behind_viewer: 0.20,
 };
+
+/// Where a panel hangs, and how bright it is.
+#[derive(Clone, Copy)]
+struct Hung {
+    towards: Vec3,
+    half_size: [f32; 2],
+    softness: f32,
+    bar: f32,
+    radiance: Vec3,
+}
+
+/// In front: a soft box overhead, a little towards the lamp; opposite to the lamp the fill, a wall of cloth; a window with four panes, beside the
+/// viewer: what a visor and an eye show.
+const DARK_PANELS: [Hung; 3] = [
+    Hung {
+        towards: Vec3::new(0.34, 0.80, -0.52),
+        half_size: [0.30, 0.20],
+        softness: 0.03,
+        bar: 0.0,
+        radiance: Vec3::new(5.0, 4.9, 4.75),
+    },
+    Hung {
+        towards: Vec3::new(-0.90, 0.12, -0.42),
+        half_size: [0.62, 0.80],
+        softness: 0.42,
+        bar: 0.0,
+        radiance: Vec3::new(0.60, 0.63, 0.67),
+    },
+    Hung {
+        towards: Vec3::new(0.50, 0.35, -0.79),
+        half_size: [0.07, 0.10],
+        softness: 0.012,
+        bar: 0.009,
+        radiance: Vec3::splat(10.0),
+    },
+];
+
+/// The same three, larger; the fill is another soft box, so that metal has an edge of it.
+const BRIGHT_PANELS: [Hung; 3] = [
+    Hung {
+        towards: Vec3::new(0.30, 0.86, -0.42),
+        half_size: [0.46, 0.34],
+        softness: 0.03,
+        bar: 0.0,
+        radiance: Vec3::new(2.64, 2.60, 2.52),
+    },
+    Hung {
+        towards: Vec3::new(-0.66, 0.36, -0.66),
+        half_size: [0.28, 0.42],
+        softness: 0.03,
+        bar: 0.0,
+        radiance: Vec3::new(3.84, 3.90, 4.00),
+    },
+    Hung {
+        towards: Vec3::new(0.58, 0.30, -0.76),
+        half_size: [0.13, 0.19],
+        softness: 0.014,
+        bar: 0.011,
+        radiance: Vec3::splat(6.5),
+    },
+];
+
+/// Cool strips behind on both sides draw a line along the silhouette. They are this bright in the dark room.
+const STRIPS: [Hung; 2] = [
+    Hung {
+        towards: Vec3::new(-0.80, 0.30, 0.52),
+        half_size: [0.035, 0.85],
+        softness: 0.02,
+        bar: 0.0,
+        radiance: Vec3::new(6.0, 7.0, 8.0),
+    },
+    Hung {
+        towards: Vec3::new(0.84, 0.22, 0.50),
+        half_size: [0.035, 0.75],
+        softness: 0.02,
+        bar: 0.0,
+        radiance: Vec3::new(4.5, 5.2, 6.0),
+    },
+];
+/// And this in the bright one, of that.
+const BRIGHT_STRIPS: f32 = 0.7;
 
 /// A rectangle of light, bright in its middle.
 struct Panel {
@@ -97,79 +169,43 @@ struct Panel {
 
 /// A room, ready to be looked at.
 pub(super) struct Set {
-    radiances: Radiances,
-    panels: [Panel; 5],
+    walls: Walls,
+    panels: Vec<Panel>,
 }
 
 impl Set {
     /// For cubes whose texels are so wide, radians: no edge is sharper than that, so that a coarse cube has as much light as a fine one.
     pub(super) fn new(room: Room, texel_radians: f32) -> Self {
-        let radiances = match room {
-            Room::Dark => DARK,
-            Room::Bright => BRIGHT,
+        let (walls, panels, strips) = match room {
+            Room::Dark => (DARK, DARK_PANELS, 1.0),
+            Room::Bright => (BRIGHT, BRIGHT_PANELS, BRIGHT_STRIPS),
         };
-        let panel = |towards: Vec3, half_size, softness: f32, bar, radiance| {
-            let towards = towards.normalize();
-            let right = Vec3::Y.cross(towards).normalize();
-            Panel {
-                towards,
-                right,
-                up: towards.cross(right),
-                half_size,
-                softness: softness.max(0.75 * texel_radians),
-                bar,
-                radiance,
-            }
-        };
-        let panels = [
-            // The soft box overhead in front, a little towards the lamp.
-            panel(
-                Vec3::new(0.34, 0.80, -0.52),
-                [0.30, 0.20],
-                0.03,
-                0.0,
-                radiances.soft_box,
-            ),
-            // The fill: a wall of cloth opposite to the lamp.
-            panel(Vec3::new(-0.90, 0.12, -0.42), [0.62, 0.80], 0.42, 0.0, radiances.cloth),
-            // Cool strips behind on both sides draw a line along the silhouette.
-            panel(
-                Vec3::new(-0.80, 0.30, 0.52),
-                [0.035, 0.85],
-                0.02,
-                0.0,
-                radiances.left_strip,
-            ),
-            panel(
-                Vec3::new(0.84, 0.22, 0.50),
-                [0.035, 0.75],
-                0.02,
-                0.0,
-                radiances.right_strip,
-            ),
-            // A window with four panes, beside the viewer: what a visor and an eye show.
-            panel(
-                Vec3::new(0.50, 0.35, -0.79),
-                [0.07, 0.10],
-                0.012,
-                0.009,
-                radiances.window,
-            ),
-        ];
-        Self { radiances, panels }
+        let behind = STRIPS.map(|strip| Hung {
+            radiance: strip.radiance * strips,
+            ..strip
+        });
+        let panels = panels.into_iter().chain(behind);
+        Self {
+            walls,
+            panels: panels.map(|hung| Panel::new(hung, texel_radians)).collect(),
+        }
     }
 
     /// Radiance from a direction of unit length.
     pub(super) fn radiance(&self, direction: Vec3) -> Vec3 {
-        let Radiances {
-            ceiling, wall, floor, ..
-        } = self.radiances;
+        let Walls {
+            ceiling,
+            wall,
+            floor,
+            behind_viewer,
+        } = self.walls;
         let y = direction.y;
         let above = wall.lerp(ceiling, smoothstep(0.05, 0.9, y));
         // The floor is lit from above: it darkens towards the walls, and where they meet is a line, which metal shows. It is so soft that a
         // coarse cube has it too.
         let ground = (floor * 0.45).lerp(floor, smoothstep(-0.05, -0.6, y));
         let room = ground.lerp(above, smoothstep(-0.12, 0.02, y));
+        let room = room * (behind_viewer + (1.0 - behind_viewer) * smoothstep(-0.85, 0.25, direction.z));
         self.panels
             .iter()
             .fold(room, |behind, panel| panel.over(behind, direction))
@@ -177,6 +213,20 @@ impl Set {
 }
 
 impl Panel {
+    fn new(hung: Hung, texel_radians: f32) -> Self {
+        let towards = hung.towards.normalize();
+        let right = Vec3::Y.cross(towards).normalize();
+        Self {
+            towards,
+            right,
+            up: towards.cross(right),
+            half_size: hung.half_size,
+            softness: hung.softness.max(0.75 * texel_radians),
+            bar: hung.bar,
+            radiance: hung.radiance,
+        }
+    }
+
     /// Radiance from a direction, with the panel in front of `behind`.
     fn over(&self, behind: Vec3, direction: Vec3) -> Vec3 {
         let facing = direction.dot(self.towards);

@@ -6,14 +6,20 @@ use crate::session::Session;
 
 /// Longest step of time: a window that was asleep goes on where it was.
 const MAX_STEP_SECS: f32 = 0.25;
-/// Between two pipelines that are built while nothing moves, so that input comes first.
-const PREPARE_PAUSE_SECS: f32 = 0.05;
+/// Between two steps of what is prepared while nothing moves, so that input comes first.
+const PREPARE_PAUSE_SECS: f32 = 0.02;
 
 /// When the next pass of a window is due, unless input or the waker asks for one before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NextPass {
     AtOnce,
-    After { secs: f32 },
+    After {
+        secs: f32,
+    },
+    /// None is due. In this time [`SessionPainter::prepares`] can go on with what may be asked for next, or a pass can, which does the same.
+    ToPrepare {
+        secs: f32,
+    },
     WhenAsked,
 }
 
@@ -57,7 +63,7 @@ impl SessionPainter {
             // What is being opened will want other pipelines, and must not wait for these.
             let is_idle = cost.is_none() && !session.is_opening() && !had_input;
             if self.prepares(session, is_idle) {
-                NextPass::After {
+                NextPass::ToPrepare {
                     secs: PREPARE_PAUSE_SECS,
                 }
             } else {

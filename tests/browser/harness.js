@@ -54,18 +54,18 @@ for (const picture of filesIn(OUT, ".png")) {
 mkdirSync(OUT, { recursive: true });
 /** Every pass that can be left out: a GPU of software draws several times as many frames without them. */
 const PASSES = ["shadow", "reflections", "contact", "ao"];
-/** And still more where the view has a twenty-fifth of its pixels. */
-const COARSE = 0.2;
+/** And still more where the view has a sixth of its pixels. */
+const COARSE = 0.4;
 
 /**
  * What a person sits at. The screen's scale is set when the browser starts: emulating it on a page leaves the size of a canvas as it was. A
  * page with a window of its own is told the same scale, since it is told 1 otherwise.
- * Most tests have a coarse screen: everything stands where it would, and the panels too have a quarter of their pixels.
+ * Most tests have a coarse screen: everything stands where it would, and the panels too have a sixteenth of their pixels.
  */
 const DEVICES = {
   desk: { scale: 1, context: { viewport: VIEWPORT } },
-  coarseDesk: { scale: 0.5, context: { viewport: VIEWPORT, deviceScaleFactor: 0.5 } },
-  coarsePhone: { scale: 0.5, context: { viewport: null, hasTouch: true } },
+  coarseDesk: { scale: 0.25, context: { viewport: VIEWPORT, deviceScaleFactor: 0.25 } },
+  coarsePhone: { scale: 0.25, context: { viewport: null, hasTouch: true } },
   sharpPhone: { scale: 2, context: { viewport: null, hasTouch: true } },
 };
 const browsers = new Map();

@@ -10,7 +10,7 @@ import { CHEST, click, place } from "./widgets.js";
 const test = (name, options, body) => eachTest(name, { only: "webgpu", ...options }, body);
 const { full, webgpu } = FOLDERS;
 const MAP = SAMPLE.replace(".m3d", "_diff.png");
-const COARSE = "quality=full&scale=0.2";
+const COARSE = "quality=full&scale=0.4";
 
 /** For `prepare`: the GPU of software says that it is another one. What is asked of the adapter can be written anew. */
 export const pretendGpu = ({ name = "", isFallbackAdapter = false, adapter = "real", device = "real" } = {}) => (page) =>

@@ -57,7 +57,8 @@ impl Frames {
 
     /// Waits until a frame is due or asked for.
     pub(super) async fn wait_for(&self, next: NextPass) {
-        if let NextPass::After { secs } = next {
+        // A pass of this canvas that shows nothing new costs next to nothing.
+        if let NextPass::After { secs } | NextPass::ToPrepare { secs } = next {
             let (frames, begun) = (self.clone(), self.0.begun.get());
             spawn_local(async move {
                 sleep((secs * 1e3).ceil() as i32).await;

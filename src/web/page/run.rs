@@ -20,7 +20,7 @@ use crate::web::backend::Chosen;
 use crate::web::canvas::watch_device;
 use crate::web::picture::{AppSlot, Drawn};
 use crate::web::shared::{Shared, Started};
-use crate::web::{coarse_pointer, next_task, now_secs, object, text_of};
+use crate::web::{coarse_pointer, next_task, now_secs, object, sleep, text_of};
 
 /// Starts on a canvas. `start` is the number of the start.
 pub(in crate::web) async fn run(
@@ -50,6 +50,7 @@ pub(in crate::web) async fn run(
         loss,
         is_lost: false,
         exports: Rc::default(),
+        prepares: Rc::default(),
         drawn: Rc::clone(&drawn),
         names: (!is_guest).then(JointNames::default),
         saving: Saving::new(Rc::clone(&app), Rc::clone(shared)),
@@ -161,6 +162,8 @@ struct Shell {
     is_lost: bool,
     /// Whether tasks go on with an export.
     exports: Rc<Cell<bool>>,
+    /// Whether a task prepares what may be asked for next.
+    prepares: Rc<Cell<bool>>,
     drawn: Rc<Cell<Drawn>>,
     /// A guest keeps none in the browser.
     names: Option<JointNames>,
@@ -187,6 +190,25 @@ impl Shell {
                 ctx.request_repaint();
             }
             exports.set(false);
+        });
+    }
+
+    /// Prepares what may be asked for next while nothing moves, between passes, as long as the app is there.
+    fn go_on_preparing(&self) {
+        let next_secs = |app: &AppSlot| app.borrow().as_ref().and_then(App::prepare_in_secs);
+        if next_secs(&self.app).is_none() || self.prepares.replace(true) {
+            return;
+        }
+        let (app, prepares) = (Rc::downgrade(&self.app), Rc::clone(&self.prepares));
+        wasm_bindgen_futures::spawn_local(async move {
+            while let Some(secs) = app.upgrade().and_then(|app| next_secs(&app)) {
+                sleep((secs * 1e3) as i32).await;
+                let Some(app) = app.upgrade() else { break };
+                if let Some(app) = app.borrow_mut().as_mut().filter(|app| app.prepare_in_secs().is_some()) {
+                    app.prepare();
+                }
+            }
+            prepares.set(false);
         });
     }
 }
@@ -250,6 +272,7 @@ impl eframe::App for Shell {
         let is_held = ui.input(|input| input.pointer.any_down());
         self.shared.follow_frame(is_held);
         self.go_on_exporting(ui.ctx());
+        self.go_on_preparing();
         let changed_elsewhere = self.shared.face.names_changed.take();
         let session = &mut *self.shared.session.borrow_mut();
         let names = self.names.as_mut();
