@@ -41,7 +41,10 @@ pub struct App {
     picture_alone: bool,
     /// When the last part of an export ended, if there is more of it.
     exported_secs: Option<f64>,
+    /// After the last pass or turn of [`Self::prepare`]; none where there is nothing to prepare.
     prepare_in_secs: Option<f32>,
+    /// Whether a pass came since the last turn of it.
+    passed: bool,
 }
 
 impl App {
@@ -70,6 +73,7 @@ impl App {
             picture_alone: false,
             exported_secs: None,
             prepare_in_secs: None,
+            passed: false,
         }
     }
 
@@ -128,23 +132,34 @@ impl App {
             Some(NextPass::ToPrepare { secs }) => Some(secs),
             _ => None,
         };
+        self.passed = true;
         requests
     }
 
-    /// In how many seconds [`Self::prepare`] can go on with what may be asked for next, unless a pass comes before.
+    /// In how many seconds [`Self::prepare`] can go on with what may be asked for next.
     pub fn prepare_in_secs(&self) -> Option<f32> {
         self.prepare_in_secs
     }
 
-    /// Goes on with that, without a pass, which would draw all panels. Where the picture is another one for it, a pass is asked for.
+    /// A turn of that, without a pass, which would draw all panels. Passes come first: the turn after one does nothing, and so does each while
+    /// something opens or is to be drawn. Where the picture is another one for it, a pass is asked for.
     pub fn prepare(&mut self) {
         let session = self.session.borrow();
+        let waits = std::mem::take(&mut self.passed) || session.is_opening() || !self.painter.is_current(&session);
+        if waits || self.prepare_in_secs.is_none() {
+            return;
+        }
         if !self.painter.prepares(&session, true) {
             self.prepare_in_secs = None;
         }
         if !self.painter.is_current(&session) {
             self.ctx.request_repaint();
         }
+    }
+
+    /// The device is lost: there is nothing to prepare on it.
+    pub fn stop_preparing(&mut self) {
+        self.prepare_in_secs = None;
     }
 
     /// Goes on with what is exported, for as long as all else took since the last time, however many frames that were. Returns whether

@@ -1,9 +1,9 @@
 //! The photo studio: walls, panels of light, a window, floor.
 //!
 //! The viewer stands at −z and looks along +z; x is to the right, y up. Radiances are linear and in units where 1 shows
-//! as white. Panels are small and bright, so that what shines has something to mirror, and the walls of the dark room are dim, so that the mean
-//! over all directions stays near 0.37: with the lamp a base colour that faces it shows about as it is. The bright room's mean is 0.69, and its
-//! lamp is weaker.
+//! as white. In the dark room panels are small and bright, so that what shines has something to mirror, and walls are dim, so that the mean over
+//! all directions stays near 0.37: with the lamp a base colour that faces it shows about as it is. The bright room has bright walls, larger panels
+//! and a weaker lamp; its mean is 0.68.
 
 use glam::Vec3;
 
@@ -67,7 +67,7 @@ const BRIGHT: Walls = Walls {
     ceiling: Vec3::new(0.729, 0.74, 0.755),
     wall: Vec3::new(0.453, 0.46, 0.472),
     floor: Vec3::new(0.721, 0.70, 0.662),
-    behind_viewer: 0.20,
+    behind_viewer: 0.22,
 };
 
 /// Where a panel hangs, and how bright it is.
@@ -111,23 +111,23 @@ const BRIGHT_PANELS: [Hung; 3] = [
     Hung {
         towards: Vec3::new(0.30, 0.86, -0.42),
         half_size: [0.46, 0.34],
-        softness: 0.03,
+        softness: 0.05,
         bar: 0.0,
         radiance: Vec3::new(2.64, 2.60, 2.52),
     },
     Hung {
         towards: Vec3::new(-0.66, 0.36, -0.66),
         half_size: [0.28, 0.42],
-        softness: 0.03,
+        softness: 0.05,
         bar: 0.0,
-        radiance: Vec3::new(3.84, 3.90, 4.00),
+        radiance: Vec3::new(3.64, 3.70, 3.79),
     },
     Hung {
         towards: Vec3::new(0.58, 0.30, -0.76),
         half_size: [0.13, 0.19],
-        softness: 0.014,
+        softness: 0.02,
         bar: 0.011,
-        radiance: Vec3::splat(6.5),
+        radiance: Vec3::splat(6.0),
     },
 ];
 

@@ -16,7 +16,7 @@ pub enum NextPass {
     After {
         secs: f32,
     },
-    /// None is due. In this time [`SessionPainter::prepares`] can go on with what may be asked for next, or a pass can, which does the same.
+    /// None is due. After this time [`SessionPainter::prepares`] can go on with what may be asked for next; a pass does so too.
     ToPrepare {
         secs: f32,
     },

@@ -220,8 +220,10 @@ on_both_backends! {
     fn a_picture_of_four_times_the_pixels_shows_the_same(gpu) {
         let mut scene = still_life().three_quarter(Theme::Light);
         scene.camera.distance *= 1.2;
-        let small = mean(gpu, &scene, &[], SIZE, 64);
-        let large = mean(gpu, &scene, &[], SIZE.map(|side| side * 4), 16);
+        // In still smaller ones polished metal turns by so much within a pixel that it is drawn rougher, so that it does not glitter.
+        let size = [240, 180];
+        let small = mean(gpu, &scene, &[], size, 64);
+        let large = mean(gpu, &scene, &[], size.map(|side| side * 4), 16);
         let off = differences(&small, &reduced(&large, 4));
         let high = off[off.len() * 99 / 100];
         assert!(average(&off) < 1.0 && high <= 6, "mean {}, 99 of 100 within {high}", average(&off));

@@ -222,16 +222,21 @@ on_both_backends! {
     }
 
     fn the_model_darkens_the_ground_behind_it(gpu) {
-        let scene = Scene::of(card(FRONT)).three_quarter(Theme::Light);
-        let with = gpu.draw(&scene, 320, 200);
-        let mut bare = scene;
-        bare.model.mesh = Default::default();
-        let without = gpu.draw(&bare, 320, 200);
-        let darkened = with.rgba.chunks_exact(4).zip(without.rgba.chunks_exact(4)).filter(|(with, without)| {
-            // Grey on grey, so no part of the card.
-            with[0].abs_diff(with[2]) < 24 && with[0].saturating_add(20) < without[0]
-        });
-        assert!(darkened.count() > 80, "the shadow shows beside the card");
+        let mut scene = bent_tube(0.6).three_quarter(Theme::Light);
+        let greens = |scene: &Scene| -> Vec<u8> {
+            let picture = gpu.draw(scene, 320, 200);
+            picture.rgba.chunks_exact(4).map(|pixel| pixel[1]).collect()
+        };
+        let with = greens(&scene);
+        let passes = std::mem::replace(&mut scene.options.passes, Passes::none());
+        let unshaded = greens(&scene);
+        scene.model.mesh = Default::default();
+        let nothing = greens(&scene);
+        scene.options.passes = passes;
+        let bare = greens(&scene);
+        let is_ground = |at: &usize| unshaded[*at].abs_diff(nothing[*at]) <= 2;
+        let darkened = (0..bare.len()).filter(is_ground).filter(|&at| with[at] < bare[at].saturating_sub(20));
+        assert!(darkened.count() > 200, "the shadow shows beside the tube");
     }
 
     /// Grid, shadow, depth: all follow the size by powers of ten.

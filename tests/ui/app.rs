@@ -82,34 +82,62 @@ fn passes_until_at_rest(harness: &mut Harness<'static>) -> usize {
     passes
 }
 
+/// What the page does between passes, until nothing is left. Returns how many turns had something to do.
+fn prepare(harness: &mut Harness<'static>, app: &Shared<Option<App>>) -> usize {
+    for turns in 0..MANY {
+        let is_left = {
+            let mut app = app.borrow_mut();
+            let app = app.as_mut().expect("it ran");
+            app.prepare();
+            app.prepare_in_secs().is_some()
+        };
+        if harness.ctx.has_requested_repaint() {
+            passes_until_at_rest(harness);
+        }
+        if !is_left {
+            return turns;
+        }
+    }
+    panic!("there is no end to it");
+}
+
 #[test]
 fn a_window_at_rest_builds_pipelines_and_then_costs_nothing() {
     let (mut harness, session, app) = window(still("a.m3d"));
     let frames = || app.borrow().as_ref().expect("it ran").frames_rendered();
-    harness.run();
-    let drawn = frames();
-    assert!(passes_until_at_rest(&mut harness) > 4, "one pipeline in a pass");
+    passes_until_at_rest(&mut harness);
+    let (drawn, passed) = (frames(), harness.ctx.cumulative_pass_nr());
+    assert!(prepare(&mut harness, &app) > 4, "one pipeline in a turn");
     assert_eq!(
         frames(),
         drawn + 1,
         "no picture is drawn for them, but one for the light, which is then finer"
     );
+    let passes = harness.ctx.cumulative_pass_nr() - passed;
+    assert!(
+        passes <= 6,
+        "{passes} passes: the panels are drawn for that picture alone"
+    );
     session.borrow_mut().apply(LookCommand::ToggleLight);
     harness.ctx.request_repaint();
     harness.step();
     assert_eq!(frames(), drawn + 2);
-    assert!(passes_until_at_rest(&mut harness) <= 2, "all are built");
+    passes_until_at_rest(&mut harness);
+    assert!(prepare(&mut harness, &app) <= 1, "all are built");
 }
 
 #[test]
 fn a_window_that_moves_builds_no_pipeline_for_later() {
-    let (mut harness, session, _app) = window(moving("a.m3d"));
+    let (mut harness, session, app) = window(moving("a.m3d"));
     // Each pass draws a frame, on a GPU of software.
     harness.set_size(egui::vec2(240.0, 180.0));
     session.borrow_mut().apply(PlayCommand::Play);
     harness.run_steps(SOME);
+    let is_left = || app.borrow().as_ref().expect("it ran").prepare_in_secs().is_some();
+    assert!(!is_left(), "not while it moves");
     session.borrow_mut().apply(PlayCommand::Pause);
-    assert!(passes_until_at_rest(&mut harness) > 4);
+    harness.run();
+    assert!(is_left() && prepare(&mut harness, &app) > 4);
 }
 
 #[test]

@@ -199,12 +199,21 @@ impl Shell {
         if next_secs(&self.app).is_none() || self.prepares.replace(true) {
             return;
         }
-        let (app, prepares) = (Rc::downgrade(&self.app), Rc::clone(&self.prepares));
+        let (app, prepares, shared) = (
+            Rc::downgrade(&self.app),
+            Rc::clone(&self.prepares),
+            Rc::clone(&self.shared),
+        );
         wasm_bindgen_futures::spawn_local(async move {
             while let Some(secs) = app.upgrade().and_then(|app| next_secs(&app)) {
                 sleep((secs * 1e3) as i32).await;
-                let Some(app) = app.upgrade() else { break };
-                if let Some(app) = app.borrow_mut().as_mut().filter(|app| app.prepare_in_secs().is_some()) {
+                // The pass that comes when it is in sight again begins anew.
+                if shared.face.is_out_of_sight.get() {
+                    break;
+                }
+                if let Some(app) = app.upgrade()
+                    && let Some(app) = app.borrow_mut().as_mut()
+                {
                     app.prepare();
                 }
             }
@@ -228,6 +237,9 @@ impl eframe::App for Shell {
     fn logic(&mut self, _ctx: &egui::Context, _frame: &mut eframe::Frame) {
         if let Ok(reason) = self.loss.try_recv() {
             self.is_lost = true;
+            if let Some(app) = self.app.borrow_mut().as_mut() {
+                app.stop_preparing();
+            }
             self.shared.emit_loss(self.start, &reason);
         }
     }

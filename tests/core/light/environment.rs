@@ -123,7 +123,7 @@ fn the_dark_studio_has_range_over_dim_walls() {
 }
 
 #[test]
-fn the_bright_studio_is_bright_all_round_and_brightest_above() {
+fn the_bright_studio_is_bright_but_behind_the_viewer() {
     let [dark, bright] = Room::ALL.map(Environment::studio);
     let lights = |direction: Vec3| [&dark, &bright].map(|room| room.sample(direction).y);
     for direction in [Vec3::NEG_Y, Vec3::Z, Vec3::X] {
@@ -133,11 +133,23 @@ fn the_bright_studio_is_bright_all_round_and_brightest_above() {
     let [of_dark, of_bright] = lights(Vec3::new(-0.3, 0.9, 0.3).normalize());
     assert!(of_bright > 2.5 * of_dark, "{of_bright} beside {of_dark}");
     // Metal shows where floor and walls meet.
-    for room in [&dark, &bright] {
+    for (room, least) in [(&dark, 1.8), (&bright, 1.3)] {
         let [wall, floor] = [0.04, -0.13].map(|y: f32| room.sample(Vec3::new(0.0, y, 1.0).normalize()).y);
-        assert!(wall > 1.8 * floor, "{wall} over {floor}");
+        assert!(wall > least * floor, "{wall} over {floor}");
+    }
+    // A ball of metal mirrors in its middle what is behind the viewer: that is dark in the bright room too.
+    let [of_dark, of_bright] = lights(Vec3::new(0.0, 0.1, -1.0).normalize());
+    assert!(
+        of_bright < of_dark && of_bright < 0.25 * bright.sample(Vec3::Z).y,
+        "{of_bright} beside {of_dark}"
+    );
+    // The soft boxes: overhead, and opposite to the lamp.
+    for direction in [Vec3::new(0.30, 0.86, -0.42), Vec3::new(-0.66, 0.36, -0.66)] {
+        let light = bright.sample(direction.normalize()).y;
+        assert!(light > 2.0, "{direction}: {light}");
     }
     let average = bright.average();
+    assert!((0.64..0.72).contains(&average.element_sum().div(3.0)), "{average}");
     assert!(average.max_element() / average.min_element() < 1.12, "{average}");
 }
 
