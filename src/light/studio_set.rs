@@ -70,7 +70,7 @@ const BRIGHT: Walls = Walls {
     behind_viewer: 0.22,
 };
 
-/// Where a panel hangs, and how bright it is.
+/// Where a panel hangs, and how bright it is: the fields of [`Panel`], `towards` of any length.
 #[derive(Clone, Copy)]
 struct Hung {
     towards: Vec3,
@@ -106,7 +106,7 @@ const DARK_PANELS: [Hung; 3] = [
     },
 ];
 
-/// The same three, larger; the fill is another soft box, so that metal has an edge of it.
+/// The same three, larger. The fill is a second soft box, whose clear edge metal mirrors.
 const BRIGHT_PANELS: [Hung; 3] = [
     Hung {
         towards: Vec3::new(0.30, 0.86, -0.42),
@@ -131,7 +131,7 @@ const BRIGHT_PANELS: [Hung; 3] = [
     },
 ];
 
-/// Cool strips behind on both sides draw a line along the silhouette. They are this bright in the dark room.
+/// Behind the model, on both sides: cool strips draw a line along the silhouette. As bright as in the dark room.
 const STRIPS: [Hung; 2] = [
     Hung {
         towards: Vec3::new(-0.80, 0.30, 0.52),
@@ -148,7 +148,7 @@ const STRIPS: [Hung; 2] = [
         radiance: Vec3::new(4.5, 5.2, 6.0),
     },
 ];
-/// And this in the bright one, of that.
+/// How bright the strips are in the bright room, as a fraction of that.
 const BRIGHT_STRIPS: f32 = 0.7;
 
 /// A rectangle of light, bright in its middle.
