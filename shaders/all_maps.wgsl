@@ -1,17 +1,18 @@
-// All that a glTF file says about a surface: five maps, each sampled in a way of its own, and colours of vertices. Stands in the place
+// All that a glTF file says about a surface: nine maps, each sampled in a way of its own, and colours of vertices. Stands in the place
 // of `two_maps.wgsl`.
 
 // Where a map is looked up: a 2x3 matrix, texture coordinates of the mesh -> of the map. Twin: `shaders::MapPlace`.
 struct MapPlace {
     // w: 1 where it takes the second texture coordinates, else 0.
     u: vec4<f32>,
+    // w: a bit for each channel that is read; the others are 1.
     v: vec4<f32>,
 }
 
 // Twin: `shaders::MaterialMaps`.
 struct MaterialMaps {
     // In the order of `model::MapSlot`.
-    places: array<MapPlace, 5>,
+    places: array<MapPlace, 9>,
     // Linear light that the surface gives, times the emissive map.
     emissive: vec3<f32>,
     // Times `solid`.
@@ -29,7 +30,7 @@ struct MaterialMaps {
     is_metallic_roughness: u32,
     // 1 when it is shown in its own colour without light.
     is_unlit: u32,
-    // Of what is no metal: Fresnel0, and its scale at grazing angles.
+    // Of what is no metal: Fresnel0, which counts up to 1, before the factor `specular`, which grazing angles have too.
     dielectric_fresnel0: vec3<f32>,
     specular: f32,
     // What lies over the surface.
@@ -41,6 +42,10 @@ struct MaterialMaps {
     boundary_fresnel0: f32,
     // The fraction of what is scattered that is seen: less than 1 where light goes through.
     solid: f32,
+    // As the material's, of the normal map of the coat.
+    coat_normal_scale: f32,
+    coat_normal_channels: u32,
+    coat_normal_lengths: u32,
 }
 
 const DIFFUSE: u32 = 0u;
@@ -48,6 +53,10 @@ const NORMAL: u32 = 1u;
 const METALLIC_ROUGHNESS: u32 = 2u;
 const OCCLUSION: u32 = 3u;
 const EMISSIVE: u32 = 4u;
+const SPECULAR: u32 = 5u;
+const COAT: u32 = 6u;
+const COAT_NORMAL: u32 = 7u;
+const SHEEN: u32 = 8u;
 
 @group(3) @binding(1) var<uniform> material_maps: MaterialMaps;
 @group(3) @binding(2) var diffuse_map: texture_2d<f32>;
@@ -60,6 +69,14 @@ const EMISSIVE: u32 = 4u;
 @group(3) @binding(9) var material_occlusion_sampler: sampler;
 @group(3) @binding(10) var emissive_map: texture_2d<f32>;
 @group(3) @binding(11) var emissive_sampler: sampler;
+@group(3) @binding(12) var specular_map: texture_2d<f32>;
+@group(3) @binding(13) var specular_sampler: sampler;
+@group(3) @binding(14) var coat_map: texture_2d<f32>;
+@group(3) @binding(15) var coat_sampler: sampler;
+@group(3) @binding(16) var coat_normal_map: texture_2d<f32>;
+@group(3) @binding(17) var coat_normal_sampler: sampler;
+@group(3) @binding(18) var sheen_map: texture_2d<f32>;
+@group(3) @binding(19) var sheen_sampler: sampler;
 
 // What a vertex has for maps. The colour is linear.
 struct MapVertex {

@@ -2,6 +2,10 @@
 // once instead of blended several times in eight bits. Without a background the shadows alone are drawn, as black that covers what the
 // picture is later laid over.
 
+// How near the model is above the ground: 1 where it stands, 0 far above or without a model. Red for what touches it, green for what is
+// above it. In a group of its own, since a program that draws the model binds sixteen textures without it, as many as WebGL2 has.
+@group(1) @binding(0) var contact_map: texture_2d<f32>;
+
 // How far from the lightest row, in heights of the view, the backdrop is nearly its edge colour.
 const BACKDROP_FALLOFF: f32 = 0.76;
 // The lightest row, ndc y: a little above the middle, where the horizon of a three-quarter view lies.

@@ -12,14 +12,14 @@ struct Environment {
     specular_level_count: f32,
 }
 
-@group(2) @binding(4) var<uniform> environment: Environment;
+@group(2) @binding(3) var<uniform> environment: Environment;
 // Level l of n is blurred for the roughness r whose r (2 - r) is l / (n - 1).
-@group(2) @binding(5) var environment_specular: texture_cube<f32>;
+@group(2) @binding(4) var environment_specular: texture_cube<f32>;
 // Scale and bias of fresnel0: the root of n·v to the right, roughness down; entries lie in the middles of texels, the first at
 // 0, the last at 1. In blue how much of a lobe the lamp fills: to the right the root of the sine of half the angle between them.
-@group(2) @binding(6) var brdf_table: texture_2d<f32>;
+@group(2) @binding(5) var brdf_table: texture_2d<f32>;
 // Linear and clamped, for both textures.
-@group(2) @binding(7) var environment_sampler: sampler;
+@group(2) @binding(6) var environment_sampler: sampler;
 
 fn environment_from_world(direction: vec3<f32>) -> vec3<f32> {
     let x = direction.x * environment.turn_cos + direction.z * environment.turn_sin;

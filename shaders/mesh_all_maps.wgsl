@@ -22,6 +22,12 @@ fn mesh_vertex(world: Skinned, maps: MapVertex, front_sign: f32) -> MeshVertex {
 // What a map that is not there has everywhere.
 const NO_TEXEL: vec4<f32> = vec4<f32>(1.0);
 
+// The channels of a texel that are read.
+fn read_of(slot: u32, texel: vec4<f32>) -> vec4<f32> {
+    let channels = vec4<u32>(u32(material_maps.places[slot].v.w));
+    return select(NO_TEXEL, texel, (channels & vec4<u32>(1u, 2u, 4u, 8u)) != vec4<u32>(0u));
+}
+
 fn substance(mesh: MeshVertex) -> Substance {
     let tex_coords = vec4<f32>(mesh.tex_coord, mesh.second_tex_coord);
     // Only what is there is read. The branches are the same for all pixels of a draw.
@@ -48,6 +54,22 @@ fn substance(mesh: MeshVertex) -> Substance {
     if is_present(EMISSIVE) {
         emissive *= textureSample(emissive_map, emissive_sampler, map_place(EMISSIVE, tex_coords)).rgb;
     }
+    var specular_texel = NO_TEXEL;
+    if is_present(SPECULAR) {
+        specular_texel = read_of(SPECULAR, textureSample(specular_map, specular_sampler, map_place(SPECULAR, tex_coords)));
+    }
+    var coat_texel = NO_TEXEL;
+    if is_present(COAT) {
+        coat_texel = read_of(COAT, textureSample(coat_map, coat_sampler, map_place(COAT, tex_coords)));
+    }
+    var coat_normal_texel = NO_TEXEL.rgb;
+    if is_present(COAT_NORMAL) {
+        coat_normal_texel = textureSample(coat_normal_map, coat_normal_sampler, map_place(COAT_NORMAL, tex_coords)).rgb;
+    }
+    var sheen_texel = NO_TEXEL;
+    if is_present(SHEEN) {
+        sheen_texel = read_of(SHEEN, textureSample(sheen_map, sheen_sampler, map_place(SHEEN, tex_coords)));
+    }
     let alpha = map_alpha(diffuse_texel.a) * material_maps.opacity * mesh.color.a;
     diffuse_texel = vec4<f32>(diffuse_texel.rgb * mesh.color.rgb, alpha);
     let base_color = material.albedo * diffuse_texel.rgb;
@@ -61,9 +83,11 @@ fn substance(mesh: MeshVertex) -> Substance {
     if material_maps.is_metallic_roughness == 1u {
         metallic = material_maps.metallic * roughness_metallic.y;
         albedo = base_color * (1.0 - metallic);
-        fresnel0 = mix(material_maps.dielectric_fresnel0, base_color, metallic);
+        let factor = material_maps.specular * specular_texel.a;
+        let dielectric = min(material_maps.dielectric_fresnel0 * specular_texel.rgb, vec3<f32>(1.0)) * factor;
+        fresnel0 = mix(dielectric, base_color, metallic);
         plain_fresnel0 = mix(vec3<f32>(material_maps.boundary_fresnel0), base_color, metallic);
-        specular = mix(material_maps.specular, 1.0, metallic);
+        specular = mix(factor, 1.0, metallic);
         shininess = 1.0 - material.roughness * roughness_metallic.x;
     }
     return Substance(
@@ -75,7 +99,16 @@ fn substance(mesh: MeshVertex) -> Substance {
         fresnel0,
         plain_fresnel0,
         specular,
-        Layers(material_maps.sheen, material_maps.sheen_roughness, material_maps.coat, material_maps.coat_roughness),
+        Layers(
+            material_maps.sheen * sheen_texel.rgb,
+            material_maps.sheen_roughness * sheen_texel.a,
+            material_maps.coat * coat_texel.r,
+            material_maps.coat_roughness * coat_texel.g,
+            coat_normal_texel,
+            material_maps.coat_normal_scale,
+            material_maps.coat_normal_channels,
+            material_maps.coat_normal_lengths,
+        ),
         material_maps.solid,
         shininess,
         metallic,

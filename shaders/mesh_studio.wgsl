@@ -53,7 +53,8 @@ fn given_back(point: SurfacePoint) -> StudioRadiance {
         layers.sheen,
         max(layers.sheen_roughness, LEAST_SHEEN_ROUGHNESS),
         layers.coat,
-        widened(max(layers.coat_roughness, LEAST_ROUGHNESS), point.smooth_widening),
+        widened(max(layers.coat_roughness, LEAST_ROUGHNESS), point.coat_widening),
+        point.coat_normal,
     );
     let lights = StudioLights(light.to_key, light.key_color, key_visible, light.key_mirrored, light.to_rim, light.rim_color);
     return studio_radiance(surface, lights);

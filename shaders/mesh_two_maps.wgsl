@@ -31,7 +31,7 @@ fn substance(mesh: MeshVertex) -> Substance {
         material.fresnel0,
         material.fresnel0,
         1.0,
-        Layers(vec3<f32>(0.0), 1.0, 0.0, 1.0),
+        Layers(vec3<f32>(0.0), 1.0, 0.0, 1.0, vec3<f32>(1.0), 1.0, 0u, 0u),
         1.0,
         (1.0 - material.roughness) * gloss,
         0.0,

@@ -1,9 +1,9 @@
 // The normal of a surface point, bent by its normal map.
 
 // `normal` is of unit length. `tangent` is in the same space and of any length; its w is the side of the bitangent. A tangent along
-// the normal leaves the normal as it is. `scale` multiplies what bends it.
-fn mapped_normal(texel: vec3<f32>, scale: f32, normal: vec3<f32>, tangent: vec4<f32>) -> vec3<f32> {
-    if material.normal_channels == 0u {
+// the normal leaves the normal as it is. `scale` multiplies what bends it; `channels` are the map's, as a material has them.
+fn mapped_normal(texel: vec3<f32>, scale: f32, channels: u32, normal: vec3<f32>, tangent: vec4<f32>) -> vec3<f32> {
+    if channels == 0u {
         return normal;
     }
     // After interpolation it is not square to the normal.
@@ -17,7 +17,7 @@ fn mapped_normal(texel: vec3<f32>, scale: f32, normal: vec3<f32>, tangent: vec4<
     let b = cross(normal, t) * select(-1.0, 1.0, tangent.w >= 0.0);
     let mapped = texel * 2.0 - 1.0;
     var z = mapped.z;
-    if material.normal_channels == 2u {
+    if channels == 2u {
         z = sqrt(max(1.0 - dot(mapped.xy, mapped.xy), 0.0));
     }
     return normalize_or((t * mapped.x + b * (mapped.y * light.normal_green_sign)) * scale + normal * z, normal);

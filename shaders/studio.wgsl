@@ -27,9 +27,10 @@ struct StudioSurface {
     sheen: vec3<f32>,
     // 0.2 or more.
     sheen_roughness: f32,
-    // How much of it a clear coat covers, 0 … 1, and how rough that is. The coat is as smooth as the vertices say.
+    // How much of it a clear coat covers, 0 … 1, how rough that is, and its own normal, unit, on the side of the viewer.
     coat: f32,
     coat_roughness: f32,
+    coat_normal: vec3<f32>,
 }
 
 // Colours are what a white surface that faces the light shows.
@@ -85,10 +86,10 @@ fn studio_radiance(surface: StudioSurface, lights: StudioLights) -> StudioRadian
         given = beneath(given, largest(surface.sheen) * share, surface.sheen * (around * share + key * (n_dot_l * lobe)));
     }
     if surface.coat > 0.0 {
-        let coat_dot_v = clamp(dot(surface.smooth_normal, surface.to_eye), 1e-3, 1.0);
+        let coat_dot_v = clamp(dot(surface.coat_normal, surface.to_eye), 1e-3, 1.0);
         let entry = brdf_lookup(coat_dot_v, surface.coat_roughness);
         let share = surface.coat * (COAT_FRESNEL0 * entry.x + entry.y);
-        let light = mirrored_light(surface, surface.smooth_normal, coat_dot_v, surface.coat_roughness, lights);
+        let light = mirrored_light(surface, surface.coat_normal, coat_dot_v, surface.coat_roughness, lights);
         given = beneath(given, share, share * light);
     }
     return given;

@@ -7,6 +7,11 @@ struct Layers {
     // The fraction that a clear coat covers.
     coat: f32,
     coat_roughness: f32,
+    // As of the normal map beneath it.
+    coat_normal_texel: vec3<f32>,
+    coat_normal_scale: f32,
+    coat_normal_channels: u32,
+    coat_normal_lengths: u32,
 }
 
 // What it is made of there, by its material, its maps and its vertices: `substance` gives it. Colours are linear.
@@ -49,8 +54,9 @@ struct SurfacePoint {
     normal: vec3<f32>,
     // How much normals differ within the pixel: what that adds to the square of alpha.
     widening: f32,
-    // The same without the normal map.
-    smooth_widening: f32,
+    // Of the clear coat: unit, on the side that is seen, bent by its own normal map alone, and how much that differs.
+    coat_normal: vec3<f32>,
+    coat_widening: f32,
     // Interpolated from the vertices.
     tangent: vec4<f32>,
     tex_coord: vec2<f32>,
@@ -98,12 +104,12 @@ fn bend_of(normal: vec3<f32>) -> f32 {
 }
 
 // Of normals that a smaller level of the normal map has made one of: their mean is the shorter the more they differ (Toksvig 2004).
-fn spread_of(texel: vec3<f32>) -> f32 {
-    if material.normal_lengths == 0u {
+fn spread_of(texel: vec3<f32>, channels: u32, lengths: u32) -> f32 {
+    if lengths == 0u {
         return 0.0;
     }
     var length = length(texel * 2.0 - 1.0);
-    if material.normal_channels == 2u {
+    if channels == 2u {
         length = texel.b;
     }
     // Less than this is rounding.
@@ -118,7 +124,11 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
     let to_eye = towards_eye(mesh.world_position);
     let vertex_normal = normalize_or(mesh.world_normal, to_eye * side);
     // Seen from behind, a bump is a dent.
-    let normal = mapped_normal(of_maps.normal_texel.rgb, of_maps.normal_scale, vertex_normal, mesh.world_tangent) * side;
+    let texel = of_maps.normal_texel.rgb;
+    let normal = mapped_normal(texel, of_maps.normal_scale, material.normal_channels, vertex_normal, mesh.world_tangent) * side;
+    let layers = of_maps.layers;
+    let coat_normal = mapped_normal(
+        layers.coat_normal_texel, layers.coat_normal_scale, layers.coat_normal_channels, vertex_normal, mesh.world_tangent) * side;
     let along = dot(mesh.world_position - camera.eye, camera.forward);
     let pixel = in_picture(mesh.clip.xy);
     return SurfacePoint(
@@ -127,8 +137,9 @@ fn surface_point(mesh: MeshVertex, clockwise: bool) -> SurfacePoint {
         derived_normal * select(-1.0, 1.0, dot(derived_normal, to_eye) > 0.0),
         vertex_normal * side,
         normal,
-        bend_of(normal) + spread_of(of_maps.normal_texel.rgb),
-        bend_of(vertex_normal),
+        bend_of(normal) + spread_of(texel, material.normal_channels, material.normal_lengths),
+        coat_normal,
+        bend_of(coat_normal) + spread_of(layers.coat_normal_texel, layers.coat_normal_channels, layers.coat_normal_lengths),
         mesh.world_tangent,
         mesh.tex_coord,
         of_maps,

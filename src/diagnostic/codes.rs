@@ -620,10 +620,10 @@ table! {
             "It is blended by how much light goes through, and what it mirrors is seen whole.",
             "Give the material an alpha of its own and the mode BLEND, where it has to look so everywhere.";
         GLTF_MAP_LEFT_OUT = "gltf-map-left-out", Note,
-            "A material has maps of clear coat, sheen, specular or transmission, which are not read.",
-            "The numbers beside such a map then hold for all of the surface.",
-            "The numbers are drawn and written without the maps. A sheen whose colour is in a map is left out, and what a map says to be transparent is opaque.",
-            "Nothing, where the look is good without them. Else put what they say into the maps of colour and roughness.";
+            "A material has a map of transmission, or two pictures for the two values of a layer; such a map is not read.",
+            "Of specular, clear coat and sheen one picture each is read, which may hold both values: glTF gives each channels of its own. The number beside a map that is left out holds for all of the surface.",
+            "The material is drawn and written without the map; what a map says to be transparent is opaque.",
+            "Put both values of a layer into the channels of one picture.";
         GLTF_CHANNEL_LEFT_OUT = "gltf-channel-left-out", Note,
             "A clip moves something that is not shown; left out.",
             "Cameras, lights and empties are not shown.",

@@ -245,23 +245,23 @@ objects! {
     Specular {
         specular_factor: Option<f32>,
         specular_color_factor: Option<[f32; 3]>,
-        specular_texture: Option<IgnoredAny>,
-        specular_color_texture: Option<IgnoredAny>,
+        specular_texture: Option<TextureInfo>,
+        specular_color_texture: Option<TextureInfo>,
     }
 
     Clearcoat {
         clearcoat_factor: Option<f32>,
         clearcoat_roughness_factor: Option<f32>,
-        clearcoat_texture: Option<IgnoredAny>,
-        clearcoat_roughness_texture: Option<IgnoredAny>,
-        clearcoat_normal_texture: Option<IgnoredAny>,
+        clearcoat_texture: Option<TextureInfo>,
+        clearcoat_roughness_texture: Option<TextureInfo>,
+        clearcoat_normal_texture: Option<NormalTexture>,
     }
 
     Sheen {
         sheen_color_factor: Option<[f32; 3]>,
         sheen_roughness_factor: Option<f32>,
-        sheen_color_texture: Option<IgnoredAny>,
-        sheen_roughness_texture: Option<IgnoredAny>,
+        sheen_color_texture: Option<TextureInfo>,
+        sheen_roughness_texture: Option<TextureInfo>,
     }
 
     Transmission {

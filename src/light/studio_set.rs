@@ -5,7 +5,7 @@
 //! all directions stays near 0.37: with the lamp a base colour that faces it shows about as it is. The bright room has bright walls, larger panels
 //! and a weaker lamp; its mean is 0.68.
 
-use glam::Vec3;
+use glam::{Mat3, Vec3};
 
 use super::cube::smoothstep;
 
@@ -70,93 +70,11 @@ const BRIGHT: Walls = Walls {
     behind_viewer: 0.22,
 };
 
-/// Where a panel hangs, and how bright it is: the fields of [`Panel`], `towards` of any length.
+/// A rectangle of light, bright in its middle, upright.
 #[derive(Clone, Copy)]
-struct Hung {
-    towards: Vec3,
-    half_size: [f32; 2],
-    softness: f32,
-    bar: f32,
-    radiance: Vec3,
-}
-
-/// In front: a soft box overhead, a little towards the lamp; opposite to the lamp the fill, a wall of cloth; a window with four panes, beside the
-/// viewer: what a visor and an eye show.
-const DARK_PANELS: [Hung; 3] = [
-    Hung {
-        towards: Vec3::new(0.34, 0.80, -0.52),
-        half_size: [0.30, 0.20],
-        softness: 0.03,
-        bar: 0.0,
-        radiance: Vec3::new(5.0, 4.9, 4.75),
-    },
-    Hung {
-        towards: Vec3::new(-0.90, 0.12, -0.42),
-        half_size: [0.62, 0.80],
-        softness: 0.42,
-        bar: 0.0,
-        radiance: Vec3::new(0.60, 0.63, 0.67),
-    },
-    Hung {
-        towards: Vec3::new(0.50, 0.35, -0.79),
-        half_size: [0.07, 0.10],
-        softness: 0.012,
-        bar: 0.009,
-        radiance: Vec3::splat(10.0),
-    },
-];
-
-/// The same three, larger. The fill is a second soft box, whose clear edge metal mirrors.
-const BRIGHT_PANELS: [Hung; 3] = [
-    Hung {
-        towards: Vec3::new(0.30, 0.86, -0.42),
-        half_size: [0.46, 0.34],
-        softness: 0.05,
-        bar: 0.0,
-        radiance: Vec3::new(2.64, 2.60, 2.52),
-    },
-    Hung {
-        towards: Vec3::new(-0.66, 0.36, -0.66),
-        half_size: [0.28, 0.42],
-        softness: 0.05,
-        bar: 0.0,
-        radiance: Vec3::new(3.64, 3.70, 3.79),
-    },
-    Hung {
-        towards: Vec3::new(0.58, 0.30, -0.76),
-        half_size: [0.13, 0.19],
-        softness: 0.02,
-        bar: 0.011,
-        radiance: Vec3::splat(6.0),
-    },
-];
-
-/// Behind the model, on both sides: cool strips draw a line along the silhouette. As bright as in the dark room.
-const STRIPS: [Hung; 2] = [
-    Hung {
-        towards: Vec3::new(-0.80, 0.30, 0.52),
-        half_size: [0.035, 0.85],
-        softness: 0.02,
-        bar: 0.0,
-        radiance: Vec3::new(6.0, 7.0, 8.0),
-    },
-    Hung {
-        towards: Vec3::new(0.84, 0.22, 0.50),
-        half_size: [0.035, 0.75],
-        softness: 0.02,
-        bar: 0.0,
-        radiance: Vec3::new(4.5, 5.2, 6.0),
-    },
-];
-/// How bright the strips are in the bright room, as a fraction of that.
-const BRIGHT_STRIPS: f32 = 0.7;
-
-/// A rectangle of light, bright in its middle.
 struct Panel {
-    /// Unit vectors towards its middle, to its right and upwards, as seen from the middle of the set.
+    /// Towards its middle, as seen from the middle of the set; of any length.
     towards: Vec3,
-    right: Vec3,
-    up: Vec3,
     /// Half its width and height, as tangents of the angles from its middle.
     half_size: [f32; 2],
     /// How far the edge fades, in the same unit.
@@ -167,10 +85,82 @@ struct Panel {
     radiance: Vec3,
 }
 
+/// In front: a soft box overhead, a little towards the lamp; opposite to the lamp the fill, a wall of cloth; a window with four panes, beside the
+/// viewer: what a visor and an eye show.
+const DARK_PANELS: [Panel; 3] = [
+    Panel {
+        towards: Vec3::new(0.34, 0.80, -0.52),
+        half_size: [0.30, 0.20],
+        softness: 0.03,
+        bar: 0.0,
+        radiance: Vec3::new(5.0, 4.9, 4.75),
+    },
+    Panel {
+        towards: Vec3::new(-0.90, 0.12, -0.42),
+        half_size: [0.62, 0.80],
+        softness: 0.42,
+        bar: 0.0,
+        radiance: Vec3::new(0.60, 0.63, 0.67),
+    },
+    Panel {
+        towards: Vec3::new(0.50, 0.35, -0.79),
+        half_size: [0.07, 0.10],
+        softness: 0.012,
+        bar: 0.009,
+        radiance: Vec3::splat(10.0),
+    },
+];
+
+/// The same three, larger. The fill is a second soft box, whose clear edge metal mirrors.
+const BRIGHT_PANELS: [Panel; 3] = [
+    Panel {
+        towards: Vec3::new(0.30, 0.86, -0.42),
+        half_size: [0.46, 0.34],
+        softness: 0.05,
+        bar: 0.0,
+        radiance: Vec3::new(2.64, 2.60, 2.52),
+    },
+    Panel {
+        towards: Vec3::new(-0.66, 0.36, -0.66),
+        half_size: [0.28, 0.42],
+        softness: 0.05,
+        bar: 0.0,
+        radiance: Vec3::new(3.64, 3.70, 3.79),
+    },
+    Panel {
+        towards: Vec3::new(0.58, 0.30, -0.76),
+        half_size: [0.13, 0.19],
+        softness: 0.02,
+        bar: 0.011,
+        radiance: Vec3::splat(6.0),
+    },
+];
+
+/// Behind the model, on both sides: cool strips draw a line along the silhouette. As bright as in the dark room.
+const STRIPS: [Panel; 2] = [
+    Panel {
+        towards: Vec3::new(-0.80, 0.30, 0.52),
+        half_size: [0.035, 0.85],
+        softness: 0.02,
+        bar: 0.0,
+        radiance: Vec3::new(6.0, 7.0, 8.0),
+    },
+    Panel {
+        towards: Vec3::new(0.84, 0.22, 0.50),
+        half_size: [0.035, 0.75],
+        softness: 0.02,
+        bar: 0.0,
+        radiance: Vec3::new(4.5, 5.2, 6.0),
+    },
+];
+/// How bright the strips are in the bright room, as a fraction of that.
+const BRIGHT_STRIPS: f32 = 0.7;
+
 /// A room, ready to be looked at.
 pub(super) struct Set {
     walls: Walls,
-    panels: Vec<Panel>,
+    /// Each with unit vectors to its right, upwards and towards it.
+    panels: Vec<(Panel, Mat3)>,
 }
 
 impl Set {
@@ -180,14 +170,17 @@ impl Set {
             Room::Dark => (DARK, DARK_PANELS, 1.0),
             Room::Bright => (BRIGHT, BRIGHT_PANELS, BRIGHT_STRIPS),
         };
-        let behind = STRIPS.map(|strip| Hung {
+        let behind = STRIPS.map(|strip| Panel {
             radiance: strip.radiance * strips,
             ..strip
         });
-        let panels = panels.into_iter().chain(behind);
+        let panels = panels.into_iter().chain(behind).map(|panel| {
+            let softness = panel.softness.max(0.75 * texel_radians);
+            (Panel { softness, ..panel }, panel.axes())
+        });
         Self {
             walls,
-            panels: panels.map(|hung| Panel::new(hung, texel_radians)).collect(),
+            panels: panels.collect(),
         }
     }
 
@@ -208,34 +201,27 @@ impl Set {
         let room = room * (behind_viewer + (1.0 - behind_viewer) * smoothstep(-0.85, 0.25, direction.z));
         self.panels
             .iter()
-            .fold(room, |behind, panel| panel.over(behind, direction))
+            .fold(room, |behind, (panel, axes)| panel.over(behind, axes, direction))
     }
 }
 
 impl Panel {
-    fn new(hung: Hung, texel_radians: f32) -> Self {
-        let towards = hung.towards.normalize();
+    /// Unit vectors to its right, upwards and towards it.
+    fn axes(&self) -> Mat3 {
+        let towards = self.towards.normalize();
         let right = Vec3::Y.cross(towards).normalize();
-        Self {
-            towards,
-            right,
-            up: towards.cross(right),
-            half_size: hung.half_size,
-            softness: hung.softness.max(0.75 * texel_radians),
-            bar: hung.bar,
-            radiance: hung.radiance,
-        }
+        Mat3::from_cols(right, towards.cross(right), towards)
     }
 
     /// Radiance from a direction, with the panel in front of `behind`.
-    fn over(&self, behind: Vec3, direction: Vec3) -> Vec3 {
-        let facing = direction.dot(self.towards);
+    fn over(&self, behind: Vec3, axes: &Mat3, direction: Vec3) -> Vec3 {
+        let facing = direction.dot(axes.z_axis);
         if facing <= 0.0 {
             return behind;
         }
         let [width, height] = self.half_size;
-        let x = direction.dot(self.right) / facing;
-        let y = direction.dot(self.up) / facing;
+        let x = direction.dot(axes.x_axis) / facing;
+        let y = direction.dot(axes.y_axis) / facing;
         // Distance from the edge, negative inside; corners are round.
         let radius = self.softness.min(width).min(height);
         let (over_x, over_y) = (x.abs() - width + radius, y.abs() - height + radius);

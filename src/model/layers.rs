@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// What `KHR_materials_ior`, `_specular`, `_clearcoat`, `_sheen` and `_transmission` say. The default changes nothing. Colours are
-/// linear; all but `ior` and `specular_color` are 0…1.
+/// linear; all but `ior`, `specular_color` and `clearcoat_normal_scale` are 0…1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Layers {
     /// Index of refraction of what is no metal, 1 or more; or 0, with which it mirrors everything.
@@ -16,6 +16,8 @@ pub struct Layers {
     pub clearcoat: f32,
     /// Of the coat: 0 smooth … 1 rough.
     pub clearcoat_roughness: f32,
+    /// How far the coat's normal map bends its normals.
+    pub clearcoat_normal_scale: f32,
     /// Light that fibres on the surface give back, most where it turns away from the viewer.
     pub sheen_color: [f32; 3],
     /// Of the fibres: 0 upright … 1 in all directions.
@@ -32,6 +34,7 @@ impl Default for Layers {
             specular_color: [1.0; 3],
             clearcoat: 0.0,
             clearcoat_roughness: 0.0,
+            clearcoat_normal_scale: 1.0,
             sheen_color: [0.0; 3],
             sheen_roughness: 0.0,
             transmission: 0.0,

@@ -49,6 +49,18 @@ pub struct Material {
     /// Colours that `emissive` multiplies, sRGB.
     #[serde(skip)]
     pub emissive_map: Option<MaterialMap>,
+    /// Of [`Layers`]: colours that `specular_color` multiplies, sRGB, and in alpha what multiplies `specular`.
+    #[serde(skip)]
+    pub specular_map: Option<MaterialMap>,
+    /// What multiplies `clearcoat`, in red, and `clearcoat_roughness`, in green, linear.
+    #[serde(skip)]
+    pub clearcoat_map: Option<MaterialMap>,
+    /// Directions of the clear coat, linear.
+    #[serde(skip)]
+    pub clearcoat_normal_map: Option<MaterialMap>,
+    /// Colours that `sheen_color` multiplies, sRGB, and in alpha what multiplies `sheen_roughness`.
+    #[serde(skip)]
+    pub sheen_map: Option<MaterialMap>,
 }
 
 /// Grey, opaque, without maps: what is drawn where a file has no material. The grey reads as no colour of a file.
@@ -75,6 +87,10 @@ impl Default for Material {
             metallic_roughness_map: None,
             occlusion_map: None,
             emissive_map: None,
+            specular_map: None,
+            clearcoat_map: None,
+            clearcoat_normal_map: None,
+            sheen_map: None,
         }
     }
 }
@@ -116,6 +132,10 @@ impl Material {
             MapSlot::MetallicRoughness => &self.metallic_roughness_map,
             MapSlot::Occlusion => &self.occlusion_map,
             MapSlot::Emissive => &self.emissive_map,
+            MapSlot::Specular => &self.specular_map,
+            MapSlot::Clearcoat => &self.clearcoat_map,
+            MapSlot::ClearcoatNormal => &self.clearcoat_normal_map,
+            MapSlot::Sheen => &self.sheen_map,
         };
         map.as_ref()
     }
@@ -170,6 +190,14 @@ modes! {
         Occlusion = "occlusion", "occlusion map";
         /// Colours, sRGB.
         Emissive = "emissive", "emissive map";
+        /// Colours and a factor, sRGB with alpha.
+        Specular = "specular", "specular map";
+        /// A factor and roughness, linear.
+        Clearcoat = "clearcoat", "clear coat map";
+        /// Directions, linear.
+        ClearcoatNormal = "clearcoat-normal", "clear coat normal map";
+        /// Colours and roughness, sRGB with alpha.
+        Sheen = "sheen", "sheen map";
     }
 }
 
@@ -203,6 +231,8 @@ pub struct Sampling {
     pub wrap: [Wrap; 2],
     /// Texels have hard edges when seen near.
     pub nearest: bool,
+    /// Which of red, green, blue and alpha are read; the others are 1. For maps of [`Layers`], whose values may be without a map each.
+    pub channels: [bool; 4],
 }
 
 impl Default for Sampling {
@@ -212,6 +242,7 @@ impl Default for Sampling {
             map_from_mesh: Affine2::IDENTITY,
             wrap: [Wrap::Repeat; 2],
             nearest: false,
+            channels: [true; 4],
         }
     }
 }

@@ -157,7 +157,6 @@ impl Renderer {
         for part in parts.iter().rev() {
             if begin_part(&mut pass, part) {
                 pass.set_pipeline(&pipelines.get(Draw::Backdrop));
-                pass.set_bind_group(1, nothing, &[]);
                 pass.draw(0..3, 0..1);
             }
         }
@@ -228,11 +227,12 @@ impl Renderer {
             &self.window
         };
         let passes = view.lights.iter().find(|passes| passes.light() == *light);
-        let Some((passes, lighting)) = passes.and_then(|passes| Some((passes, passes.lighting_group()?))) else {
+        let Some((passes, [contact, lighting])) = passes.and_then(|passes| Some((passes, passes.lit_groups()?))) else {
             return false;
         };
         pass.set_scissor_rect(columns.start, 0, columns.len() as u32, height);
         pass.set_bind_group(0, passes.frame_group(), &[]);
+        pass.set_bind_group(1, contact, &[]);
         pass.set_bind_group(2, lighting, &[]);
         true
     }

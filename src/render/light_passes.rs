@@ -73,8 +73,8 @@ pub(super) struct LightPasses {
     shadow: ShadowMap,
     occlusion: Option<OcclusionMap>,
     contact: Option<ContactMap>,
-    /// The bind group, and the textures that it is made of.
-    lighting: Option<(LightingViews<wgpu::TextureView>, wgpu::BindGroup)>,
+    /// The bind groups, and the textures that they are made of.
+    lighting: Option<(LightingViews<wgpu::TextureView>, [wgpu::BindGroup; 2])>,
 }
 
 impl LightPasses {
@@ -106,9 +106,9 @@ impl LightPasses {
         &self.frame_group
     }
 
-    /// Group 2; none before the first [`LightPasses::draw`].
-    pub(super) fn lighting_group(&self) -> Option<&wgpu::BindGroup> {
-        self.lighting.as_ref().map(|(_, group)| group)
+    /// The backdrop's group 1, with the contact map, and group 2; none before the first [`LightPasses::draw`].
+    pub(super) fn lit_groups(&self) -> Option<&[wgpu::BindGroup; 2]> {
+        self.lighting.as_ref().map(|(_, groups)| groups)
     }
 
     /// Drops what reads the geometry in view.
@@ -190,23 +190,23 @@ impl LightPasses {
         let views = [self.shadow.view(), occlusion, contact, specular, sky];
         let are_bound = |(bound, _): &(LightingViews<_>, _)| bound.iter().zip(views).all(|(bound, view)| bound == view);
         if !self.lighting.as_ref().is_some_and(are_bound) {
-            self.lighting = Some((views.map(Clone::clone), lighting_group(common, self.light, views)));
+            self.lighting = Some((views.map(Clone::clone), lit_groups(common, self.light, views)));
         }
     }
 }
 
-fn lighting_group(
+fn lit_groups(
     common: &Common,
     light: Light,
     [shadow, occlusion, contact, specular, sky]: LightingViews<&wgpu::TextureView>,
-) -> wgpu::BindGroup {
+) -> [wgpu::BindGroup; 2] {
     use wgpu::BindingResource::{Sampler, TextureView};
     let (samplers, environments) = (&common.samplers, &common.environments);
+    let (device, layouts) = (&common.device, &common.pipelines.layouts);
     let resources = [
         TextureView(shadow),
         Sampler(&samplers.shadow),
         TextureView(occlusion),
-        TextureView(contact),
         environments.uniforms(light).as_entire_binding(),
         TextureView(specular),
         TextureView(environments.table()),
@@ -215,10 +215,8 @@ fn lighting_group(
         TextureView(shadow),
         Sampler(&samplers.shadow_depth),
     ];
-    bind_group(
-        &common.device,
-        "lighting",
-        &common.pipelines.layouts.lighting,
-        resources,
-    )
+    [
+        bind_group(device, "contact", &layouts.texels, [TextureView(contact)]),
+        bind_group(device, "lighting", &layouts.lighting, resources),
+    ]
 }

@@ -2,15 +2,14 @@
 //! stands in for a missing map.
 
 use std::collections::HashMap;
-
-use glam::Affine2;
+use std::sync::Arc;
 
 use super::buffers::{Queue, UploadError, Uploader, bind_group};
 use super::device::is_software;
 use super::maps::{MapTextures, MaterialImages};
 use super::pipelines::Layouts;
 use super::recipe::{Alpha, Kind, Maps};
-use crate::image::Channels;
+use crate::image::{Channels, Image};
 use crate::model::{AlphaMode, Layers, MapSlot, Material, Reflectance, Sampling, Wrap};
 use crate::shaders::MapPlace;
 use crate::{scene, shaders};
@@ -237,10 +236,31 @@ struct MapFacts {
     /// A bit for each map, in the order of [`MapSlot::ALL`].
     present: u32,
     has_alpha: bool,
-    /// Of the normal map: 4 with alpha, 3, 2 where z follows from x and y; 0 without one.
-    normal_channels: u32,
+    normal: NormalFacts,
+    coat_normal: NormalFacts,
+}
+
+/// Of a normal map.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct NormalFacts {
+    /// 4 with alpha, 3, 2 where z follows from x and y; 0 without one.
+    channels: u32,
     /// Whether its smaller levels are means, not of unit length.
-    has_normal_lengths: bool,
+    has_lengths: bool,
+}
+
+impl NormalFacts {
+    fn of(image: Option<&Arc<Image>>) -> Self {
+        Self {
+            channels: match image {
+                Some(image) if image.channels() == Channels::RedGreen => 2,
+                Some(image) if image.has_alpha() => 4,
+                Some(_) => 3,
+                None => 0,
+            },
+            has_lengths: image.is_some_and(|image| image.mips_generated()),
+        }
+    }
 }
 
 impl MapFacts {
@@ -249,13 +269,8 @@ impl MapFacts {
         Self {
             present: MapSlot::ALL.into_iter().map(present).sum(),
             has_alpha: images[MapSlot::Diffuse as usize].is_some_and(|image| image.has_alpha()),
-            normal_channels: match images[MapSlot::Normal as usize] {
-                Some(image) if image.channels() == Channels::RedGreen => 2,
-                Some(image) if image.has_alpha() => 4,
-                Some(_) => 3,
-                None => 0,
-            },
-            has_normal_lengths: images[MapSlot::Normal as usize].is_some_and(|image| image.mips_generated()),
+            normal: NormalFacts::of(images[MapSlot::Normal as usize]),
+            coat_normal: NormalFacts::of(images[MapSlot::ClearcoatNormal as usize]),
         }
     }
 }
@@ -274,12 +289,10 @@ fn maps_of(material: &Material, has_colors: bool) -> Maps {
         || material.emissive != [0.0; 3]
         || material.normal_scale != 1.0
         || material.layers != Layers::default()
-        || [MapSlot::MetallicRoughness, MapSlot::Occlusion, MapSlot::Emissive]
-            .into_iter()
-            .any(|slot| material.map(slot).is_some())
-        || [MapSlot::Diffuse, MapSlot::Normal]
-            .into_iter()
-            .any(is_sampled_otherwise);
+        || MapSlot::ALL.into_iter().any(|slot| match slot {
+            MapSlot::Diffuse | MapSlot::Normal => is_sampled_otherwise(slot),
+            _ => material.map(slot).is_some(),
+        });
     if says_more { Maps::All } else { Maps::Two }
 }
 
@@ -318,8 +331,8 @@ fn material_uniform(index: usize, material: &Material, maps: MapFacts, has_color
             0.0
         },
         book_albedo: stand_in.map_or(unit(material.diffuse), |color| color.map(srgb_from_linear)),
-        normal_channels: maps.normal_channels,
-        normal_lengths: u32::from(maps.has_normal_lengths),
+        normal_channels: maps.normal.channels,
+        normal_lengths: u32::from(maps.normal.has_lengths),
         identity_srgb: identity_color(index),
         // Of any two materials the steps are incommensurable, so that their noise is independent.
         threshold_step: (index as f32 * 0.618_034 + 0.754_877_7).fract(),
@@ -333,7 +346,7 @@ fn material_uniform(index: usize, material: &Material, maps: MapFacts, has_color
         },
         // Shaders take Fresnel0 from the diffuse colour and the metalness of each point. Alpha of the normal map is no gloss.
         Reflectance::MetallicRoughness { .. } => shaders::Material {
-            normal_channels: maps.normal_channels.min(3),
+            normal_channels: maps.normal.channels.min(3),
             ..common
         },
         Reflectance::Phong {
@@ -345,7 +358,7 @@ fn material_uniform(index: usize, material: &Material, maps: MapFacts, has_color
             fresnel0: unit(surface.fresnel0),
             is_phong: 1,
             // The DirectX 11 book reads no gloss.
-            normal_channels: maps.normal_channels.min(3),
+            normal_channels: maps.normal.channels.min(3),
             ambient: unit(ambient),
             specular: unit(specular),
             spec_power: spec_power.max(0.0),
@@ -368,7 +381,7 @@ fn maps_uniform(
     shaders::MaterialMaps {
         places: MapSlot::ALL.map(|slot| {
             let sampling = material.map(slot).map(|map| map.sampling).unwrap_or_default();
-            map_place(sampling.map_from_mesh, sampling.second_tex_coords)
+            map_place(&sampling)
         }),
         emissive: material.emissive.map(|channel| channel.max(0.0)),
         opacity: if is_opaque {
@@ -391,7 +404,7 @@ fn maps_uniform(
         has_map_alpha: u32::from(maps.has_alpha && !is_opaque),
         is_metallic_roughness: u32::from(matches!(material.reflectance, Reflectance::MetallicRoughness { .. })),
         is_unlit: u32::from(material.unlit),
-        dielectric_fresnel0: layers.fresnel0(),
+        dielectric_fresnel0: layers.specular_color.map(|channel| layers.boundary() * channel),
         specular: layers.specular.clamp(0.0, 1.0),
         sheen: layers.sheen_color.map(|channel| channel.clamp(0.0, 1.0)),
         sheen_roughness: layers.sheen_roughness.clamp(0.0, 1.0),
@@ -399,15 +412,21 @@ fn maps_uniform(
         coat_roughness: layers.clearcoat_roughness.clamp(0.0, 1.0),
         boundary_fresnel0: layers.boundary(),
         solid,
+        coat_normal_scale: layers.clearcoat_normal_scale,
+        coat_normal_channels: maps.coat_normal.channels.min(3),
+        coat_normal_lengths: u32::from(maps.coat_normal.has_lengths),
+        unused: 0,
     }
 }
 
-fn map_place(map_from_mesh: Affine2, second_tex_coords: bool) -> MapPlace {
-    let (matrix, moved) = (map_from_mesh.matrix2, map_from_mesh.translation);
-    let second = if second_tex_coords { 1.0 } else { 0.0 };
+fn map_place(sampling: &Sampling) -> MapPlace {
+    let (matrix, moved) = (sampling.map_from_mesh.matrix2, sampling.map_from_mesh.translation);
+    let second = if sampling.second_tex_coords { 1.0 } else { 0.0 };
+    let channels = (0..).zip(sampling.channels);
+    let channels: u32 = channels.map(|(bit, is_read)| u32::from(is_read) << bit).sum();
     MapPlace {
         u: [matrix.x_axis.x, matrix.y_axis.x, moved.x, second],
-        v: [matrix.x_axis.y, matrix.y_axis.y, moved.y, 0.0],
+        v: [matrix.x_axis.y, matrix.y_axis.y, moved.y, channels as f32],
     }
 }
 

@@ -54,7 +54,6 @@ impl Layouts {
                     flat(wgpu::TextureSampleType::Depth),
                     sampler(wgpu::SamplerBindingType::Comparison),
                     flat(filtered),
-                    flat(filtered),
                     (fragment, uniform::<shaders::Environment>()),
                     cube,
                     flat(filtered),
@@ -311,7 +310,7 @@ impl Pipelines {
                     (_, None) => vec![frame, bones],
                 }
             }
-            Draw::Backdrop => vec![frame, nothing, lighting],
+            Draw::Backdrop => vec![frame, texels, lighting],
             Draw::World { .. } => vec![frame, nothing, nothing, line],
             Draw::Occlusion(_) | Draw::OcclusionBlurRows | Draw::OcclusionBlurColumns => vec![frame, occlusion],
             Draw::ContactBlurRows | Draw::ContactBlurColumns => vec![texels],

@@ -7,9 +7,9 @@ use crate::modes::modes;
 /// What the texels of a map are.
 pub fn map_kind(slot: MapSlot) -> MapKind {
     match slot {
-        MapSlot::Diffuse | MapSlot::Emissive => MapKind::Diffuse,
-        MapSlot::Normal => MapKind::Normal,
-        MapSlot::MetallicRoughness | MapSlot::Occlusion => MapKind::Data,
+        MapSlot::Diffuse | MapSlot::Emissive | MapSlot::Specular | MapSlot::Sheen => MapKind::Diffuse,
+        MapSlot::Normal | MapSlot::ClearcoatNormal => MapKind::Normal,
+        MapSlot::MetallicRoughness | MapSlot::Occlusion | MapSlot::Clearcoat => MapKind::Data,
     }
 }
 

@@ -101,7 +101,7 @@ pub struct Material {
     pub threshold_step: f32,
 }
 
-/// Twin of `MapPlace` in `all_maps.wgsl`: the rows of a 2×3 matrix. The first row's w is 1 for the second texture coordinates.
+/// Twin of `MapPlace` in `all_maps.wgsl`: the rows of a 2×3 matrix. `all_maps.wgsl` says what their w are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 #[expect(missing_docs, reason = "documented in all_maps.wgsl, where each is used")]
@@ -115,7 +115,7 @@ pub struct MapPlace {
 #[repr(C)]
 #[expect(missing_docs, reason = "documented in all_maps.wgsl, where each is used")]
 pub struct MaterialMaps {
-    pub places: [MapPlace; 5],
+    pub places: [MapPlace; 9],
     pub emissive: [f32; 3],
     pub opacity: f32,
     pub metallic: f32,
@@ -134,6 +134,10 @@ pub struct MaterialMaps {
     pub coat_roughness: f32,
     pub boundary_fresnel0: f32,
     pub solid: f32,
+    pub coat_normal_scale: f32,
+    pub coat_normal_channels: u32,
+    pub coat_normal_lengths: u32,
+    pub unused: u32,
 }
 
 /// Twin of `Environment` in `environment.wgsl`.

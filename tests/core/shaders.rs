@@ -205,6 +205,9 @@ fn twins() -> BTreeMap<String, Layout> {
             coat_roughness,
             boundary_fresnel0,
             solid,
+            coat_normal_scale,
+            coat_normal_channels,
+            coat_normal_lengths,
         }),
         twin!(Environment {
             sh,

@@ -15,6 +15,9 @@ use crate::slices::{Slices, Stage};
 
 const UNLIT: &str = "KHR_materials_unlit";
 const EMISSIVE_STRENGTH: &str = "KHR_materials_emissive_strength";
+const SPECULAR: &str = "KHR_materials_specular";
+const CLEARCOAT: &str = "KHR_materials_clearcoat";
+const SHEEN: &str = "KHR_materials_sheen";
 const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
 
 /// What stands for the materials of a model.
@@ -30,8 +33,8 @@ pub(super) struct Materials {
 /// What a map is used for. Of a normal map the green may be turned.
 fn purpose(slot: MapSlot, is_turned: bool) -> Use {
     match slot {
-        MapSlot::Normal => Use::Directions { is_turned },
-        MapSlot::Diffuse | MapSlot::MetallicRoughness | MapSlot::Occlusion | MapSlot::Emissive => Use::AsIs,
+        MapSlot::Normal | MapSlot::ClearcoatNormal => Use::Directions { is_turned },
+        _ => Use::AsIs,
     }
 }
 
@@ -138,6 +141,9 @@ impl Writer<'_> {
         }
         self.light(material, &mut written);
         self.layers(material, &mut written);
+        if !material.unlit {
+            self.layer_maps(index, material, &mut written).await?;
+        }
         match material.alpha {
             AlphaMode::Opaque => {}
             AlphaMode::Mask { cutoff } => {
@@ -184,7 +190,7 @@ impl Writer<'_> {
                 json!({ "ior": number(layers.ior) }),
             ),
             (
-                "KHR_materials_specular",
+                SPECULAR,
                 is_metallic && (layers.specular, layers.specular_color) != (none.specular, none.specular_color),
                 json!({
                     "specularFactor": number(layers.specular),
@@ -192,7 +198,7 @@ impl Writer<'_> {
                 }),
             ),
             (
-                "KHR_materials_clearcoat",
+                CLEARCOAT,
                 layers.clearcoat != none.clearcoat,
                 json!({
                     "clearcoatFactor": number(layers.clearcoat),
@@ -200,7 +206,7 @@ impl Writer<'_> {
                 }),
             ),
             (
-                "KHR_materials_sheen",
+                SHEEN,
                 layers.sheen_color != none.sheen_color,
                 json!({
                     "sheenColorFactor": numbers(layers.sheen_color),
@@ -217,6 +223,34 @@ impl Writer<'_> {
             self.written.extensions.insert(name);
             written["extensions"][name] = values;
         }
+    }
+
+    /// The maps of the layers, each under the names that its channels have.
+    async fn layer_maps(&mut self, index: usize, material: &Material, written: &mut Value) -> Result<(), ExportError> {
+        let [red, green, _, alpha] = [0, 1, 2, 3];
+        let names = [
+            (MapSlot::Specular, SPECULAR, "specularColorTexture", red),
+            (MapSlot::Specular, SPECULAR, "specularTexture", alpha),
+            (MapSlot::Clearcoat, CLEARCOAT, "clearcoatTexture", red),
+            (MapSlot::Clearcoat, CLEARCOAT, "clearcoatRoughnessTexture", green),
+            (MapSlot::ClearcoatNormal, CLEARCOAT, "clearcoatNormalTexture", red),
+            (MapSlot::Sheen, SHEEN, "sheenColorTexture", red),
+            (MapSlot::Sheen, SHEEN, "sheenRoughnessTexture", alpha),
+        ];
+        for (slot, extension, name, channel) in names {
+            if !material.map(slot).is_some_and(|map| map.sampling.channels[channel]) {
+                continue;
+            }
+            if let Some(mut info) = self.info(index, material, slot).await? {
+                let scale = material.layers.clearcoat_normal_scale;
+                if slot == MapSlot::ClearcoatNormal && scale != 1.0 {
+                    info["scale"] = number(scale);
+                }
+                self.written.extensions.insert(extension);
+                written["extensions"][extension][name] = info;
+            }
+        }
+        Ok(())
     }
 
     /// The texture of a map that has a picture.

@@ -398,10 +398,13 @@ fn surfaces(materials: &[&Material], dialect: Dialect, losses: &mut Losses) {
         "layers",
         &|material| {
             let layers = &material.layers;
-            layers.clearcoat > 0.0 || layers.sheen_color != [0.0; 3] || layers.transmission > 0.0
+            layers.clearcoat > 0.0
+                || layers.sheen_color != [0.0; 3]
+                || layers.transmission > 0.0
+                || material.specular_map.is_some()
         },
         HAS,
-        "a clear coat, a sheen or transmission, which the format has not",
+        "a clear coat, a sheen, transmission or a specular map, which the format has not",
     );
     losses.add(
         "normal-scale",
@@ -476,6 +479,7 @@ fn otherwise(sampling: &Sampling) -> Option<String> {
         map_from_mesh,
         wrap,
         nearest,
+        ..
     } = Sampling::default();
     let parts = [
         (sampling.second_tex_coords != second_tex_coords, "second UV map"),

@@ -11,6 +11,12 @@ use crate::diagnostic::{Subject, codes};
 use crate::gltf::{self, Fault, Index, Root, TextureInfo, out_of_range};
 use crate::model::{AlphaMode, Layers, MapSlot, Material, MaterialMap, Reflectance, Sampling, Wrap, unique_names};
 
+/// The channels of a map that a value of a layer is in.
+const COLOR: [bool; 4] = [true, true, true, false];
+const ALPHA: [bool; 4] = [false, false, false, true];
+const RED: [bool; 4] = [true, false, false, false];
+const GREEN: [bool; 4] = [false, true, false, false];
+
 const NEAREST: [u64; 3] = [9728, 9984, 9986];
 const CLAMP_TO_EDGE: u64 = 33071;
 const MIRRORED_REPEAT: u64 = 33648;
@@ -101,11 +107,13 @@ impl MaterialReader<'_> {
         let occlusion = of_file.occlusion_texture.as_ref();
         let normal_scale = normal.and_then(|normal| normal.scale).unwrap_or(1.0);
         let occlusion_strength = occlusion.and_then(|occlusion| occlusion.strength).unwrap_or(1.0);
+        let (layers, [specular_map, clearcoat_map, clearcoat_normal_map, sheen_map]) =
+            self.layers(&of_file.extensions, alpha, &name)?;
         Ok(Material {
             diffuse: [red, green, blue],
             opacity,
             reflectance,
-            layers: self.layers(&of_file.extensions, alpha, &name),
+            layers,
             alpha,
             double_sided: of_file.double_sided,
             unlit: of_file.extensions.unlit.is_some(),
@@ -120,6 +128,10 @@ impl MaterialReader<'_> {
             )?,
             occlusion_map: self.map(occlusion.map(|occlusion| &occlusion.info), "occlusionTexture")?,
             emissive_map: self.map(of_file.emissive_texture.as_ref(), "emissiveTexture")?,
+            specular_map,
+            clearcoat_map,
+            clearcoat_normal_map,
+            sheen_map,
             name,
         })
     }
@@ -141,11 +153,17 @@ impl MaterialReader<'_> {
         }
     }
 
-    /// What the extensions say of how it reflects. Their maps are not read: numbers hold everywhere, but where a map says which colour
-    /// a sheen has or where light goes through, since the number is white or 1 then.
-    fn layers(&mut self, extensions: &gltf::MaterialExtensions, alpha: AlphaMode, name: &str) -> Layers {
+    /// What the extensions say of how it reflects, with the maps of specular, clear coat, its normals and sheen.
+    fn layers(
+        &mut self,
+        extensions: &gltf::MaterialExtensions,
+        alpha: AlphaMode,
+        name: &str,
+    ) -> Result<(Layers, [Option<MaterialMap>; 4]), Fault> {
         let mut layers = Layers::default();
-        let mut maps = Vec::new();
+        let mut maps = [const { None }; 4];
+        let [specular_map, coat_map, coat_normal_map, sheen_map] = &mut maps;
+        let mut left_out = Vec::new();
         let at = |extension: &str, key: &str| format!("extensions/KHR_materials_{extension}/{key}");
         let (unit, any) = ([0.0, 1.0], [0.0, f32::MAX]);
         if let Some(ior) = extensions.ior.as_ref().and_then(|of_file| of_file.ior) {
@@ -161,8 +179,11 @@ impl MaterialReader<'_> {
             layers.specular = self.within(&factor, specular.specular_factor.unwrap_or(1.0), unit);
             let of_file = specular.specular_color_factor.unwrap_or([1.0; 3]);
             layers.specular_color = of_file.map(|channel| self.within(&color, channel, any));
-            maps.extend(specular.specular_texture.map(|_| "specularTexture"));
-            maps.extend(specular.specular_color_texture.map(|_| "specularColorTexture"));
+            let parts = [
+                (&specular.specular_color_texture, "specularColorTexture", COLOR),
+                (&specular.specular_texture, "specularTexture", ALPHA),
+            ];
+            *specular_map = self.layer_map("specular", parts, &mut left_out)?;
         }
         if let Some(coat) = &extensions.clearcoat {
             let at = |key: &str| at("clearcoat", key);
@@ -170,9 +191,15 @@ impl MaterialReader<'_> {
             layers.clearcoat = self.within(&factor, coat.clearcoat_factor.unwrap_or_default(), unit);
             let of_file = coat.clearcoat_roughness_factor.unwrap_or_default();
             layers.clearcoat_roughness = self.within(&roughness, of_file, unit);
-            maps.extend(coat.clearcoat_texture.map(|_| "clearcoatTexture"));
-            maps.extend(coat.clearcoat_roughness_texture.map(|_| "clearcoatRoughnessTexture"));
-            maps.extend(coat.clearcoat_normal_texture.map(|_| "clearcoatNormalTexture"));
+            let parts = [
+                (&coat.clearcoat_texture, "clearcoatTexture", RED),
+                (&coat.clearcoat_roughness_texture, "clearcoatRoughnessTexture", GREEN),
+            ];
+            *coat_map = self.layer_map("clearcoat", parts, &mut left_out)?;
+            let normal = coat.clearcoat_normal_texture.as_ref();
+            *coat_normal_map = self.map(normal.map(|normal| &normal.info), &at("clearcoatNormalTexture"))?;
+            let scale = normal.and_then(|normal| normal.scale);
+            layers.clearcoat_normal_scale = scale.filter(|scale| scale.is_finite()).unwrap_or(1.0);
         }
         if let Some(sheen) = &extensions.sheen {
             let at = |key: &str| at("sheen", key);
@@ -181,26 +208,54 @@ impl MaterialReader<'_> {
             layers.sheen_color = of_file.map(|channel| self.within(&color, channel, unit));
             let of_file = sheen.sheen_roughness_factor.unwrap_or_default();
             layers.sheen_roughness = self.within(&roughness, of_file, unit);
-            if sheen.sheen_color_texture.is_some() {
-                layers.sheen_color = [0.0; 3];
-                maps.push("sheenColorTexture (and the sheen with it)");
-            }
-            maps.extend(sheen.sheen_roughness_texture.map(|_| "sheenRoughnessTexture"));
+            let parts = [
+                (&sheen.sheen_color_texture, "sheenColorTexture", COLOR),
+                (&sheen.sheen_roughness_texture, "sheenRoughnessTexture", ALPHA),
+            ];
+            *sheen_map = self.layer_map("sheen", parts, &mut left_out)?;
         }
         if let Some(transmission) = &extensions.transmission {
             layers.transmission = self.transmission(transmission, alpha, name);
+            // Its number is 1 then, and what the map says to be whole would be glass.
             if transmission.transmission_texture.is_some() {
                 layers.transmission = 0.0;
-                maps.push("transmissionTexture (and the transmission with it)");
+                left_out.push("transmissionTexture (and the transmission with it)");
             }
         }
-        if !maps.is_empty() {
-            let message = format!("Maps of the material \"{name}\" are left out: {}.", maps.join(", "));
+        if !left_out.is_empty() {
+            let message = format!("Maps of the material \"{name}\" are left out: {}.", left_out.join(", "));
             let place = Place::pointer(format!("/materials/{}/extensions", self.index));
-            let place = place.about(Subject::Material(self.index as u32)).counting(maps.len());
+            let place = place
+                .about(Subject::Material(self.index as u32))
+                .counting(left_out.len());
             self.diagnostics.add(&codes::GLTF_MAP_LEFT_OUT, place, message);
         }
-        layers
+        Ok((layers, maps))
+    }
+
+    /// The one map of a layer, which two textures name, each for channels of its own. Of two pictures the first is taken.
+    fn layer_map(
+        &mut self,
+        extension: &str,
+        parts: [(&Option<TextureInfo>, &'static str, [bool; 4]); 2],
+        left_out: &mut Vec<&'static str>,
+    ) -> Result<Option<MaterialMap>, Fault> {
+        let mut taken: Option<MaterialMap> = None;
+        for (info, key, channels) in parts {
+            let at = format!("extensions/KHR_materials_{extension}/{key}");
+            let Some(mut map) = self.map(info.as_ref(), &at)? else {
+                continue;
+            };
+            let before = taken.as_ref().map_or([false; 4], |before| before.sampling.channels);
+            map.sampling.channels = before;
+            if taken.as_ref().is_some_and(|before| *before != map) {
+                left_out.push(key);
+                continue;
+            }
+            map.sampling.channels = std::array::from_fn(|channel| before[channel] || channels[channel]);
+            taken = Some(map);
+        }
+        Ok(taken)
     }
 
     /// How much light goes through the surface, 0…1.
@@ -339,6 +394,7 @@ impl MaterialReader<'_> {
             nearest: sampler
                 .and_then(|sampler| sampler.mag_filter)
                 .is_some_and(|filter| NEAREST.contains(&filter.0)),
+            ..Sampling::default()
         })
     }
 }
@@ -352,7 +408,8 @@ pub(super) fn take_second_tex_coords(materials: &[Material]) -> bool {
 }
 
 pub(super) fn have_normal_maps(materials: &[Material]) -> bool {
-    materials.iter().any(|material| material.normal_map.is_some())
+    let has_one = |material: &Material| material.normal_map.is_some() || material.clearcoat_normal_map.is_some();
+    materials.iter().any(has_one)
 }
 
 /// The material of a book that was written into `extras`, as far as it is there.

@@ -43,6 +43,8 @@ pub(crate) struct StudioSurface {
     pub(crate) coat: f32,
     /// Of the coat.
     pub(crate) coat_roughness: f32,
+    /// Of the coat, on the side of the viewer; `None` where it is `smooth_normal`.
+    pub(crate) coat_normal: Option<Vec3>,
 }
 
 /// White, without what is mirrored or lies over it, seen face on.
@@ -61,6 +63,7 @@ impl Default for StudioSurface {
             sheen_roughness: 1.0,
             coat: 0.0,
             coat_roughness: 0.05,
+            coat_normal: None,
         }
     }
 }
@@ -152,10 +155,10 @@ impl EnvironmentLight<'_> {
             given = given.beneath(surface.sheen.max_element() * share, light);
         }
         if surface.coat > 0.0 {
-            let coat_dot_v = surface.smooth_normal.dot(surface.to_eye).clamp(1e-3, 1.0);
+            let normal = surface.coat_normal.unwrap_or(surface.smooth_normal);
+            let coat_dot_v = normal.dot(surface.to_eye).clamp(1e-3, 1.0);
             let entry = self.brdf_table.lookup(coat_dot_v, surface.coat_roughness);
             let share = surface.coat * (COAT_FRESNEL0 * entry.x + entry.y);
-            let normal = surface.smooth_normal;
             let mirror = self.mirrored_light(surface, normal, coat_dot_v, surface.coat_roughness, lights);
             given = given.beneath(share, share * mirror);
         }

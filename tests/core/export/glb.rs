@@ -77,6 +77,7 @@ const LAYERS: Layers = Layers {
     specular_color: [2.0, 0.5, 1.0],
     clearcoat: 0.5,
     clearcoat_roughness: 0.125,
+    clearcoat_normal_scale: 1.0,
     sheen_color: [0.25, 0.5, 0.75],
     sheen_roughness: 0.375,
     transmission: 0.625,
@@ -109,7 +110,19 @@ fn rich() -> Model {
         metallic_roughness_map: Some("shine.png".into()),
         occlusion_map: Some("hollows.png".into()),
         emissive_map: Some("glow.png".into()),
+        specular_map: Some("varnish.png".into()),
+        clearcoat_map: Some("lacquer.png".into()),
+        clearcoat_normal_map: Some("drops.png".into()),
+        sheen_map: Some("dust.png".into()),
     };
+    for (map, channels) in [
+        (&mut material.specular_map, [false, false, false, true]),
+        (&mut material.clearcoat_map, [true, true, false, false]),
+    ] {
+        if let Some(map) = map {
+            map.sampling.channels = channels;
+        }
+    }
     if let Some(map) = &mut material.diffuse_map {
         map.sampling.wrap = [Wrap::Clamp, Wrap::Mirror];
         map.sampling.second_tex_coords = true;
@@ -243,6 +256,11 @@ fn the_words_of_gltf_come_out_as_they_went_in() {
         ("/pbrMetallicRoughness/baseColorTexture/texCoord", json!(1)),
         (&format!("{transform}/offset"), json!([0.25, 0.5])),
         (&format!("{transform}/rotation"), json!(0.5)),
+        ("/extensions/KHR_materials_clearcoat/clearcoatFactor", json!(0.5)),
+        (
+            "/extensions/KHR_materials_clearcoat/clearcoatNormalTexture/index",
+            json!(1),
+        ),
     ] {
         assert_eq!(material.pointer(pointer), Some(&expected), "{pointer}");
     }
@@ -259,6 +277,14 @@ fn the_words_of_gltf_come_out_as_they_went_in() {
     let (root, _) = written(&unlit(), &maps);
     let extensions = ["KHR_materials_unlit", "KHR_texture_transform"];
     assert_eq!(root["extensionsUsed"], json!(extensions));
+    let bytes = glb(&rich(), &JointNames::default(), &maps)
+        .expect("it can be written")
+        .bytes;
+    let read = &import(&bytes).expect("what was written is read").model.materials[0];
+    for slot in MapSlot::ALL {
+        let channels = |material: &Material| material.map(slot).map(|map| map.sampling.channels);
+        assert_eq!(channels(read), channels(&rich().materials[0]), "{slot:?}");
+    }
     // One picture for all, sampled in two ways.
     let counts = ["images", "samplers", "textures"].map(|list| root[list].as_array().map_or(0, Vec::len));
     assert_eq!(counts, [1, 2, 2]);

@@ -6,7 +6,7 @@ use bindpose::model::{AlphaMode, Layers, MapSlot, Material, Reflectance, Wrap};
 use glam::Vec2;
 use serde_json::json;
 
-use super::{bare, codes_of, read, told, triangle};
+use super::{bare, codes_of, read, refused, told, told_all, triangle};
 use crate::gltf_files::Gltf;
 
 const PNG: &[u8] = b"\x89PNG\r\n\x1a\n and more";
@@ -74,7 +74,7 @@ fn every_value_of_a_material_arrives() {
     );
     let names = MapSlot::ALL.map(|slot| skin.map_name(slot));
     let [first, second] = [Some("textures/a b.png"), Some("other.jpg")];
-    assert_eq!(names, [first, second, second, second, first]);
+    assert_eq!(names, [first, second, second, second, first, None, None, None, None]);
     let diffuse = skin.map(MapSlot::Diffuse).expect("it has one").sampling;
     assert_eq!(
         (diffuse.second_tex_coords, diffuse.wrap, diffuse.nearest),
@@ -132,7 +132,7 @@ fn what_lies_over_a_surface_arrives() {
         clearcoat_roughness: 0.125,
         sheen_color: [0.5, 0.25, 0.0],
         sheen_roughness: 0.625,
-        transmission: 0.0,
+        ..Layers::default()
     };
     assert_eq!((all.layers, empty.layers), (expected, Layers::default()));
     // ((2 - 1) / (2 + 1))² is a ninth.
@@ -183,32 +183,92 @@ fn layers_out_of_range_are_brought_into_it_and_told() {
         clearcoat_roughness: 1.0,
         sheen_color: [1.0, 0.0, 0.0],
         sheen_roughness: 1.0,
-        transmission: 0.0,
+        ..Layers::default()
     };
     assert_eq!(imported.model.materials[0].layers, expected);
     assert_eq!(told(&imported, "gltf-rule-broken").count, 7);
 }
 
+/// With two pictures: "a.png", "b.png".
+fn with_pictures(extensions: &serde_json::Value) -> Gltf {
+    bare(&json!({
+        "materials": [{ "extensions": extensions }],
+        "meshes": [{ "primitives": [{ "material": 0 }] }],
+        "textures": [{ "source": 0 }, { "source": 1 }],
+        "images": [{ "uri": "a.png" }, { "uri": "b.png" }],
+    }))
+}
+
 #[test]
-fn maps_of_layers_are_told_and_their_numbers_hold() {
-    let map = json!({ "index": 0 });
+fn maps_of_layers_arrive_with_the_channels_that_hold_their_values() {
+    let [a, b] = [0, 1].map(|index| json!({ "index": index }));
     let mapped = json!({
-        "KHR_materials_specular": { "specularFactor": 0.5, "specularTexture": map, "specularColorTexture": map },
-        "KHR_materials_clearcoat": { "clearcoatFactor": 0.5, "clearcoatTexture": map },
-        "KHR_materials_sheen": { "sheenColorFactor": [1, 1, 1], "sheenColorTexture": map },
+        "KHR_materials_specular": { "specularFactor": 0.5, "specularTexture": a },
+        "KHR_materials_clearcoat": {
+            "clearcoatFactor": 0.5, "clearcoatTexture": b, "clearcoatRoughnessTexture": b,
+            "clearcoatNormalTexture": { "index": 0, "scale": 0.25 },
+        },
+        "KHR_materials_sheen": { "sheenColorFactor": [1, 1, 1], "sheenColorTexture": a, "sheenRoughnessTexture": a },
     });
-    let imported = read(&with_extensions(&[mapped]));
-    let layers = imported.model.materials[0].layers;
+    let imported = read(&with_pictures(&mapped));
+    let material = &imported.model.materials[0];
+    let found = [
+        MapSlot::Specular,
+        MapSlot::Clearcoat,
+        MapSlot::ClearcoatNormal,
+        MapSlot::Sheen,
+    ]
+    .map(|slot| {
+        let map = material.map(slot).expect("it has the map");
+        let channels = "rgba".chars().zip(map.sampling.channels);
+        let read: String = channels.filter_map(|(name, is_read)| is_read.then_some(name)).collect();
+        format!("{} {read}", map.name)
+    });
+    assert_eq!(found, ["a.png a", "b.png rg", "a.png rgba", "a.png rgba"]);
+    let layers = material.layers;
     assert_eq!(
-        (layers.specular, layers.clearcoat, layers.sheen_color),
-        (0.5, 0.5, [0.0; 3])
+        (layers.specular, layers.clearcoat_normal_scale, layers.sheen_color),
+        (0.5, 0.25, [1.0; 3])
     );
+    assert_eq!(told_all(&imported, "gltf-map-left-out").count(), 0);
+}
+
+#[test]
+fn of_two_pictures_of_a_layer_one_is_read_and_the_other_told() {
+    let [a, b] = [0, 1].map(|index| json!({ "index": index }));
+    let moved = json!({ "index": 0, "extensions": { "KHR_texture_transform": { "offset": [0.5, 0.0] } } });
+    let mapped = json!({
+        "KHR_materials_specular": { "specularTexture": a, "specularColorTexture": b },
+        "KHR_materials_clearcoat": { "clearcoatTexture": a, "clearcoatRoughnessTexture": moved },
+        "KHR_materials_sheen": { "sheenColorTexture": b, "sheenRoughnessTexture": b },
+        "KHR_materials_transmission": { "transmissionFactor": 1, "transmissionTexture": a },
+    });
+    let imported = read(&with_pictures(&mapped));
+    let material = &imported.model.materials[0];
+    let channels = |slot| material.map(slot).map(|map| (map.name.as_str(), map.sampling.channels));
+    assert_eq!(channels(MapSlot::Specular), Some(("b.png", [true, true, true, false])));
+    assert_eq!(
+        channels(MapSlot::Clearcoat),
+        Some(("a.png", [true, false, false, false]))
+    );
+    assert_eq!(channels(MapSlot::Sheen), Some(("b.png", [true; 4])));
+    assert_eq!(material.layers.transmission, 0.0);
     let finding = told(&imported, "gltf-map-left-out");
-    assert_eq!(finding.count, 4);
+    assert_eq!(finding.count, 3);
     assert_eq!(
         finding.message,
-        "Maps of the material \"material 0\" are left out: specularTexture, specularColorTexture, clearcoatTexture, \
-         sheenColorTexture (and the sheen with it)."
+        "Maps of the material \"material 0\" are left out: specularTexture, clearcoatRoughnessTexture, transmissionTexture (and the \
+         transmission with it)."
+    );
+}
+
+#[test]
+fn a_map_of_a_layer_that_is_not_there_fails_with_its_place() {
+    let mapped = json!({ "KHR_materials_sheen": { "sheenRoughnessTexture": { "index": 7 } } });
+    let pointer = "/materials/0/extensions/KHR_materials_sheen/sheenRoughnessTexture/index";
+    assert_eq!(
+        refused(&with_pictures(&mapped).text()).pointer.as_deref(),
+        Some(pointer)
     );
 }
 

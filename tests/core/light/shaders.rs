@@ -14,7 +14,7 @@ const FRAGMENT: &str = "
 @fragment
 fn fragment(@location(0) normal: vec3<f32>) -> @location(0) vec4<f32> {
     let surface = StudioSurface(
-        vec3<f32>(0.5), vec3<f32>(0.04), 1.0, 0.4, normal, normal, normal, 1.0, vec3<f32>(0.1), 0.5, 0.5, 0.1);
+        vec3<f32>(0.5), vec3<f32>(0.04), 1.0, 0.4, normal, normal, normal, 1.0, vec3<f32>(0.1), 0.5, 0.5, 0.1, normal);
     let lights = StudioLights(normal, vec3<f32>(1.0), 1.0, 1.0, normal, vec3<f32>(1.0));
     return vec4<f32>(tone_mapped(exposed(studio_light(surface, lights), 0.5)), 1.0);
 }

@@ -50,7 +50,7 @@ fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<u32> {
     } else {
         let lights = StudioLights(to_light, KEY_COLOR, 0.75, 0.9, vec3<f32>(0.0, 0.6, -0.8), RIM_COLOR);
         var surface = StudioSurface(
-            vec3<f32>(1.0), vec3<f32>(0.04), 1.0, roughness, up, up, to_eye, 1.0, vec3<f32>(0.0), 1.0, 0.0, 0.05);
+            vec3<f32>(1.0), vec3<f32>(0.04), 1.0, roughness, up, up, to_eye, 1.0, vec3<f32>(0.0), 1.0, 0.0, 0.05, up);
         if quantity == 9u {
             surface.fresnel0 = vec3<f32>(1.0);
         } else if quantity == 10u {

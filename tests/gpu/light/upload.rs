@@ -68,7 +68,7 @@ impl Room<'_> {
             wgpu::BindingResource::TextureView(&table_view),
             wgpu::BindingResource::Sampler(&sampler),
         ];
-        let entries = resources.into_iter().zip(4..);
+        let entries = resources.into_iter().zip(3..);
         let entries: Vec<_> = entries
             .map(|(resource, binding)| wgpu::BindGroupEntry { binding, resource })
             .collect();
@@ -143,7 +143,7 @@ fn environment_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     ];
     let entries = types
         .into_iter()
-        .zip(4..)
+        .zip(3..)
         .map(|(ty, binding)| wgpu::BindGroupLayoutEntry {
             binding,
             visibility: wgpu::ShaderStages::FRAGMENT,
