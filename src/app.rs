@@ -41,9 +41,9 @@ pub struct App {
     picture_alone: bool,
     /// When the last part of an export ended, if there is more of it.
     exported_secs: Option<f64>,
-    /// After the last pass or turn of [`Self::prepare`]; none where there is nothing to prepare.
+    /// After the last pass or turn; none where there is nothing to prepare, or a pass has to come first.
     prepare_in_secs: Option<f32>,
-    /// Whether a pass came since the last turn of it.
+    /// Whether a pass came since the last turn.
     passed: bool,
 }
 
@@ -136,23 +136,37 @@ impl App {
         requests
     }
 
-    /// In how many seconds [`Self::prepare`] can go on with what may be asked for next.
-    pub fn prepare_in_secs(&self) -> Option<f32> {
-        self.prepare_in_secs
+    /// In how many seconds [`Self::take_turn`] can go on between passes: with what is exported at once, with what may be asked for next when
+    /// nothing moves. None where a pass has to come first, or there is nothing to do.
+    pub fn next_turn_in_secs(&self) -> Option<f32> {
+        let is_exporting = self.session.borrow().export().is_some();
+        if is_exporting { Some(0.0) } else { self.prepare_in_secs }
     }
 
-    /// A turn of that, without a pass, which would draw all panels. Passes come first: the turn after one does nothing, and so does each while
-    /// something opens or is to be drawn. Where the picture is another one for it, a pass is asked for.
-    pub fn prepare(&mut self) {
-        let session = self.session.borrow();
-        let waits = std::mem::take(&mut self.passed) || session.is_opening() || !self.painter.is_current(&session);
-        if waits || self.prepare_in_secs.is_none() {
+    /// A turn of what goes on between passes: tasks export while frames take long and where none comes, and prepare without the panels, which a
+    /// pass would draw. Returns a file that is written.
+    pub fn take_turn(&mut self) -> Option<ExportedFile> {
+        if self.session.borrow().export().is_none() {
+            self.prepare();
+            return None;
+        }
+        let (_, file) = self.step_export();
+        self.ctx.request_repaint();
+        file
+    }
+
+    /// Prepares something of what may be asked for next. The turn after a pass does nothing, since passes come first. While something opens or
+    /// is to be drawn there is no other turn before the next pass. Where the picture is another one for what is prepared, a pass is asked for.
+    fn prepare(&mut self) {
+        if std::mem::take(&mut self.passed) {
             return;
         }
-        if !self.painter.prepares(&session, true) {
+        let session = self.session.borrow();
+        let waits = session.is_opening() || !self.painter.is_current(&session);
+        if waits || !self.painter.prepares(&session, true) {
             self.prepare_in_secs = None;
         }
-        if !self.painter.is_current(&session) {
+        if !waits && !self.painter.is_current(&session) {
             self.ctx.request_repaint();
         }
     }

@@ -55,7 +55,7 @@ mkdirSync(OUT, { recursive: true });
 /** Every pass that can be left out: a GPU of software draws several times as many frames without them. */
 const PASSES = ["shadow", "reflections", "contact", "ao"];
 /** And still more where the view has a sixth of its pixels. */
-const COARSE = 0.4;
+export const COARSE = 0.4;
 
 /**
  * What a person sits at. The screen's scale is set when the browser starts: emulating it on a page leaves the size of a canvas as it was. A

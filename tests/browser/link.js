@@ -2,9 +2,9 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { BACKEND, PAGE, atRest, call, running, state, test, until } from "./harness.js";
+import { BACKEND, COARSE, PAGE, atRest, call, running, state, test, until } from "./harness.js";
 
-export const QUERY = `?backend=${BACKEND}&scale=0.4`;
+export const QUERY = `?backend=${BACKEND}&scale=${COARSE}`;
 export const OWN = { own: true, query: QUERY, passes: true };
 
 /** As people would write them, in the order in which the page writes. Each field of a view at rest stands in one, but for clips in place. */

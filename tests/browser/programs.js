@@ -2,7 +2,7 @@
 // full one stands in for the other.
 
 import assert from "node:assert/strict";
-import { FOLDERS, SAMPLE, atRest, drag, drop, keep, programs, settled, state, test as eachTest, until } from "./harness.js";
+import { COARSE, FOLDERS, SAMPLE, atRest, drag, drop, keep, programs, settled, state, test as eachTest, until } from "./harness.js";
 import { copyOfSample } from "./opening.js";
 import { assertDrawn, coloursOnScreen, picture } from "./picture.js";
 import { CHEST, click, place } from "./widgets.js";
@@ -10,7 +10,7 @@ import { CHEST, click, place } from "./widgets.js";
 const test = (name, options, body) => eachTest(name, { only: "webgpu", ...options }, body);
 const { full, webgpu } = FOLDERS;
 const MAP = SAMPLE.replace(".m3d", "_diff.png");
-const COARSE = "quality=full&scale=0.4";
+const QUERY = `quality=full&scale=${COARSE}`;
 
 /** For `prepare`: the GPU of software says that it is another one. What is asked of the adapter can be written anew. */
 export const pretendGpu = ({ name = "", isFallbackAdapter = false, adapter = "real", device = "real" } = {}) => (page) =>
@@ -58,7 +58,7 @@ test("the program for WebGPU alone says by a name that it has no WebGL2", { own:
   assert.match(refusals.auto[1], /^WebGL2, which this program lacks, is needed, since WebGPU is not to be had: its adapter is software/);
 });
 
-test("with a GPU the page fetches the program for WebGPU alone, and nothing else", { query: `?${COARSE}`, bare: true, prepare: pretendGpu() }, async (page) => {
+test("with a GPU the page fetches the program for WebGPU alone, and nothing else", { query: `?${QUERY}`, bare: true, prepare: pretendGpu() }, async (page) => {
   const { backend, fetched } = await opened(page);
   assert.equal(backend, "webgpu");
   assert.deepEqual(fetched, [webgpu]);
@@ -77,7 +77,7 @@ for (const [words, gpu] of Object.entries({
   "without WebGPU, as in a context that is not secure": (page) => page.addInitScript(() => Object.defineProperty(navigator, "gpu", { value: undefined })),
   "with adapters that cannot be asked for": (page) => page.addInitScript(() => (GPU.prototype.requestAdapter = () => Promise.reject(new Error("no")))),
 })) {
-  test(`${words} the page fetches the full program, and nothing else`, { query: `?${COARSE}`, bare: true, prepare: gpu }, async (page) => {
+  test(`${words} the page fetches the full program, and nothing else`, { query: `?${QUERY}`, bare: true, prepare: gpu }, async (page) => {
     const { backend, fetched } = await opened(page);
     assert.equal(backend, "webgl2");
     assert.deepEqual(fetched, [full]);
@@ -85,7 +85,7 @@ for (const [words, gpu] of Object.entries({
 }
 
 test("an address that asks for WebGL2 gets the full program, whatever GPU there is", {
-  query: `?backend=webgl2&${COARSE}`,
+  query: `?backend=webgl2&${QUERY}`,
   bare: true,
   prepare: pretendGpu(),
 }, async (page) => {
@@ -95,7 +95,7 @@ test("an address that asks for WebGL2 gets the full program, whatever GPU there 
 });
 
 test("an address that asks for WebGPU gets its program, and no other way to draw where that fails", {
-  query: `?backend=webgpu&${COARSE}`,
+  query: `?backend=webgpu&${QUERY}`,
   bare: true,
   expectErrors: true,
   prepare: pretendGpu({ device: "refused" }),
@@ -107,7 +107,7 @@ test("an address that asks for WebGPU gets its program, and no other way to draw
 });
 
 test("a GPU that gives no device brings the full program, and what was dropped and asked for before is not lost", {
-  query: `?${COARSE}`,
+  query: `?${QUERY}`,
   bare: true,
   prepare: async (page) => {
     await pretendGpu({ device: "refused" })(page);
@@ -141,7 +141,7 @@ test("a GPU that gives no device brings the full program, and what was dropped a
 });
 
 test("software that only the program knows by its name brings the full program", {
-  query: `?${COARSE}`,
+  query: `?${QUERY}`,
   bare: true,
   prepare: pretendGpu({ name: "llvmpipe (LLVM 19.1.7, 256 bits)" }),
 }, async (page) => {
@@ -151,7 +151,7 @@ test("software that only the program knows by its name brings the full program",
 });
 
 test("a full program that does not arrive after the other one is said so", {
-  query: `?${COARSE}`,
+  query: `?${QUERY}`,
   bare: true,
   expectErrors: true,
   prepare: async (page) => {
@@ -175,7 +175,7 @@ const loseWebGpu = (page) =>
 /** The open model with all edits, as a file. */
 const exported = (page) => page.evaluate(async () => Array.from(new Uint8Array(await crypto.subtle.digest("SHA-256", (await bindpose.export({ format: "glb" })).bytes))).join());
 
-test("where WebGPU is lost for good the full program goes on with what is open, edited and seen", { query: `?${COARSE}`, bare: true, prepare: pretendGpu() }, async (page) => {
+test("where WebGPU is lost for good the full program goes on with what is open, edited and seen", { query: `?${QUERY}`, bare: true, prepare: pretendGpu() }, async (page) => {
   const { path } = copyOfSample("mine.m3d");
   await opened(page);
   await page.waitForFunction(() => document.getElementById("shell").hidden);
@@ -218,7 +218,7 @@ test("where WebGPU is lost for good the full program goes on with what is open, 
   await keep(page, "gone-on-with-webgl2");
 });
 
-test("what is given while the full program is on its way opens there, after what was open", { query: `?${COARSE}`, bare: true, prepare: pretendGpu() }, async (page) => {
+test("what is given while the full program is on its way opens there, after what was open", { query: `?${QUERY}`, bare: true, prepare: pretendGpu() }, async (page) => {
   const [mine, theirs] = ["mine.m3d", "theirs.m3d"].map((name) => copyOfSample(name).path);
   await opened(page);
   await page.setInputFiles("#files", mine);
@@ -238,7 +238,7 @@ test("what is given while the full program is on its way opens there, after what
 });
 
 test("where the full program does not arrive then, a link leads there, and says what was open", {
-  query: `?${COARSE}`,
+  query: `?${QUERY}`,
   bare: true,
   expectErrors: true,
   prepare: pretendGpu(),

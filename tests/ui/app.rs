@@ -88,8 +88,8 @@ fn prepare(harness: &mut Harness<'static>, app: &Shared<Option<App>>) -> usize {
         let is_left = {
             let mut app = app.borrow_mut();
             let app = app.as_mut().expect("it ran");
-            app.prepare();
-            app.prepare_in_secs().is_some()
+            assert_eq!(app.take_turn(), None, "no file is written");
+            app.next_turn_in_secs().is_some()
         };
         if harness.ctx.has_requested_repaint() {
             passes_until_at_rest(harness);
@@ -133,7 +133,7 @@ fn a_window_that_moves_builds_no_pipeline_for_later() {
     harness.set_size(egui::vec2(240.0, 180.0));
     session.borrow_mut().apply(PlayCommand::Play);
     harness.run_steps(SOME);
-    let is_left = || app.borrow().as_ref().expect("it ran").prepare_in_secs().is_some();
+    let is_left = || app.borrow().as_ref().expect("it ran").next_turn_in_secs().is_some();
     assert!(!is_left(), "not while it moves");
     session.borrow_mut().apply(PlayCommand::Pause);
     harness.run();

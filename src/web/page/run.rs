@@ -1,7 +1,7 @@
 //! A viewer on a canvas: what eframe is told, its frames, and what the page hears of them.
 
 use std::cell::{Cell, RefCell};
-use std::rc::Rc;
+use std::rc::{Rc, Weak};
 use std::sync::{Arc, mpsc};
 
 use egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew, WgpuSetupExisting};
@@ -49,8 +49,7 @@ pub(in crate::web) async fn run(
         start,
         loss,
         is_lost: false,
-        exports: Rc::default(),
-        prepares: Rc::default(),
+        goes_on: Rc::default(),
         drawn: Rc::clone(&drawn),
         names: (!is_guest).then(JointNames::default),
         saving: Saving::new(Rc::clone(&app), Rc::clone(shared)),
@@ -160,10 +159,8 @@ struct Shell {
     /// Why the device was lost, once it was.
     loss: mpsc::Receiver<String>,
     is_lost: bool,
-    /// Whether tasks go on with an export.
-    exports: Rc<Cell<bool>>,
-    /// Whether a task prepares what may be asked for next.
-    prepares: Rc<Cell<bool>>,
+    /// Whether a task goes on between passes.
+    goes_on: Rc<Cell<bool>>,
     drawn: Rc<Cell<Drawn>>,
     /// A guest keeps none in the browser.
     names: Option<JointNames>,
@@ -171,55 +168,37 @@ struct Shell {
 }
 
 impl Shell {
-    /// Goes on with what is exported, in tasks between frames: while frames take long, and in a hidden tab, where none comes.
-    fn go_on_exporting(&self, ctx: &egui::Context) {
-        if self.shared.session.borrow().export().is_none() || self.exports.replace(true) {
+    /// A task goes on between passes, as long as the app is there and has something to do. Out of sight, where no pass comes, it exports.
+    fn go_on_between_passes(&self) {
+        if of_app(&Rc::downgrade(&self.app), |app| app.next_turn_in_secs()).is_none() || self.goes_on.replace(true) {
             return;
         }
-        let (app, shared) = (Rc::clone(&self.app), Rc::clone(&self.shared));
-        let (exports, ctx) = (Rc::clone(&self.exports), ctx.clone());
+        let (app, shared) = (Rc::downgrade(&self.app), Rc::clone(&self.shared));
+        let goes_on = Rc::clone(&self.goes_on);
         wasm_bindgen_futures::spawn_local(async move {
-            loop {
-                next_task().await;
-                let Some((true, file)) = app.borrow_mut().as_mut().map(App::step_export) else {
+            while let Some(secs) = of_app(&app, |app| app.next_turn_in_secs()) {
+                if secs == 0.0 {
+                    next_task().await;
+                } else if shared.face.is_out_of_sight.get() {
+                    // The pass that comes when it is in sight again begins anew.
                     break;
-                };
-                if let Some(file) = file {
+                } else {
+                    sleep((secs * 1e3) as i32).await;
+                    if shared.face.is_out_of_sight.get() {
+                        continue;
+                    }
+                }
+                if let Some(file) = of_app(&app, App::take_turn) {
                     shared.save_export(&file);
                 }
-                ctx.request_repaint();
             }
-            exports.set(false);
+            goes_on.set(false);
         });
     }
+}
 
-    /// Prepares what may be asked for next while nothing moves, between passes, as long as the app is there.
-    fn go_on_preparing(&self) {
-        let next_secs = |app: &AppSlot| app.borrow().as_ref().and_then(App::prepare_in_secs);
-        if next_secs(&self.app).is_none() || self.prepares.replace(true) {
-            return;
-        }
-        let (app, prepares, shared) = (
-            Rc::downgrade(&self.app),
-            Rc::clone(&self.prepares),
-            Rc::clone(&self.shared),
-        );
-        wasm_bindgen_futures::spawn_local(async move {
-            while let Some(secs) = app.upgrade().and_then(|app| next_secs(&app)) {
-                sleep((secs * 1e3) as i32).await;
-                // The pass that comes when it is in sight again begins anew.
-                if shared.face.is_out_of_sight.get() {
-                    break;
-                }
-                if let Some(app) = app.upgrade()
-                    && let Some(app) = app.borrow_mut().as_mut()
-                {
-                    app.prepare();
-                }
-            }
-            prepares.set(false);
-        });
-    }
+fn of_app<T>(app: &Weak<RefCell<Option<App>>>, act: impl FnOnce(&mut App) -> Option<T>) -> Option<T> {
+    act(app.upgrade()?.borrow_mut().as_mut()?)
 }
 
 impl eframe::App for Shell {
@@ -283,8 +262,7 @@ impl eframe::App for Shell {
         }
         let is_held = ui.input(|input| input.pointer.any_down());
         self.shared.follow_frame(is_held);
-        self.go_on_exporting(ui.ctx());
-        self.go_on_preparing();
+        self.go_on_between_passes();
         let changed_elsewhere = self.shared.face.names_changed.take();
         let session = &mut *self.shared.session.borrow_mut();
         let names = self.names.as_mut();
