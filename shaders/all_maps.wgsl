@@ -1,4 +1,4 @@
-// All that a glTF file says about a surface: nine maps, each sampled in a way of its own, and colours of vertices. Stands in the place
+// All that a glTF file says about a surface: all its maps, each sampled in a way of its own, and colours of vertices. Stands in the place
 // of `two_maps.wgsl`.
 
 // Where a map is looked up: a 2x3 matrix, texture coordinates of the mesh -> of the map. Twin: `shaders::MapPlace`.

@@ -41,6 +41,8 @@ pub struct App {
     picture_alone: bool,
     /// When the last part of an export ended, if there is more of it.
     exported_secs: Option<f64>,
+    /// Whether nothing was left to be exported at the last turn: the next pass brings what is.
+    export_rests: bool,
     /// After the last pass or turn; none where there is nothing to prepare, or a pass has to come first.
     prepare_in_secs: Option<f32>,
     /// Whether a pass came since the last turn.
@@ -72,6 +74,7 @@ impl App {
             now_secs: options.now_secs,
             picture_alone: false,
             exported_secs: None,
+            export_rests: false,
             prepare_in_secs: None,
             passed: false,
         }
@@ -132,26 +135,36 @@ impl App {
             Some(NextPass::ToPrepare { secs }) => Some(secs),
             _ => None,
         };
-        self.passed = true;
+        (self.passed, self.export_rests) = (true, false);
         requests
     }
 
     /// In how many seconds [`Self::take_turn`] can go on between passes: with what is exported at once, with what may be asked for next when
     /// nothing moves. None where a pass has to come first, or there is nothing to do.
     pub fn next_turn_in_secs(&self) -> Option<f32> {
-        let is_exporting = self.session.borrow().export().is_some();
-        if is_exporting { Some(0.0) } else { self.prepare_in_secs }
+        if self.is_exporting() {
+            Some(0.0)
+        } else {
+            self.prepare_in_secs
+        }
+    }
+
+    fn is_exporting(&self) -> bool {
+        !self.export_rests && self.session.borrow().export().is_some()
     }
 
     /// A turn of what goes on between passes: tasks export while frames take long and where none comes, and prepare without the panels, which a
     /// pass would draw. Returns a file that is written.
     pub fn take_turn(&mut self) -> Option<ExportedFile> {
-        if self.session.borrow().export().is_none() {
+        if !self.is_exporting() {
             self.prepare();
             return None;
         }
-        let (_, file) = self.step_export();
-        self.ctx.request_repaint();
+        let (had_work, file) = self.step_export();
+        self.export_rests = !had_work;
+        if had_work {
+            self.ctx.request_repaint();
+        }
         file
     }
 

@@ -92,7 +92,7 @@ async fn against_in(model: &Model, slices: &Slices) -> Vec<u32> {
     let (triangles, _) = mesh.indices.as_chunks::<3>();
     for (wanted, sign) in [(Green::Down, 1.0), (Green::Up, -1.0)] {
         let is_such = |material: usize| {
-            !mesh.tangents.is_empty() && model.materials[material].normal_map.is_some() && green(material) == wanted
+            !mesh.tangents.is_empty() && model.materials[material].has_normal_map() && green(material) == wanted
         };
         if !(0..model.materials.len()).any(is_such) {
             continue;

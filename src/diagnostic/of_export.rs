@@ -331,7 +331,7 @@ pub const ALL: &[ExportCode] = &[
     ),
     loss(
         "layers",
-        "The format has no clear coat, sheen or transmission of a material. An index of refraction and a specular colour become Fresnel R0.",
+        "The format has no clear coat, sheen, transmission or specular map of a material. An index of refraction and a specular colour become Fresnel R0, of a specular map the number beside it alone.",
         "Nothing where the look is good without. A coat may become a smaller roughness, a sheen a brighter diffuse colour.",
     ),
     loss(

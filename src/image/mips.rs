@@ -13,6 +13,8 @@ use crate::slices::{Slices, at_once};
 pub enum MapKind {
     /// sRGB colours: averaged as linear light, each weighted by its alpha, since a transparent texel has no colour.
     Diffuse,
+    /// sRGB colours with a number in alpha: averaged as linear light, each channel by itself.
+    Color,
     /// Directions of unit length: averaged, and not normalised, so that a mean is the shorter the more they differ. With two channels
     /// the length is in blue. Alpha is averaged by itself.
     Normal,
@@ -22,7 +24,7 @@ pub enum MapKind {
 
 impl MapKind {
     /// Each of them.
-    pub const ALL: [Self; 3] = [Self::Diffuse, Self::Normal, Self::Data];
+    pub const ALL: [Self; 4] = [Self::Diffuse, Self::Color, Self::Normal, Self::Data];
 }
 
 /// So many texels are averaged or written between two places at which that can stop: half a millisecond or so.
@@ -126,6 +128,8 @@ impl Image {
 enum Coding {
     /// sRGB with straight alpha.
     Srgb,
+    /// sRGB, and a number in alpha.
+    SrgbAndNumber,
     /// With two channels z follows from x and y, and blue is the length.
     Direction { two_channels: bool },
     /// Numbers 0…1, each channel by itself.
@@ -142,6 +146,7 @@ impl Coding {
             _ if image.format == ImageFormat::Rgbe => Self::Rgbe,
             _ if image.format.is_float() => Self::Half,
             MapKind::Diffuse => Self::Srgb,
+            MapKind::Color => Self::SrgbAndNumber,
             MapKind::Normal => Self::Direction {
                 two_channels: image.channels == Channels::RedGreen,
             },
@@ -152,7 +157,7 @@ impl Coding {
     /// The format in which levels are written.
     fn format(self) -> ImageFormat {
         match self {
-            Self::Srgb | Self::Direction { .. } | Self::Linear => ImageFormat::Rgba8,
+            Self::Srgb | Self::SrgbAndNumber | Self::Direction { .. } | Self::Linear => ImageFormat::Rgba8,
             Self::Half => ImageFormat::Rgba16Float,
             Self::Rgbe => ImageFormat::Rgbe,
         }
@@ -219,6 +224,13 @@ impl Coding {
                 };
                 halve(width, height, texels, read, slices).await
             }
+            Self::SrgbAndNumber => {
+                let srgb = Srgb::tables();
+                let read = |&[r, g, b, a]: &[u8; 4]| {
+                    Vec4::new(srgb.linear(r), srgb.linear(g), srgb.linear(b), f32::from(a) / 255.0)
+                };
+                halve(width, height, texels, read, slices).await
+            }
             Self::Direction { two_channels } => {
                 let read = |texel: &[u8; 4]| {
                     let direction = unit(texel) / Vec4::new(127.5, 127.5, 127.5, 255.0) - Vec4::new(1.0, 1.0, 1.0, 0.0);
@@ -247,6 +259,13 @@ impl Coding {
                     let [r, g, b] = srgb.bytes(texel / texel.w);
                     let alpha = nearest((texel - CLEAR_WEIGHT) / (1.0 - CLEAR_WEIGHT) * alpha_scale).w;
                     [r, g, b, alpha.to_bits() as u8]
+                });
+            }
+            Self::SrgbAndNumber => {
+                let srgb = Srgb::tables();
+                append_bytes(data, texels, |texel| {
+                    let [r, g, b] = srgb.bytes(texel);
+                    [r, g, b, bytes(texel)[3]]
                 });
             }
             Self::Direction { two_channels } => append_bytes(data, texels, |texel: Texel| {

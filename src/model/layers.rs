@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 /// What `KHR_materials_ior`, `_specular`, `_clearcoat`, `_sheen` and `_transmission` say. The default changes nothing. Colours are
 /// linear; all but `ior`, `specular_color` and `clearcoat_normal_scale` are 0…1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Layers {
     /// Index of refraction of what is no metal, 1 or more; or 0, with which it mirrors everything.
     pub ior: f32,

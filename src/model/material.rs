@@ -140,6 +140,11 @@ impl Material {
         map.as_ref()
     }
 
+    /// Whether it has a map of directions, for which vertices need tangents: its own or its clear coat's.
+    pub fn has_normal_map(&self) -> bool {
+        self.normal_map.is_some() || self.clearcoat_normal_map.is_some()
+    }
+
     /// The name that it gives for a map of this slot; `None` for a blank one.
     pub fn map_name(&self, slot: MapSlot) -> Option<&str> {
         self.map(slot)

@@ -115,7 +115,7 @@ fn upload(device: &wgpu::Device, queue: &Queue, image: &Image, kind: MapKind) ->
     let whole_blocks = width % 4 == 0 && height % 4 == 0;
     let compressed = compressed_format(image.format(), kind).filter(|_| whole_blocks && takes_blocks);
     let format = compressed.unwrap_or(match kind {
-        MapKind::Diffuse => wgpu::TextureFormat::Rgba8UnormSrgb,
+        MapKind::Diffuse | MapKind::Color => wgpu::TextureFormat::Rgba8UnormSrgb,
         MapKind::Normal | MapKind::Data => wgpu::TextureFormat::Rgba8Unorm,
     });
     let size = |level| {
@@ -172,10 +172,10 @@ fn upload(device: &wgpu::Device, queue: &Queue, image: &Image, kind: MapKind) ->
 fn compressed_format(format: ImageFormat, kind: MapKind) -> Option<wgpu::TextureFormat> {
     use wgpu::TextureFormat as Gpu;
     match (format, kind) {
-        (ImageFormat::Bc1, MapKind::Diffuse) => Some(Gpu::Bc1RgbaUnormSrgb),
-        (ImageFormat::Bc2, MapKind::Diffuse) => Some(Gpu::Bc2RgbaUnormSrgb),
-        (ImageFormat::Bc3, MapKind::Diffuse) => Some(Gpu::Bc3RgbaUnormSrgb),
-        (ImageFormat::Bc7, MapKind::Diffuse) => Some(Gpu::Bc7RgbaUnormSrgb),
+        (ImageFormat::Bc1, MapKind::Diffuse | MapKind::Color) => Some(Gpu::Bc1RgbaUnormSrgb),
+        (ImageFormat::Bc2, MapKind::Diffuse | MapKind::Color) => Some(Gpu::Bc2RgbaUnormSrgb),
+        (ImageFormat::Bc3, MapKind::Diffuse | MapKind::Color) => Some(Gpu::Bc3RgbaUnormSrgb),
+        (ImageFormat::Bc7, MapKind::Diffuse | MapKind::Color) => Some(Gpu::Bc7RgbaUnormSrgb),
         (ImageFormat::Bc1, MapKind::Normal | MapKind::Data) => Some(Gpu::Bc1RgbaUnorm),
         (ImageFormat::Bc2, MapKind::Normal | MapKind::Data) => Some(Gpu::Bc2RgbaUnorm),
         (ImageFormat::Bc3, MapKind::Normal | MapKind::Data) => Some(Gpu::Bc3RgbaUnorm),

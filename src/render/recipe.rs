@@ -19,7 +19,7 @@ pub(super) enum Maps {
     /// The diffuse and the normal map, both sampled as the books do: all that a .m3d file has.
     #[default]
     Two,
-    /// Five maps, each sampled in a way of its own, and colours of vertices: all that a glTF file has.
+    /// All maps, each sampled in a way of its own, and colours of vertices: all that a glTF file has.
     All,
 }
 

@@ -7,7 +7,8 @@ use crate::modes::modes;
 /// What the texels of a map are.
 pub fn map_kind(slot: MapSlot) -> MapKind {
     match slot {
-        MapSlot::Diffuse | MapSlot::Emissive | MapSlot::Specular | MapSlot::Sheen => MapKind::Diffuse,
+        MapSlot::Diffuse | MapSlot::Emissive => MapKind::Diffuse,
+        MapSlot::Specular | MapSlot::Sheen => MapKind::Color,
         MapSlot::Normal | MapSlot::ClearcoatNormal => MapKind::Normal,
         MapSlot::MetallicRoughness | MapSlot::Occlusion | MapSlot::Clearcoat => MapKind::Data,
     }

@@ -293,6 +293,34 @@ fn another_start_has_the_theme_and_the_panels_of_the_one_before() {
     assert_eq!(state.borrow().theme, Some(Theme::Light));
 }
 
+#[test]
+fn an_export_goes_on_between_passes_until_it_waits_for_a_command() {
+    let (mut harness, session, app) = window(still("a.m3d"));
+    passes_until_at_rest(&mut harness);
+    session
+        .borrow_mut()
+        .apply(ExportCommand::Plan(Some(Box::new(ExportOptions::default()))));
+    let go_on = || {
+        let mut files = 0;
+        for _ in 0..MANY {
+            let mut app = app.borrow_mut();
+            let app = app.as_mut().expect("it ran");
+            if app.next_turn_in_secs() != Some(0.0) {
+                return files;
+            }
+            files += usize::from(app.take_turn().is_some());
+        }
+        panic!("there is no end to it");
+    };
+    assert_eq!(go_on(), 0, "planned");
+    let plan = |session: &Session| session.export().is_some_and(|export| export.plan.is_some());
+    assert!(plan(&session.borrow()));
+    session.borrow_mut().apply(ExportCommand::Save);
+    harness.ctx.request_repaint();
+    passes_until_at_rest(&mut harness);
+    assert_eq!(go_on(), 1, "it was written");
+}
+
 thread_local! {
     static MILLISECONDS: Cell<f64> = const { Cell::new(0.0) };
 }

@@ -34,7 +34,8 @@ pub(super) struct Materials {
 fn purpose(slot: MapSlot, is_turned: bool) -> Use {
     match slot {
         MapSlot::Normal | MapSlot::ClearcoatNormal => Use::Directions { is_turned },
-        _ => Use::AsIs,
+        MapSlot::Diffuse | MapSlot::MetallicRoughness | MapSlot::Occlusion | MapSlot::Emissive => Use::AsIs,
+        MapSlot::Specular | MapSlot::Clearcoat | MapSlot::Sheen => Use::AsIs,
     }
 }
 

@@ -213,6 +213,11 @@ impl MaterialReader<'_> {
                 (&sheen.sheen_roughness_texture, "sheenRoughnessTexture", ALPHA),
             ];
             *sheen_map = self.layer_map("sheen", parts, &mut left_out)?;
+            // A sheen whose colour cannot be read: its number is white.
+            let has_color = sheen_map.as_ref().is_some_and(|map| map.sampling.channels[0]);
+            if sheen.sheen_color_texture.is_some() && !has_color {
+                layers.sheen_color = [0.0; 3];
+            }
         }
         if let Some(transmission) = &extensions.transmission {
             layers.transmission = self.transmission(transmission, alpha, name);
@@ -408,8 +413,7 @@ pub(super) fn take_second_tex_coords(materials: &[Material]) -> bool {
 }
 
 pub(super) fn have_normal_maps(materials: &[Material]) -> bool {
-    let has_one = |material: &Material| material.normal_map.is_some() || material.clearcoat_normal_map.is_some();
-    materials.iter().any(has_one)
+    materials.iter().any(Material::has_normal_map)
 }
 
 /// The material of a book that was written into `extras`, as far as it is there.

@@ -169,7 +169,11 @@ fn layers(current: &Layers, wanted: &Layers) -> Layers {
         specular_color: color(current.specular_color, wanted.specular_color),
         clearcoat: part(|layers| layers.clearcoat),
         clearcoat_roughness: part(|layers| layers.clearcoat_roughness),
-        clearcoat_normal_scale: current.clearcoat_normal_scale,
+        clearcoat_normal_scale: if wanted.clearcoat_normal_scale.is_finite() {
+            wanted.clearcoat_normal_scale
+        } else {
+            current.clearcoat_normal_scale
+        },
         sheen_color: color(current.sheen_color, wanted.sheen_color),
         sheen_roughness: part(|layers| layers.sheen_roughness),
         transmission: part(|layers| layers.transmission),

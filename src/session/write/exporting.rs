@@ -4,7 +4,7 @@ use super::export::{Export, ExportCommand, ExportOptions, ExportRange, Exporting
 use super::export_job::{ExportJob, ExportRefusal, ExportedFile, ToExport};
 use crate::check::book::DEMO_CLIP;
 use crate::edit::{Change, Edits};
-use crate::model::Front;
+use crate::model::{Front, Material};
 use crate::session::Session;
 use crate::slices::{Sliced, Slices, Stage, StageProgress};
 
@@ -135,7 +135,7 @@ impl Session {
         let words = ["material is written as it was", "materials are written as they were"];
         let edited = Change::counted("materials-edited", edited, words, "edited here.");
         let materials = model.materials.iter();
-        let is_mapped: Vec<bool> = materials.map(|material| material.normal_map.is_some()).collect();
+        let is_mapped: Vec<bool> = materials.map(Material::has_normal_map).collect();
         let green_flipped = self.look().normal_green_flipped && is_mapped.contains(&true);
         if green_flipped {
             model.turn_bitangents(|material| is_mapped[material]);

@@ -53,10 +53,10 @@ impl<'a> Slider<'a> {
         let mut row = Row::new(ui, height);
         row.left(self.label.words, tokens.muted);
         row.right_in(theme::mono(12.0), self.text, tokens.text);
-        let row = row.rect;
+        let (row, label_end) = (row.rect, row.left);
 
         let target = row
-            .with_min_x(row.min.x + LABEL_WIDTH)
+            .with_min_x((row.min.x + LABEL_WIDTH).max(label_end + 4.0))
             .with_max_x(row.max.x - NUMBER_WIDTH);
         let ends = target.x_range().shrink(KNOB_RADIUS);
         let response = ui.interact(

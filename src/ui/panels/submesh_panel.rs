@@ -155,6 +155,10 @@ fn of_gltf(ui: &mut Ui, material: &Material, of_file: &Layers, mut edited: Mater
         part_row(ui, "Occlusion", &mut edited.occlusion_strength);
     }
     layer_rows(ui, of_file, &mut edited.layers);
+    if material.clearcoat_normal_map.is_some() {
+        let scale = &mut edited.layers.clearcoat_normal_scale;
+        number_row(ui, "Coat normals", scale, -8.0..=8.0, (0.01, 2));
+    }
     let mask = match material.alpha {
         AlphaMode::Mask { .. } => material.alpha,
         // glTF's own cutoff.

@@ -77,7 +77,7 @@ const LAYERS: Layers = Layers {
     specular_color: [2.0, 0.5, 1.0],
     clearcoat: 0.5,
     clearcoat_roughness: 0.125,
-    clearcoat_normal_scale: 1.0,
+    clearcoat_normal_scale: 0.25,
     sheen_color: [0.25, 0.5, 0.75],
     sheen_roughness: 0.375,
     transmission: 0.625,
@@ -281,9 +281,36 @@ fn the_words_of_gltf_come_out_as_they_went_in() {
         .expect("it can be written")
         .bytes;
     let read = &import(&bytes).expect("what was written is read").model.materials[0];
-    for slot in MapSlot::ALL {
-        let channels = |material: &Material| material.map(slot).map(|map| map.sampling.channels);
-        assert_eq!(channels(read), channels(&rich().materials[0]), "{slot:?}");
+    assert_eq!(read.layers, LAYERS);
+    for slot in MapSlot::ALL.into_iter().filter(|slot| *slot != MapSlot::Diffuse) {
+        let sampling = |material: &Material| material.map(slot).map(|map| map.sampling);
+        assert_eq!(sampling(read), sampling(&rich().materials[0]), "{slot:?}");
+    }
+    let layers = [
+        MapSlot::Specular,
+        MapSlot::Clearcoat,
+        MapSlot::ClearcoatNormal,
+        MapSlot::Sheen,
+    ];
+    let colors = [10, 20, 30, 40].map(|red| picture(&[[red, 0, 0, 255]]));
+    let maps: MapImages<'_> = layers
+        .into_iter()
+        .zip(&colors)
+        .map(|(slot, image)| ((0, slot), image))
+        .collect();
+    let (own, _) = written(&rich(), &maps);
+    let extensions = &own["materials"][0]["extensions"];
+    let [specular, coat, sheen] =
+        ["specular", "clearcoat", "sheen"].map(|name| &extensions[format!("KHR_materials_{name}")]);
+    for (info, texture) in [
+        (&specular["specularTexture"], 0),
+        (&coat["clearcoatTexture"], 1),
+        (&coat["clearcoatRoughnessTexture"], 1),
+        (&coat["clearcoatNormalTexture"], 2),
+        (&sheen["sheenColorTexture"], 3),
+        (&sheen["sheenRoughnessTexture"], 3),
+    ] {
+        assert_eq!(info["index"], texture, "{extensions}");
     }
     // One picture for all, sampled in two ways.
     let counts = ["images", "samplers", "textures"].map(|list| root[list].as_array().map_or(0, Vec::len));
@@ -302,6 +329,11 @@ fn layers_are_read_as_they_were_written_and_only_those_that_differ_are() {
         let keys = root["materials"][0]["extensions"].as_object().expect("extensions");
         let names: Vec<String> = keys.keys().cloned().collect();
         let read = import(&bytes).expect("what was written is read").model.materials[0].clone();
+        // The strength of the coat's normal map stands with the map.
+        let layers = Layers {
+            clearcoat_normal_scale: 1.0,
+            ..layers
+        };
         assert_eq!((read.layers, read.alpha, read.opacity), (layers, AlphaMode::Blend, 0.5));
         names.join(" ").replace("KHR_materials_", "")
     };

@@ -244,6 +244,17 @@ fn what_the_format_does_not_hold_is_said_before() {
 }
 
 #[test]
+fn a_specular_map_is_lost_too() {
+    let mut model = rich();
+    model.materials[0].layers = Layers::default();
+    for (map, is_lost) in [(None, false), (Some("varnish.png".into()), true)] {
+        model.materials[0].specular_map = map;
+        let losses = m3d_losses(&model, &JointNames::default(), Dialect::D3d12);
+        assert_eq!(codes(&losses).contains(&"layers"), is_lost);
+    }
+}
+
+#[test]
 fn curves_become_straight_keys_that_pose_alike() {
     let model = rich();
     let again = read(&written(&model, Dialect::D3d12));

@@ -263,6 +263,17 @@ fn of_two_pictures_of_a_layer_one_is_read_and_the_other_told() {
 }
 
 #[test]
+fn a_sheen_whose_colour_cannot_be_read_is_left_out() {
+    let mapped =
+        json!({ "KHR_materials_sheen": { "sheenColorFactor": [1, 1, 1], "sheenColorTexture": { "index": 0 } } });
+    let mut file = with_pictures(&mapped);
+    file.json["textures"][0] = json!({ "extensions": { "KHR_texture_basisu": { "source": 0 } } });
+    let imported = read(&file);
+    assert_eq!(imported.model.materials[0].layers.sheen_color, [0.0; 3]);
+    assert_eq!(told_all(&imported, "gltf-image-not-read").count(), 1);
+}
+
+#[test]
 fn a_map_of_a_layer_that_is_not_there_fails_with_its_place() {
     let mapped = json!({ "KHR_materials_sheen": { "sheenRoughnessTexture": { "index": 7 } } });
     let pointer = "/materials/0/extensions/KHR_materials_sheen/sheenRoughnessTexture/index";

@@ -24,6 +24,21 @@ fn colours_are_averaged_as_light() {
 }
 
 #[test]
+fn a_number_in_alpha_weights_no_colour() {
+    let texels = [[255, 0, 0, 0], [0, 0, 255, 128]];
+    let sheen = image(2, 1, &texels).with_mips(MapKind::Color);
+    assert_eq!(level_texels(&sheen, 0, 0), texels);
+    assert_eq!(level_texels(&sheen, 0, 1), [[188, 0, 188, 64]]);
+    let [[red, _, blue, _]] = level_texels(&image(2, 1, &texels).with_mips(MapKind::Diffuse), 0, 1)[..] else {
+        panic!("one texel")
+    };
+    assert!(
+        red < 32 && blue > 240,
+        "what is transparent has no colour: {red}, {blue}"
+    );
+}
+
+#[test]
 fn a_chain_goes_down_to_one_texel_and_keeps_the_mean() {
     // Columns black and white, 8 × 4: every level below is the same grey, without errors adding up.
     let texels: Vec<_> = (0..32)
@@ -268,6 +283,10 @@ fn textbook_half([width, height]: [usize; 2], texels: &[[f32; 4]]) -> Vec<[f32; 
 
 fn textbook_read(kind: MapKind, [r, g, b, a]: [u8; 4]) -> [f32; 4] {
     match kind {
+        MapKind::Color => {
+            let [r, g, b] = [r, g, b].map(|value| textbook_light(f32::from(value) / 255.0));
+            [r, g, b, f32::from(a) / 255.0]
+        }
         MapKind::Diffuse => {
             let weight = 1.0 / 1024.0 + f32::from(a) / 255.0 * (1.0 - 1.0 / 1024.0);
             let [r, g, b] = [r, g, b].map(|value| textbook_light(f32::from(value) / 255.0) * weight);
@@ -285,12 +304,13 @@ fn textbook_read(kind: MapKind, [r, g, b, a]: [u8; 4]) -> [f32; 4] {
 
 fn textbook_written(kind: MapKind, [x, y, z, w]: [f32; 4]) -> [u8; 4] {
     let unit = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
+    // As many bytes as have a middle between them and the next that is not above the light.
+    let middle = |byte| textbook_light((f32::from(byte) + 0.5) / 255.0);
+    let middles: Vec<f32> = (0_u8..255).map(middle).collect();
+    let byte = |light: f32| middles.iter().filter(|&&middle| middle <= light).count() as u8;
     match kind {
+        MapKind::Color => [byte(x), byte(y), byte(z), unit(w)],
         MapKind::Diffuse => {
-            // As many bytes as have a middle between them and the next that is not above the light.
-            let middle = |byte| textbook_light((f32::from(byte) + 0.5) / 255.0);
-            let middles: Vec<f32> = (0_u8..255).map(middle).collect();
-            let byte = |light: f32| middles.iter().filter(|&&middle| middle <= light).count() as u8;
             let alpha = unit((w - 1.0 / 1024.0) / (1.0 - 1.0 / 1024.0));
             [byte(x / w), byte(y / w), byte(z / w), alpha]
         }
