@@ -30,7 +30,7 @@ struct MaterialMaps {
     is_metallic_roughness: u32,
     // 1 when it is shown in its own colour without light.
     is_unlit: u32,
-    // Of what is no metal: Fresnel0, which counts up to 1, before the factor `specular`, which grazing angles have too.
+    // What is no metal reflects the smaller of this and 1, times `specular`, seen face on; at grazing angles `specular` alone.
     dielectric_fresnel0: vec3<f32>,
     specular: f32,
     // What lies over the surface.

@@ -621,8 +621,8 @@ table! {
             "Give the material an alpha of its own and the mode BLEND, where it has to look so everywhere.";
         GLTF_MAP_LEFT_OUT = "gltf-map-left-out", Note,
             "A material has a map of transmission, or two pictures for the two values of a layer; such a map is not read.",
-            "Of specular, clear coat and sheen one picture each is read, which may hold both values: glTF gives each channels of its own. The number beside a map that is left out holds for all of the surface.",
-            "The material is drawn and written without the map; what a map says to be transparent is opaque.",
+            "Of specular, clear coat and sheen one picture each is read, which may hold both values: glTF gives each channels of its own.",
+            "The material is drawn and written without the map. The number that a layer has beside its map then holds everywhere; without its map of transmission no light goes through a material.",
             "Put both values of a layer into the channels of one picture.";
         GLTF_CHANNEL_LEFT_OUT = "gltf-channel-left-out", Note,
             "A clip moves something that is not shown; left out.",

@@ -1,6 +1,6 @@
 //! Makes smaller levels where a file has none.
 
-use glam::{Vec3A, Vec4};
+use glam::{Vec3, Vec3A, Vec4};
 
 use super::format::{Channels, ImageFormat};
 use super::picture::{Image, full_level_count, level_size};
@@ -126,10 +126,8 @@ impl Image {
 /// How texels are read from bytes and written back.
 #[derive(Clone, Copy, Debug)]
 enum Coding {
-    /// sRGB with straight alpha.
-    Srgb,
-    /// sRGB, and a number in alpha.
-    SrgbAndNumber,
+    /// sRGB with straight alpha, by which colours are weighted; or with a number there, by which they are not.
+    Srgb { weighted: bool },
     /// With two channels z follows from x and y, and blue is the length.
     Direction { two_channels: bool },
     /// Numbers 0…1, each channel by itself.
@@ -145,8 +143,8 @@ impl Coding {
         match map_kind {
             _ if image.format == ImageFormat::Rgbe => Self::Rgbe,
             _ if image.format.is_float() => Self::Half,
-            MapKind::Diffuse => Self::Srgb,
-            MapKind::Color => Self::SrgbAndNumber,
+            MapKind::Diffuse => Self::Srgb { weighted: true },
+            MapKind::Color => Self::Srgb { weighted: false },
             MapKind::Normal => Self::Direction {
                 two_channels: image.channels == Channels::RedGreen,
             },
@@ -157,7 +155,7 @@ impl Coding {
     /// The format in which levels are written.
     fn format(self) -> ImageFormat {
         match self {
-            Self::Srgb | Self::SrgbAndNumber | Self::Direction { .. } | Self::Linear => ImageFormat::Rgba8,
+            Self::Srgb { .. } | Self::Direction { .. } | Self::Linear => ImageFormat::Rgba8,
             Self::Half => ImageFormat::Rgba16Float,
             Self::Rgbe => ImageFormat::Rgbe,
         }
@@ -217,19 +215,16 @@ impl Coding {
         let texels = data[start..].as_chunks::<4>().0;
         let unit = |&[r, g, b, a]: &[u8; 4]| Vec4::new(r.into(), g.into(), b.into(), a.into());
         match self {
-            Self::Srgb => {
+            Self::Srgb { weighted } => {
                 let (srgb, weights) = (Srgb::tables(), weights());
-                let read = |&[r, g, b, a]: &[u8; 4]| {
-                    Vec4::new(srgb.linear(r), srgb.linear(g), srgb.linear(b), 1.0) * weights[usize::from(a)]
-                };
-                halve(width, height, texels, read, slices).await
-            }
-            Self::SrgbAndNumber => {
-                let srgb = Srgb::tables();
-                let read = |&[r, g, b, a]: &[u8; 4]| {
-                    Vec4::new(srgb.linear(r), srgb.linear(g), srgb.linear(b), f32::from(a) / 255.0)
-                };
-                halve(width, height, texels, read, slices).await
+                let color = |[r, g, b]: [u8; 3]| Vec3::new(srgb.linear(r), srgb.linear(g), srgb.linear(b));
+                if weighted {
+                    let read = |&[r, g, b, a]: &[u8; 4]| color([r, g, b]).extend(1.0) * weights[usize::from(a)];
+                    halve(width, height, texels, read, slices).await
+                } else {
+                    let read = |&[r, g, b, a]: &[u8; 4]| color([r, g, b]).extend(f32::from(a) / 255.0);
+                    halve(width, height, texels, read, slices).await
+                }
             }
             Self::Direction { two_channels } => {
                 let read = |texel: &[u8; 4]| {
@@ -253,19 +248,17 @@ impl Coding {
     /// Writes texels of a smaller level; alpha of colours times `alpha_scale`.
     fn append(self, data: &mut Vec<u8>, texels: &[Texel], alpha_scale: f32) {
         match self {
-            Self::Srgb => {
+            Self::Srgb { weighted } => {
                 let srgb = Srgb::tables();
                 append_bytes(data, texels, |texel| {
-                    let [r, g, b] = srgb.bytes(texel / texel.w);
-                    let alpha = nearest((texel - CLEAR_WEIGHT) / (1.0 - CLEAR_WEIGHT) * alpha_scale).w;
-                    [r, g, b, alpha.to_bits() as u8]
-                });
-            }
-            Self::SrgbAndNumber => {
-                let srgb = Srgb::tables();
-                append_bytes(data, texels, |texel| {
-                    let [r, g, b] = srgb.bytes(texel);
-                    [r, g, b, bytes(texel)[3]]
+                    let (color, number) = if weighted {
+                        let alpha = (texel - CLEAR_WEIGHT) / (1.0 - CLEAR_WEIGHT) * alpha_scale;
+                        (texel / texel.w, alpha)
+                    } else {
+                        (texel, texel)
+                    };
+                    let [r, g, b] = srgb.bytes(color);
+                    [r, g, b, nearest(number).w.to_bits() as u8]
                 });
             }
             Self::Direction { two_channels } => append_bytes(data, texels, |texel: Texel| {

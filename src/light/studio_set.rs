@@ -2,8 +2,9 @@
 //!
 //! The viewer stands at −z and looks along +z; x is to the right, y up. Radiances are linear and in units where 1 shows
 //! as white. In the dark room panels are small and bright, so that what shines has something to mirror, and walls are dim, so that the mean over
-//! all directions stays near 0.37: with the lamp a base colour that faces it shows about as it is. The bright room has bright walls, larger panels
-//! and a weaker lamp; its mean is 0.68.
+//! all directions is about 0.35: with the lamp a base colour that faces it shows about as it is. The bright room has bright
+//! walls and nearly as strong a lamp; its mean is 0.54. In both the side that faces the lamp is between two and a half and three times as bright
+//! as the one in shadow.
 
 use glam::{Mat3, Vec3};
 
@@ -15,7 +16,7 @@ pub enum Room {
     /// Dark walls.
     #[default]
     Dark,
-    /// Bright walls, for a model before a bright page: what it mirrors along its edge is bright too. The lamp is weaker, and shadows are lighter.
+    /// Bright walls, for a model before a bright page: what it mirrors along its edge is bright too.
     Bright,
 }
 
@@ -36,7 +37,7 @@ impl Room {
     pub fn lights(self) -> RoomLights {
         let (key, rim) = match self {
             Self::Dark => (0.60, 0.60),
-            Self::Bright => (0.32, 0.35),
+            Self::Bright => (0.58, 0.35),
         };
         RoomLights {
             key: Vec3::new(1.00, 0.975, 0.93) * key,
@@ -64,10 +65,10 @@ const DARK: Walls = Walls {
 };
 
 const BRIGHT: Walls = Walls {
-    ceiling: Vec3::new(0.729, 0.74, 0.755),
-    wall: Vec3::new(0.453, 0.46, 0.472),
+    ceiling: Vec3::new(0.552, 0.56, 0.571),
+    wall: Vec3::new(0.449, 0.456, 0.467),
     floor: Vec3::new(0.721, 0.70, 0.662),
-    behind_viewer: 0.22,
+    behind_viewer: 0.24,
 };
 
 /// A rectangle of light, bright in its middle, upright.
@@ -111,28 +112,28 @@ const DARK_PANELS: [Panel; 3] = [
     },
 ];
 
-/// The same three, larger. The fill is a second soft box, whose clear edge metal mirrors.
+/// The same three. The fill is a second soft box, whose clear edge metal mirrors; the window is larger.
 const BRIGHT_PANELS: [Panel; 3] = [
     Panel {
         towards: Vec3::new(0.30, 0.86, -0.42),
-        half_size: [0.46, 0.34],
+        half_size: [0.28, 0.21],
         softness: 0.05,
         bar: 0.0,
-        radiance: Vec3::new(2.64, 2.60, 2.52),
+        radiance: Vec3::new(2.70, 2.66, 2.58),
     },
     Panel {
-        towards: Vec3::new(-0.66, 0.36, -0.66),
-        half_size: [0.28, 0.42],
+        towards: Vec3::new(-0.74, 0.42, -0.50),
+        half_size: [0.11, 0.36],
         softness: 0.05,
         bar: 0.0,
-        radiance: Vec3::new(3.64, 3.70, 3.79),
+        radiance: Vec3::new(2.26, 2.30, 2.36),
     },
     Panel {
         towards: Vec3::new(0.58, 0.30, -0.76),
         half_size: [0.13, 0.19],
         softness: 0.02,
         bar: 0.011,
-        radiance: Vec3::splat(6.0),
+        radiance: Vec3::splat(7.2),
     },
 ];
 

@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::task::Poll;
 
 use super::accumulator::Accumulator;
-use super::affordable::bytes_of_mean;
+use super::affordable::{bytes_of_drawn, bytes_of_mean};
 use super::band::Band;
 use super::buffers::Queue;
 use super::composite::Compositor;
@@ -282,14 +282,14 @@ pub fn prove(device: &wgpu::Device, queue: &wgpu::Queue, target: &Target, mean: 
     }))
 }
 
-/// Colour and depth of each sample, the picture that they are resolved to, or all that a mean takes; and the bytes that are read.
+/// All that is drawn into, and the bytes that are read.
 fn bytes_per_pixel(samples: SampleCount, is_mean: bool) -> u64 {
-    let read = 4;
-    if is_mean {
-        return bytes_of_mean() + read;
-    }
-    let resolved = if samples == SampleCount::One { 0 } else { 4 };
-    u64::from(samples.count()) * 8 + resolved + read
+    let drawn = if is_mean {
+        bytes_of_mean()
+    } else {
+        bytes_of_drawn(samples)
+    };
+    drawn + 4
 }
 
 /// Whether a device can draw this band of a picture and hand it over.

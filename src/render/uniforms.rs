@@ -41,12 +41,12 @@ const DARK: ThemeColors = ThemeColors {
 };
 
 const LIGHT: ThemeColors = ThemeColors {
-    backdrop_center: [0xF4, 0xF5, 0xF7],
+    backdrop_center: [0xEB, 0xED, 0xF0],
     backdrop_edge: [0xCF, 0xD4, 0xDC],
     grid: [0x3A, 0x42, 0x50],
-    grid_opacity: 0.16,
-    floor: [0xEC, 0xEE, 0xF1],
-    shadow_strength: 0.45,
+    grid_opacity: 0.24,
+    floor: [0xE0, 0xE3, 0xE7],
+    shadow_strength: 0.55,
     wire: [0x1B, 0x20, 0x29],
     wire_opacity: 0.4,
     accent: [0x17, 0x69, 0xD2],

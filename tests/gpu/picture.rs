@@ -92,7 +92,7 @@ on_both_backends! {
         assert!(top[0] < DARK_CENTER[0] - 8, "{top:?}");
         scene.options.theme = Theme::Light;
         let light = gpu.draw(&scene, 200, 200);
-        assert!(difference(light.pixel(100, 94), [0xF4, 0xF5, 0xF7, 255]) <= ROUNDING);
+        assert!(difference(light.pixel(100, 94), [0xEB, 0xED, 0xF0, 255]) <= ROUNDING);
     }
 
     fn nothing_is_behind_a_transparent_picture(gpu) {

@@ -228,18 +228,22 @@ impl Writer<'_> {
 
     /// The maps of the layers, each under the names that its channels have.
     async fn layer_maps(&mut self, index: usize, material: &Material, written: &mut Value) -> Result<(), ExportError> {
-        let [red, green, _, alpha] = [0, 1, 2, 3];
+        let [red, green, _, alpha] = [0, 1, 2, 3].map(Some);
+        let is_metallic = matches!(material.reflectance, Reflectance::MetallicRoughness { .. });
+        // With the channel that has to be in use; any where there is `None`.
         let names = [
             (MapSlot::Specular, SPECULAR, "specularColorTexture", red),
             (MapSlot::Specular, SPECULAR, "specularTexture", alpha),
             (MapSlot::Clearcoat, CLEARCOAT, "clearcoatTexture", red),
             (MapSlot::Clearcoat, CLEARCOAT, "clearcoatRoughnessTexture", green),
-            (MapSlot::ClearcoatNormal, CLEARCOAT, "clearcoatNormalTexture", red),
+            (MapSlot::ClearcoatNormal, CLEARCOAT, "clearcoatNormalTexture", None),
             (MapSlot::Sheen, SHEEN, "sheenColorTexture", red),
             (MapSlot::Sheen, SHEEN, "sheenRoughnessTexture", alpha),
         ];
         for (slot, extension, name, channel) in names {
-            if !material.map(slot).is_some_and(|map| map.sampling.channels[channel]) {
+            let has = |map: &MaterialMap| channel.is_none_or(|channel: usize| map.sampling.channels[channel]);
+            // As its number: the books' materials reflect in their own way.
+            if !material.map(slot).is_some_and(has) || (slot == MapSlot::Specular && !is_metallic) {
                 continue;
             }
             if let Some(mut info) = self.info(index, material, slot).await? {

@@ -9,6 +9,7 @@
 mod clips;
 mod images;
 mod influences;
+mod layers;
 mod left_out;
 mod materials;
 mod meshes;

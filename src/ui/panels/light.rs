@@ -21,7 +21,7 @@ use crate::ui::window::panel::popover_gap;
 
 /// The first colour of a plain background: the middle of the backdrop.
 const FIRST_COLOR_DARK: [u8; 3] = [0x33, 0x38, 0x42];
-const FIRST_COLOR_LIGHT: [u8; 3] = [0xF4, 0xF5, 0xF7];
+const FIRST_COLOR_LIGHT: [u8; 3] = [0xEB, 0xED, 0xF0];
 
 /// The button's label: the light that is on. With a sky the studio's light is the sky's.
 pub(in crate::ui) fn label(session: &Session) -> &'static str {

@@ -81,7 +81,7 @@ fn vertex_count(mesh: &Mesh, submesh: &Submesh) -> usize {
     used.len()
 }
 
-/// A map that the material names: its thumbnail, or that it is missing.
+/// A map that the material names: its thumbnail and what it is, or that it is missing.
 fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState, material: usize, slot: MapSlot) {
     let of_file = open.model.materials.get(material);
     let Some(name) = of_file.and_then(|material| material.map_name(slot)) else {
@@ -92,7 +92,7 @@ fn map_row(ui: &mut Ui, session: &Session, open: &OpenModel, state: &mut UiState
     if let Some(map) = used {
         let thumbnail = state.thumbnails.of(ui.ctx(), session, &map);
         let details = format!("{what}: {}\n{}", map.file.path, holds(map.image));
-        picture_row(ui, thumbnail, map.file.base_name(), map.image, &details);
+        picture_row(ui, thumbnail, &map, &what, &details);
         return;
     }
     let missing = session.maps().checklist().missing.iter().any(|other| other == name);

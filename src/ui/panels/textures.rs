@@ -88,9 +88,10 @@ fn map_row(
     thumbnails: &mut Thumbnails,
 ) -> Response {
     let users = words_for(open, map.users).join("\n");
-    let details = format!("{}\n{}\n{users}", map.file.path, holds(map.image));
+    let holds = holds(map.image);
+    let details = format!("{}\n{holds}\n{users}", map.file.path);
     let thumbnail = thumbnails.of(ui.ctx(), session, map);
-    picture_row(ui, thumbnail, map.file.base_name(), map.image, &details)
+    picture_row(ui, thumbnail, map, &holds, &details)
 }
 
 /// A map whose file is damaged. The tooltip says why, and who uses it.
@@ -108,16 +109,16 @@ fn absent_row(ui: &mut Ui, [name, words]: [&str; 2], color: Color32, details: &s
     framed_row(ui, outline, |_, _| {}, (name, color), (words, ""), details)
 }
 
-/// A row with the thumbnail of a map, its name, and in the second line what it holds.
+/// A row with the thumbnail of a map, its name, and in the second line these words and its size.
 pub(in crate::ui) fn picture_row(
     ui: &mut Ui,
     thumbnail: Option<TextureId>,
-    name: &str,
-    image: &Image,
+    map: &UsedMap<'_>,
+    words: &str,
     details: &str,
 ) -> Response {
     let tokens = Tokens::of(ui);
-    let size = format!("{}\u{2009}×\u{2009}{}", image.width(), image.height());
+    let size = format!("{}\u{2009}×\u{2009}{}", map.image.width(), map.image.height());
     let picture = |ui: &Ui, frame: Rect| {
         ui.painter().rect_filled(frame, 4.0, tokens.field);
         if let Some(texture) = thumbnail {
@@ -126,13 +127,13 @@ pub(in crate::ui) fn picture_row(
                 .add(RectShape::filled(frame, 4.0, Color32::WHITE).with_texture(texture, whole));
         }
     };
-    let holds = holds(image);
+    let name = map.file.base_name();
     framed_row(
         ui,
         tokens.hairline,
         picture,
         (name, tokens.text),
-        (&holds, &size),
+        (words, &size),
         details,
     )
 }

@@ -131,7 +131,7 @@ fn the_bright_studio_is_bright_but_behind_the_viewer() {
         assert!(of_bright > 1.5 * of_dark, "{direction}: {of_bright} beside {of_dark}");
     }
     let [of_dark, of_bright] = lights(Vec3::new(-0.3, 0.9, 0.3).normalize());
-    assert!(of_bright > 2.5 * of_dark, "{of_bright} beside {of_dark}");
+    assert!(of_bright > 2.2 * of_dark, "{of_bright} beside {of_dark}");
     // Metal shows where floor and walls meet.
     for (room, least) in [(&dark, 1.8), (&bright, 1.3)] {
         let [wall, floor] = [0.04, -0.13].map(|y: f32| room.sample(Vec3::new(0.0, y, 1.0).normalize()).y);
@@ -144,12 +144,12 @@ fn the_bright_studio_is_bright_but_behind_the_viewer() {
         "{of_bright} beside {of_dark}"
     );
     // The soft boxes: overhead, and opposite to the lamp.
-    for direction in [Vec3::new(0.30, 0.86, -0.42), Vec3::new(-0.66, 0.36, -0.66)] {
+    for direction in [Vec3::new(0.30, 0.86, -0.42), Vec3::new(-0.74, 0.42, -0.50)] {
         let light = bright.sample(direction.normalize()).y;
         assert!(light > 2.0, "{direction}: {light}");
     }
     let average = bright.average();
-    assert!((0.64..0.72).contains(&average.element_sum().div(3.0)), "{average}");
+    assert!((0.50..0.58).contains(&average.element_sum().div(3.0)), "{average}");
     assert!(average.max_element() / average.min_element() < 1.12, "{average}");
 }
 

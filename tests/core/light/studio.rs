@@ -176,14 +176,16 @@ fn what_faces_the_key_is_exposed_as_a_photographer_would() {
     }
 }
 
-/// The side that faces the key, and the one that faces away from it, of a ball in the dark studio.
+/// The side that faces the key, and the one that faces away from it, of a ball.
 #[test]
 fn from_key_to_shadow_it_is_about_three_to_one() {
-    let studio = Studio::of(Room::Dark);
-    let environment = studio.turned((1.0, 0.0));
-    let at = |normal: Vec3| environment.studio_light(&surface(normal.normalize()), &lights(1.0)).y;
-    let (lit, shadow) = (at(lights(1.0).to_key), at(Vec3::new(-0.64, 0.0, -0.5)));
-    assert!((2.5..3.5).contains(&(lit / shadow)), "{lit} and {shadow}");
+    for room in Room::ALL {
+        let (studio, lights) = (Studio::of(room), lights_of(room));
+        let environment = studio.turned((1.0, 0.0));
+        let at = |normal: Vec3| environment.studio_light(&surface(normal.normalize()), &lights).y;
+        let (lit, shadow) = (at(lights.to_key), at(Vec3::new(-0.64, 0.0, -0.5)));
+        assert!((2.5..3.5).contains(&(lit / shadow)), "{room:?}: {lit} and {shadow}");
+    }
 }
 
 #[test]

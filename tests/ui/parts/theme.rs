@@ -32,7 +32,7 @@ fn backdrops(dark: bool) -> [Color32; 2] {
     if dark {
         [rgb(0x333842), rgb(0x14161A)]
     } else {
-        [rgb(0xF4F5F7), rgb(0xCFD4DC)]
+        [rgb(0xEBEDF0), rgb(0xCFD4DC)]
     }
 }
 
