@@ -2,7 +2,7 @@
 
 use crate::diagnostic::collect::{Diagnostics, Place, Tally, counted};
 use crate::diagnostic::{Entry, Places, Subject, codes};
-use crate::model::{Front, Green, MapSlot, Material, Mesh, Model};
+use crate::model::{Front, Green, Material, Mesh, Model};
 use crate::slices::{Slices, at_once};
 
 /// The cosine of the angle between a bitangent and the way in which v grows, below which it points clearly the other way: by more than 135°. In the books'
@@ -11,10 +11,7 @@ const AGAINST: f64 = -std::f64::consts::FRAC_1_SQRT_2;
 
 /// Notes subsets that see one point of their maps.
 pub(super) fn note_equal_coords(model: &Model, places: &dyn Places, diagnostics: &mut Diagnostics) {
-    let has_map = |material: &Material| {
-        let mut maps = MapSlot::ALL.into_iter().filter_map(|slot| material.map(slot));
-        maps.any(|map| !map.sampling.second_tex_coords)
-    };
+    let has_map = |material: &Material| material.diffuse_map.is_some() || material.normal_map.is_some();
     let ends = ends_of_equal_coords(&model.mesh);
     for (index, submesh) in (0u32..).zip(&model.mesh.submeshes) {
         let end = submesh.triangle_start + submesh.triangle_count;
