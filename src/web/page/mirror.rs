@@ -3,6 +3,7 @@
 //! A tree for screen readers is made in frames that input brings, and else four times a second: what plays is not told more often.
 
 use std::cell::{Cell, RefCell};
+use std::time::Duration;
 
 use egui::{Context, Event, Key, Modifiers, RawInput};
 use serde::Serialize as _;
@@ -119,7 +120,8 @@ impl MirrorLink {
         sleep(PERIOD_MS).await;
         self.waits.set(false);
         if self.due.replace(false) {
-            ctx.request_repaint();
+            // egui follows a pass that is asked for at once with a second one. That would be due again, without an end.
+            ctx.request_repaint_after(Duration::from_millis(1));
         }
     }
 }
