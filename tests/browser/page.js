@@ -87,8 +87,8 @@ test("nothing is drawn while nothing changes, neither the picture nor the panels
     };
     bindpose.seek(0.5);
     const seconds = [];
-    // What the panels show is told to the elements of the page a moment later, and a slow device needs some time for both.
-    while (seconds.at(-1) !== 0 && seconds.length < 20) {
+    // A slow device draws the other time a moment later, and later still what the panels show is told to the elements of the page.
+    while ((Math.max(...seconds) <= 0 || seconds.at(-1) > 0) && seconds.length < 20) {
       submissions = 0;
       await new Promise((done) => setTimeout(done, 1000));
       seconds.push(submissions);
@@ -96,7 +96,7 @@ test("nothing is drawn while nothing changes, neither the picture nor the panels
     type.prototype[name] = real;
     return seconds;
   }, BACKEND);
-  assert.ok(seconds[0] > 0, "what is drawn is counted");
+  assert.ok(Math.max(...seconds) > 0, "what is drawn is counted");
   assert.equal(seconds.at(-1), 0, `what the GPU was given in each second: ${seconds}`);
   const { framesRendered } = await state(page);
   await page.waitForTimeout(1000);

@@ -120,7 +120,8 @@ impl MirrorLink {
         sleep(PERIOD_MS).await;
         self.waits.set(false);
         if self.due.replace(false) {
-            // egui follows a pass that is asked for at once with a second one. That would be due again, without an end.
+            // With a delay, since egui runs a second pass after each one that is asked for at once: that one would be a frame that could
+            // not tell yet, for which another pass is asked, without an end.
             ctx.request_repaint_after(Duration::from_millis(1));
         }
     }
