@@ -258,7 +258,7 @@ impl App {
 
     /// Whether what lights the model is as fine as it will be.
     pub fn is_refined(&self) -> bool {
-        self.painter.is_refined()
+        self.painter.is_refined(&self.session.borrow())
     }
 
     /// The longest side of a picture that this device can draw, in pixels.

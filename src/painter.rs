@@ -236,8 +236,8 @@ impl SessionPainter {
     }
 
     /// Whether what lights the model is as fine as it will be.
-    pub fn is_refined(&self) -> bool {
-        self.renderer.is_refined()
+    pub fn is_refined(&self, session: &Session) -> bool {
+        !session.quality().works_ahead() || self.renderer.is_refined()
     }
 
     /// Adds some samples to the mean of a picture that rests.
@@ -328,8 +328,11 @@ impl SessionPainter {
     }
 
     /// Whether pipelines are left to be built of those that a person may soon ask for, or what lights the model is not as fine as it will be.
-    /// When there is nothing else to do, it goes on with it.
+    /// When there is nothing else to do, it goes on with it. False where nothing [is worked on ahead](crate::session::Quality::works_ahead).
     pub fn prepares(&mut self, session: &Session, is_idle: bool) -> bool {
+        if !session.quality().works_ahead() {
+            return false;
+        }
         let lowered = session.quality().lowered();
         let is_plain = lowered.is_some_and(|lowered| lowered.without_smooth_edges);
         let samples = &[SampleCount::One, self.samples][usize::from(!is_plain)..];

@@ -248,7 +248,7 @@ on_both_backends! {
         let mut session = Session::new(true);
         easel.show(&mut session, [96, 64]);
         let mut slices = 0;
-        while !easel.painter.is_refined() {
+        while !easel.painter.is_refined(&session) {
             let before = looked_at_secs(0.0);
             assert!(easel.painter.prepares(&session, false) && looked_at_secs(0.0) == before, "not beside other work");
             easel.painter.prepares(&session, true);

@@ -258,13 +258,14 @@ fn node(run: BrowserRun, only: Option<&str>, tests: &str, page: &str) -> Line {
         .chain([tests]);
     let line = match run.browser {
         Browser::Chromium => Line::new("node").args(node),
-        // These two draw in a window only, and on a GPU of software only when they are told so.
+        // These two draw in a window only.
         Browser::Firefox | Browser::Webkit => Line::new("xvfb-run")
             .args(["--auto-servernum", "--server-args=-screen 0 1280x1024x24", "node"])
-            .args(node)
-            .env("LIBGL_ALWAYS_SOFTWARE", "1"),
+            .args(node),
     };
-    line.env("BROWSER", run.browser.name())
+    // GL is that of a GPU of software only when it is told so.
+    line.env("LIBGL_ALWAYS_SOFTWARE", "1")
+        .env("BROWSER", run.browser.name())
         .env("PROGRAM", prerequisites::program(run.browser).unwrap_or_default())
         .env("PAGE", page)
         .env("BACKEND", run.backend)

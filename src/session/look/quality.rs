@@ -208,6 +208,12 @@ impl Quality {
             })
     }
 
+    /// Whether idle moments are for what may be asked for next, and for finer light. Where one sample is enough, as on a device that draws with
+    /// its CPU, the next frame needs that time.
+    pub fn works_ahead(&self) -> bool {
+        self.samples() > 1
+    }
+
     /// Whether that many were asked for, however long they take.
     pub fn samples_are_chosen(&self) -> bool {
         self.samples.is_some()

@@ -85,7 +85,7 @@ impl App {
 
     /// Whether what lights the model is as fine as it will be.
     pub(in crate::web) fn is_refined(&self) -> bool {
-        self.painter.is_refined()
+        self.painter.is_refined(&self.session.borrow())
     }
 
     /// The longest side of a picture that this device can draw, in pixels.
