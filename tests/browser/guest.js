@@ -21,7 +21,8 @@ test("a page scrolls over a viewer until somebody turns to it; its controls are 
   const [x, y] = [320, 200];
   const camera = async () => JSON.stringify(await page.evaluate(() => document.getElementById("a").state().camera));
   // It is framed in the first frame.
-  await page.waitForFunction(() => document.getElementById("a").state().framesRendered > 2);
+  await page.waitForFunction(() => document.getElementById("a").state().framesRendered > 0);
+  await settled(page);
   const before = await camera();
   await page.mouse.move(x, y);
   await page.mouse.wheel(0, 60);
@@ -193,7 +194,8 @@ for (const ui of ["none", "full"]) {
     ...pageOf(`<meta name="viewport" content="width=device-width"><bindpose-viewer id="a" ${FIGURE} ui="${ui}" style="width: 360px; height: 480px"></bindpose-viewer><p style="height: 3000px">More</p>`),
   }, async (page) => {
     await hears(page, "a", "load");
-    await page.waitForFunction(() => document.getElementById("a").state().framesRendered > 2, null, { polling: 50 });
+    await page.waitForFunction(() => document.getElementById("a").state().framesRendered > 0, null, { polling: 50 });
+    await settled(page);
     const devtools = await page.context().newCDPSession(page);
     const swipe = async () => {
       const touch = (type, y) => devtools.send("Input.dispatchTouchEvent", { type, touchPoints: y === null ? [] : [{ x: 180, y }] });
@@ -249,7 +251,8 @@ test("with the page's interface too, a viewer leaves the page its focus, its whe
   };
   await hears(page, "a", "load");
   assert.deepEqual([...(await focused()), await page.evaluate(() => globalThis.lost)], ["field", undefined, undefined]);
-  await page.waitForFunction(() => viewer.state().framesRendered > 2, null, { polling: 50 });
+  await page.waitForFunction(() => viewer.state().framesRendered > 0, null, { polling: 50 });
+  await settled(page);
   const before = await camera();
   await page.keyboard.press("ArrowRight");
   await settled(page);

@@ -365,12 +365,13 @@ export function settled(page) {
 }
 
 /**
- * Waits until the camera has come to rest after a drag and nothing more is drawn: what idle moments make finer is there too. The clip must
- * be paused.
+ * Waits until the camera has come to rest after a drag and nothing more is drawn: what idle moments make finer is there too, and the page's
+ * elements know where the controls are, which they are told some times a second. The clip must be paused.
  */
 export async function atRest(page) {
   for (let before; ; ) {
     await settled(page);
+    await page.waitForTimeout(300);
     const now = await state(page);
     if (now.framesRendered === before && now.look.refined) return now;
     before = now.framesRendered;

@@ -331,8 +331,10 @@ on_both_backends! {
         let mut easel = Easel::new(gpu);
         easel.show(&mut session, [96, 64]);
         assert!(!easel.painter.is_sampling(&session));
+        assert!(!easel.painter.prepares(&session, true) && easel.painter.is_refined(&session), "nor works on anything ahead");
         session.apply(QualityCommand::SetSamples(Some(4)));
         assert!(easel.painter.is_sampling(&session));
+        assert!(easel.painter.prepares(&session, true) && !easel.painter.is_refined(&session));
         session.apply(QualityCommand::SetSamples(None));
         session.apply(QualityCommand::SetSlowDevice(false));
         assert!(easel.painter.is_sampling(&session));

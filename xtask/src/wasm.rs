@@ -1,8 +1,8 @@
 //! The library built for the browser and bound to JavaScript, as several programs: `bindpose.js` and `bindpose_bg.wasm` of each.
 
-use std::{fs, io};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use std::{fs, io};
 
 use wasm_bindgen_cli_support::Bindgen;
 
@@ -136,7 +136,11 @@ fn put(from: &Path, to: &Path) -> Result<(), Failure> {
 
 /// A file that is not there is none that is in the way.
 fn none_is_fine(error: io::Error) -> io::Result<()> {
-    if error.kind() == io::ErrorKind::NotFound { Ok(()) } else { Err(error) }
+    if error.kind() == io::ErrorKind::NotFound {
+        Ok(())
+    } else {
+        Err(error)
+    }
 }
 
 /// Adds the wasm target to the toolchain when it is not there.
