@@ -208,10 +208,10 @@ impl Quality {
             })
     }
 
-    /// Whether idle moments are for what may be asked for next, and for finer light. Where one sample is enough, as on a device that draws with
-    /// its CPU, the next frame needs that time.
+    /// Whether idle moments are for what may be asked for next, and for finer light. On a device that draws with its CPU the next frame needs
+    /// that time, unless more than one sample is asked for.
     pub fn works_ahead(&self) -> bool {
-        self.samples() > 1
+        !self.pacer.is_slow_device() || self.samples() > 1
     }
 
     /// Whether that many were asked for, however long they take.
