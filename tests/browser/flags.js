@@ -1,8 +1,8 @@
 // How Chromium is started.
 
 /**
- * Software drawing that gives real pixels, in screenshots too. Other sets start the page but leave it blank. WebGL2 is drawn by Mesa, where
- * `LIBGL_ALWAYS_SOFTWARE` is set, and takes less than half of what Chromium's own software takes. WebGPU knows that alone.
+ * Software drawing that gives real pixels, in screenshots too. Other sets start the page but leave it blank. WebGL2 is drawn by Mesa, for which
+ * `LIBGL_ALWAYS_SOFTWARE` must be set: a frame takes less than half the time that SwiftShader takes. For WebGPU Chromium has SwiftShader only.
  */
 export const GPU_FLAGS = {
   webgl2: ["--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist", "--disable-gpu-sandbox"],

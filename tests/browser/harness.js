@@ -364,14 +364,17 @@ export function settled(page) {
   return page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }
 
+/** The page's elements are told where the controls are at most this long after these moved (src/web/page/mirror.rs waits for 250 ms). */
+const TOLD_MS = 300;
+
 /**
  * Waits until the camera has come to rest after a drag and nothing more is drawn: what idle moments make finer is there too, and the page's
- * elements know where the controls are, which they are told some times a second. The clip must be paused.
+ * elements know where the controls are. The clip must be paused.
  */
 export async function atRest(page) {
   for (let before; ; ) {
     await settled(page);
-    await page.waitForTimeout(300);
+    await page.waitForTimeout(TOLD_MS);
     const now = await state(page);
     if (now.framesRendered === before && now.look.refined) return now;
     before = now.framesRendered;

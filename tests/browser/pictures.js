@@ -74,7 +74,7 @@ test("every background, and lines over the model", { ...ALL_PASSES, draws: true 
 
 test("a model of the first book, in both lights", { ...ALL_PASSES, draws: true }, async (page) => {
   await dropAndWait(page, [`${FIXTURES}good/d3d11_static.m3d`]);
-  // Its two triangles lie in the same place: which of them is in front goes with how depths are rounded.
+  // Its two triangles lie in the same place: the rounding of depths would decide which of them is seen.
   await page.evaluate(() => (location.hash = "hide=1"));
   await page.waitForFunction(() => bindpose.state().link.includes("hide=1"));
   await settled(page);

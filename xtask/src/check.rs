@@ -136,6 +136,7 @@ pub(crate) fn bench(options: &BenchOptions) -> Result<(), Failure> {
         Line::new("node")
             .args(["tests/browser/bench.js"])
             .args(options.model.as_deref())
+            .env("LIBGL_ALWAYS_SOFTWARE", "1")
             .env("PROGRAM", prerequisites::program(Browser::Chromium).unwrap_or_default())
             .env("PAGE", page)
             .run()

@@ -1,8 +1,8 @@
 //! The library built for the browser and bound to JavaScript, as several programs: `bindpose.js` and `bindpose_bg.wasm` of each.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use std::{fs, io};
 
 use wasm_bindgen_cli_support::Bindgen;
 
@@ -65,7 +65,8 @@ impl Program {
         }
     }
 
-    /// Where it is below `pkg/`, with a slash at the end, and below the target folder what is kept of it.
+    /// Where it is below `pkg/`, with a slash at the end, and below the folder that cargo builds into: a folder of its own, since programs of one name
+    /// would be linked anew in turns.
     pub(crate) fn folder(self) -> &'static str {
         match self {
             Self::Full => "",
@@ -104,43 +105,19 @@ pub(crate) fn build_args(profile: Profile, program: Program) -> Vec<&'static str
 }
 
 /// Builds and binds a program. Gives the folder with `bindpose.js` and `bindpose_bg.wasm`.
-///
-/// All programs are built in one folder, so that what they are made of is built once. There cargo gives the last step of each the same name,
-/// and would take another program's for the one that it is to look at: each is kept beside, and put there before cargo looks.
 pub(crate) fn build(profile: Profile, program: Program) -> Result<PathBuf, Failure> {
     ensure_target()?;
-    let target = crate::target_dir();
-    let site = target.join(program.folder()).join("site").join(profile.folder());
-    fs::create_dir_all(&site).doing(format!("making {}", site.display()))?;
-    let (kept, pkg) = (site.join("bindpose.wasm"), site.join("pkg"));
-    let built = target.join(TARGET).join(profile.folder()).join("deps/bindpose.wasm");
-    // Nobody else puts a program there meanwhile.
-    let turn = target.join("programs.lock");
-    let turn = fs::File::create(&turn).and_then(|file| file.lock().map(|()| file));
-    let _turn = turn.doing("waiting for the other programs")?;
-    put(&kept, &built)?;
-    Line::cargo().args(build_args(profile, program)).run()?;
-    put(&built, &kept)?;
-    if !is_newer(&pkg.join("bindpose_bg.wasm"), &kept) {
-        bind(&kept, &pkg, profile)?;
+    let target = crate::target_dir().join(program.folder());
+    Line::cargo()
+        .env("CARGO_TARGET_DIR", &target)
+        .args(build_args(profile, program))
+        .run()?;
+    let wasm = target.join(TARGET).join(profile.folder()).join("bindpose.wasm");
+    let pkg = target.join("site").join(profile.folder()).join("pkg");
+    if !is_newer(&pkg.join("bindpose_bg.wasm"), &wasm) {
+        bind(&wasm, &pkg, profile)?;
     }
     Ok(pkg)
-}
-
-/// Has `to` be the same file as `from`, with its age, or none where that is none.
-fn put(from: &Path, to: &Path) -> Result<(), Failure> {
-    let removed = fs::remove_file(to).or_else(none_is_fine);
-    let done = removed.and_then(|()| fs::hard_link(from, to).or_else(none_is_fine));
-    done.doing(format!("putting {} in the place of {}", from.display(), to.display()))
-}
-
-/// A file that is not there is none that is in the way.
-fn none_is_fine(error: io::Error) -> io::Result<()> {
-    if error.kind() == io::ErrorKind::NotFound {
-        Ok(())
-    } else {
-        Err(error)
-    }
 }
 
 /// Adds the wasm target to the toolchain when it is not there.
